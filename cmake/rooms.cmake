@@ -1,0 +1,35 @@
+# One CMake target a room: what a room may include is what it links, so the linker keeps the plan of the house.
+
+# Flags every translation unit of the product has: same input, same bits, on every compiler and CPU.
+add_library(motionrack_flags INTERFACE)
+target_compile_features(motionrack_flags INTERFACE cxx_std_20)
+target_include_directories(motionrack_flags INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_options(motionrack_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                       -Wno-sign-conversion)
+
+# motionrack_room(NAME [SOURCES ...] [DEPS ...]): the library motionrack_NAME; without sources it is headers only.
+function(motionrack_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;DEPS" ${ARGN})
+  if(ROOM_SOURCES)
+    add_library(motionrack_${name} STATIC ${ROOM_SOURCES})
+    target_link_libraries(motionrack_${name} PUBLIC motionrack_flags ${ROOM_DEPS})
+  else()
+    add_library(motionrack_${name} INTERFACE)
+    target_link_libraries(motionrack_${name} INTERFACE motionrack_flags ${ROOM_DEPS})
+  endif()
+endfunction()
+
+# motionrack_test(NAME [SOURCES ...] [DEPS ...]): one test program; each of its tests is a ctest test.
+function(motionrack_test name)
+  if(NOT MOTIONRACK_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(T "" "" "SOURCES;DEPS;LABELS" ${ARGN})
+  if(NOT T_SOURCES)
+    return()
+  endif()
+  add_executable(test_${name} ${T_SOURCES})
+  target_link_libraries(test_${name} PRIVATE ${T_DEPS} rapidcheck GTest::gmock GTest::gtest_main)
+  target_compile_definitions(test_${name} PRIVATE MOTIONRACK_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
+  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()

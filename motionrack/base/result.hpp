@@ -1,0 +1,77 @@
+// Operations that can fail return Result<T>; an Error is a sentence for a person, with the place where it happened.
+#pragma once
+
+#include <cstdlib>
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+
+namespace motionrack {
+
+/// What kind of thing went wrong; the command line turns it into an exit code.
+enum class Trouble {
+    bad_input,  ///< a file or argument is wrong; nothing was done
+    refused,    ///< the request is well formed but outside a limit; nothing was done
+    machine,    ///< the machine stopped: limit switch, alarm, lost steps
+    io,         ///< a file or device could not be read or written
+    stopped     ///< the user asked to stop; what was recorded is kept
+};
+
+/// A place in a text file; line and column count from 1, 0 means "no place".
+struct Place {
+    int line = 0;
+    int column = 0;
+    friend constexpr bool operator==(const Place&, const Place&) = default;
+};
+
+/// What could not be done, in a sentence that has the number seen, the limit, what was done and what to do next.
+struct Error {
+    Trouble trouble = Trouble::bad_input;
+    std::string message;
+    std::string file = {};
+    Place place = {};
+
+    /// "file:line:column: message", leaving out what is not known.
+    std::string text() const {
+        std::string out = file;
+        if (place.line > 0) {
+            if (!out.empty()) out += ':';
+            out += std::to_string(place.line) + ':' + std::to_string(place.column);
+        }
+        return out.empty() ? message : out + ": " + message;
+    }
+};
+
+template <class T>
+using Result = tl::expected<T, Error>;
+
+/// Shorthand for returning an error.
+inline tl::unexpected<Error> fail(Trouble trouble, std::string message, Place place = {}, std::string file = {}) {
+    return tl::unexpected<Error>(Error{trouble, std::move(message), std::move(file), place});
+}
+
+/// Prints what is wrong in the program and aborts; used by MOTIONRACK_ASSERT.
+[[noreturn]] void assertion_failed(const char* condition, const char* file, int line) noexcept;
+
+}  // namespace motionrack
+
+/// A programmer's mistake; stays on in Release.
+#define MOTIONRACK_ASSERT(condition) \
+    ((condition) ? static_cast<void>(0) : ::motionrack::assertion_failed(#condition, __FILE__, __LINE__))
+
+#define MOTIONRACK_JOIN2(a, b) a##b
+#define MOTIONRACK_JOIN(a, b) MOTIONRACK_JOIN2(a, b)
+
+/// `MOTIONRACK_TRY(auto x, f());` declares x from a Result or returns its error.
+#define MOTIONRACK_TRY(declaration, expression)                                                       \
+    auto MOTIONRACK_JOIN(result_, __LINE__) = (expression);                                           \
+    if (!MOTIONRACK_JOIN(result_, __LINE__))                                                          \
+        return ::tl::unexpected<::motionrack::Error>(std::move(MOTIONRACK_JOIN(result_, __LINE__)).error()); \
+    declaration = std::move(*MOTIONRACK_JOIN(result_, __LINE__))
+
+/// `MOTIONRACK_CHECK(f());` returns the error of a Result<void> if there is one.
+#define MOTIONRACK_CHECK(expression)                                                                      \
+    do {                                                                                                  \
+        if (auto checked_result = (expression); !checked_result)                                          \
+            return ::tl::unexpected<::motionrack::Error>(std::move(checked_result).error());              \
+    } while (false)

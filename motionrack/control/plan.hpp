@@ -1,0 +1,21 @@
+// A planned move: a canonical move with the speeds that look-ahead found for it.
+#pragma once
+
+#include <motionrack/control/move.hpp>
+
+namespace motionrack::control {
+
+/// Speed along the path rises from `entry` to `cruise` at `accel`, and falls to `exit` at `accel`. Where XYZ moves, lengths are
+/// mm along the XYZ path (helix: along the helix); where only ABC moves, degrees of the fastest rotary axis.
+struct PlannedMove {
+    Move move;
+    Point start = {};
+    double length = 0;   ///< mm or degrees, > 0; 0 for a dwell
+    double entry = 0;    ///< speed at the start, per second
+    double cruise = 0;   ///< top speed reached or allowed, per second
+    double exit = 0;     ///< speed at the end, per second
+    double accel = 0;    ///< along the path, per second squared, both ways
+    double jerk = 0;     ///< along the path, per second cubed; used for S-curves where the move starts and ends at rest; 0: none
+};
+
+}  // namespace motionrack::control
