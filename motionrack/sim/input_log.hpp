@@ -1,0 +1,38 @@
+// Everything that came into a rack from outside, with its instant: replaying it gives the same history, bit for bit.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <motionrack/base/time.hpp>
+#include <vector>
+
+namespace motionrack::sim {
+
+enum class InputKind : std::uint8_t { register_write, register_read, force_wire, release_wire, fault };
+
+struct Input {
+    Instant at{};
+    InputKind kind{};
+    std::uint16_t target = 0;  ///< device or wire number
+    std::uint32_t offset = 0;  ///< register offset, or the fault's number
+    std::uint16_t value = 0;
+    friend bool operator==(const Input&, const Input&) = default;
+};
+
+/// Grows between runs only, never inside one.
+class InputLog {
+  public:
+    void add(const Input& input) { inputs_.push_back(input); }
+    const std::vector<Input>& inputs() const { return inputs_; }
+
+  private:
+    std::vector<Input> inputs_;
+};
+
+class Kernel;
+
+/// Plays `inputs` into a fresh world of the same wiring: each enters at its instant, then time goes on to `end`. `apply` does
+/// one input (write the register, force the wire); it is called between runs.
+void replay(Kernel& kernel, const std::vector<Input>& inputs, Instant end, const std::function<void(const Input&)>& apply);
+
+}  // namespace motionrack::sim

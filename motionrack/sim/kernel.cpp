@@ -1,0 +1,244 @@
+// The run loop, the queue of wire changes, and snapshots.
+#include <motionrack/sim/kernel.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace motionrack::sim {
+
+namespace {
+constexpr std::size_t queue_capacity = 4096;
+}
+
+DeviceId Kernel::add(Device& device, Phase phase, std::string name) {
+    MOTIONRACK_ASSERT(!started_);
+    devices_.push_back({&device, phase, std::move(name)});
+    due_.push_back({});
+    return static_cast<DeviceId>(devices_.size() - 1);
+}
+
+WireId Kernel::add_wire(std::string name, int level) {
+    MOTIONRACK_ASSERT(!started_ && find_wire(name) == WireId::none);
+    wires_.push_back({std::move(name), {}, {}, -1});
+    wire_state_.push_back({level, level, 0, 0});
+    return static_cast<WireId>(wires_.size() - 1);
+}
+
+void Kernel::listen(WireId wire, DeviceId device, int pin) {
+    Wire& w = wires_[index(wire)];
+    MOTIONRACK_ASSERT(!started_ && w.listeners.size() < 32);
+    if (w.lazy_pin < 0) wire_state_[index(wire)].wants |= 1u << w.listeners.size();
+    w.listeners.push_back({device, static_cast<std::int16_t>(pin)});
+}
+
+void Kernel::drive_lazily(WireId wire, DeviceId device, int pin) {
+    Wire& w = wires_[index(wire)];
+    MOTIONRACK_ASSERT(!started_ && w.lazy_pin < 0);
+    w.lazy_owner = device;
+    w.lazy_pin = static_cast<std::int16_t>(pin);
+    wire_state_[index(wire)].wants = 0;
+}
+
+void Kernel::start() {
+    MOTIONRACK_ASSERT(!started_);
+    queue_.resize(queue_capacity);
+    conditions_.resize(condition_capacity);
+    started_ = true;
+}
+
+// ---- running ----------------------------------------------------------------------------------------------------------------
+
+std::size_t Kernel::earliest() const {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < due_.size(); ++i) {
+        const Due& a = due_[i];
+        const Due& b = due_[best];
+        if (a.at < b.at || (a.at == b.at && a.order < b.order)) best = i;
+    }
+    return best;
+}
+
+RunEnd Kernel::run_until(Instant until) {
+    MOTIONRACK_ASSERT(started_ && until >= state_.now);
+    break_ = false;
+    deliver();
+    while (!break_ && !due_.empty()) {
+        const std::size_t next = earliest();
+        if (due_[next].at > until) break;
+        state_.now = due_[next].at;
+        due_[next].at = never;
+        ++state_.events;
+        devices_[next].device->act(state_.now);
+        deliver();
+    }
+    if (!break_) state_.now = until;
+    sync_all();
+    return break_ ? RunEnd::broken : RunEnd::reached;
+}
+
+void Kernel::settle() {
+    run_until(state_.now);
+}
+
+void Kernel::sync_all() {
+    for (Slot& slot : devices_) slot.device->sync(state_.now);
+}
+
+void Kernel::schedule(DeviceId device, Instant at) {
+    Due& due = due_[index(device)];
+    if (at == due.at) return;
+    due.at = std::max(at, state_.now);
+    due.order = (std::uint64_t{static_cast<std::uint8_t>(devices_[index(device)].phase)} << 56) | ++state_.sequence;
+}
+
+void Kernel::report(DeviceId device, std::uint16_t code, std::int64_t a, std::int64_t b) {
+    conditions_[state_.condition_count++ % condition_capacity] = {state_.now, device, code, a, b};
+    mix(std::uint64_t{code} << 32 | index(device));
+}
+
+// ---- wires ------------------------------------------------------------------------------------------------------------------
+
+void Kernel::set_wire(WireId wire, int level) {
+    WireState& w = wire_state_[index(wire)];
+    w.driven = level;
+    if (!w.forced) change(wire, level);
+}
+
+void Kernel::change(WireId wire, int level) {
+    WireState& w = wire_state_[index(wire)];
+    if (w.level == level) return;
+    w.level = level;
+    MOTIONRACK_ASSERT(queue_size_ - queue_head_ < queue_capacity);  // a loop of wires that never settles
+    queue_[queue_size_++ % queue_capacity] = {wire, level};
+}
+
+void Kernel::deliver() {
+    while (queue_head_ < queue_size_) {
+        const Change c = queue_[queue_head_++ % queue_capacity];
+        mix(std::uint64_t{index(c.wire)} << 32 | static_cast<std::uint32_t>(c.level));
+        if (observer_) observer_->wire_changed(c.wire, c.level, state_.now);
+        const Wire& wire = wires_[index(c.wire)];
+        const std::uint32_t wants = wire_state_[index(c.wire)].wants;
+        for (std::size_t i = 0; i < wire.listeners.size(); ++i)
+            if (wants >> i & 1) devices_[index(wire.listeners[i].device)].device->on_wire(wire.listeners[i].pin, c.level, state_.now);
+    }
+    queue_head_ = queue_size_ = 0;
+}
+
+int Kernel::level(WireId wire) const {
+    const Wire& w = wires_[index(wire)];
+    const WireState& s = wire_state_[index(wire)];
+    if (w.lazy_pin >= 0 && !s.forced && !s.wants) return devices_[index(w.lazy_owner)].device->level_at(w.lazy_pin, state_.now);
+    return s.level;
+}
+
+void Kernel::want(WireId wire, DeviceId device, bool wanted) {
+    const Wire& w = wires_[index(wire)];
+    WireState& s = wire_state_[index(wire)];
+    const std::uint32_t before = s.wants;
+    for (std::size_t i = 0; i < w.listeners.size(); ++i)
+        if (w.listeners[i].device == device) s.wants = wanted ? s.wants | 1u << i : s.wants & ~(1u << i);
+    if (w.lazy_pin < 0 || (before != 0) == (s.wants != 0)) return;
+    Device& owner = *devices_[index(w.lazy_owner)].device;
+    if (s.wants && !s.forced) s.level = s.driven = owner.level_at(w.lazy_pin, state_.now);
+    owner.wanted_changed(w.lazy_pin, s.wants != 0, state_.now);
+}
+
+bool Kernel::wanted(WireId wire) const { return wire_state_[index(wire)].wants != 0; }
+
+void Kernel::force(WireId wire, int level) {
+    WireState& w = wire_state_[index(wire)];
+    w.forced = 1;
+    change(wire, level);
+}
+
+void Kernel::release(WireId wire) {
+    WireState& w = wire_state_[index(wire)];
+    if (!w.forced) return;
+    w.forced = 0;
+    change(wire, wires_[index(wire)].lazy_pin >= 0 ? level(wire) : w.driven);
+}
+
+WireId Kernel::find_wire(std::string_view name) const {
+    for (std::size_t i = 0; i < wires_.size(); ++i)
+        if (wires_[i].name == name) return static_cast<WireId>(i);
+    return WireId::none;
+}
+
+// ---- looking and rewinding --------------------------------------------------------------------------------------------------
+
+std::vector<Condition> Kernel::conditions() const {
+    std::vector<Condition> out;
+    const std::uint64_t first = dropped_conditions();
+    for (std::uint64_t i = first; i < state_.condition_count; ++i) out.push_back(conditions_[i % condition_capacity]);
+    return out;
+}
+
+std::uint64_t Kernel::dropped_conditions() const {
+    return state_.condition_count > condition_capacity ? state_.condition_count - condition_capacity : 0;
+}
+
+void Kernel::mix(std::uint64_t value) {
+    std::uint64_t h = state_.trace_hash ^ value ^ static_cast<std::uint64_t>(state_.now.count()) * 0xFF51AFD7ED558CCDull;
+    h ^= h >> 32;
+    h *= 0xD6E8FEB86659FD93ull;
+    state_.trace_hash = h ^ (h >> 29);
+}
+
+namespace {
+
+// Calls visit(span) for every piece of a kernel's state, always in the same order.
+template <class T>
+std::span<std::byte> bytes_of_vector(std::vector<T>& v) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return {reinterpret_cast<std::byte*>(v.data()), v.size() * sizeof(T)};
+}
+
+}  // namespace
+
+Snapshot Kernel::snapshot() {
+    MOTIONRACK_ASSERT(started_);
+    Snapshot out;
+    auto append = [&out](std::span<std::byte> piece) { out.bytes.insert(out.bytes.end(), piece.begin(), piece.end()); };
+    std::size_t size = sizeof(State) + bytes_of_vector(due_).size() + bytes_of_vector(wire_state_).size() +
+                       bytes_of_vector(conditions_).size();
+    for (Slot& slot : devices_) size += slot.device->state().size();
+    out.bytes.reserve(size);
+    append(bytes_of(state_));
+    append(bytes_of_vector(due_));
+    append(bytes_of_vector(wire_state_));
+    for (Slot& slot : devices_) append(slot.device->state());
+    const std::size_t kept = std::min<std::size_t>(state_.condition_count, condition_capacity);
+    append(bytes_of_vector(conditions_).first(kept * sizeof(Condition)));
+    return out;
+}
+
+void Kernel::restore(const Snapshot& snapshot) {
+    std::size_t at = 0;
+    auto take = [&](std::span<std::byte> piece) {
+        MOTIONRACK_ASSERT(at + piece.size() <= snapshot.bytes.size());
+        std::memcpy(piece.data(), snapshot.bytes.data() + at, piece.size());
+        at += piece.size();
+    };
+    take(bytes_of(state_));
+    take(bytes_of_vector(due_));
+    take(bytes_of_vector(wire_state_));
+    for (Slot& slot : devices_) take(slot.device->state());
+    const std::size_t kept = std::min<std::size_t>(state_.condition_count, condition_capacity);
+    take(bytes_of_vector(conditions_).first(kept * sizeof(Condition)));
+    MOTIONRACK_ASSERT(at == snapshot.bytes.size());
+}
+
+std::uint64_t Kernel::state_hash() {
+    std::uint64_t h = 0xCBF29CE484222325ull;
+    auto add = [&h](std::span<const std::byte> piece) {
+        for (const std::byte b : piece) h = (h ^ static_cast<std::uint64_t>(b)) * 0x100000001B3ull;
+    };
+    add(bytes_of(state_));
+    add(bytes_of_vector(due_));
+    add(bytes_of_vector(wire_state_));
+    for (Slot& slot : devices_) add(slot.device->state());
+    return h;
+}
+
+}  // namespace motionrack::sim

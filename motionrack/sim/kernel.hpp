@@ -1,0 +1,175 @@
+// The one clock of a rack: runs devices in the order (instant, phase, sequence) and carries the levels of wires.
+//
+//   schedule(id, t) ──► due[id] ──► earliest (t, phase, seq) ──► act(t) ──► set_wire ──► queue ──► on_wire, same instant
+//
+// After start() nothing reached from run_until allocates, locks or does I/O. Input from outside enters between runs and is what the
+// InputLog (input_log.hpp) records.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <motionrack/base/result.hpp>
+#include <motionrack/base/time.hpp>
+#include <motionrack/sim/device.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::sim {
+
+enum class DeviceId : std::uint16_t {};
+enum class WireId : std::uint16_t { none = 0xFFFF };
+
+/// A condition of the machine: something a user must hear of that is no failure of the program.
+struct Condition {
+    Instant at{};
+    DeviceId device{};
+    std::uint16_t code = 0;  ///< the device's own number; its room turns it into a sentence
+    std::int64_t a = 0;      ///< numbers for the sentence
+    std::int64_t b = 0;
+};
+
+/// Why a run ended before its time.
+enum class RunEnd : std::uint8_t {
+    reached,  ///< virtual time is what was asked for
+    broken    ///< a device called break_run (an interrupt line fell, a buffer is nearly full)
+};
+
+/// All state of a rack at one instant; restoring is copying back. Belongs to the kernel (wiring) it was taken from.
+struct Snapshot {
+    std::vector<std::byte> bytes;
+};
+
+class Kernel {
+  public:
+    static constexpr std::size_t condition_capacity = 4096;
+
+    // ---- building, before start() -------------------------------------------------------------------------------------------
+    DeviceId add(Device& device, Phase phase, std::string name);
+    /// A wire with its level at rest. Names are unique ("motion.xlmtp").
+    WireId add_wire(std::string name, int level);
+    /// `device` is told (on_wire with `pin`) of every change, while it wants it (see want).
+    void listen(WireId wire, DeviceId device, int pin);
+    /// The wire's level is asked of `device` (level_at with `pin`) while nobody wants its changes.
+    void drive_lazily(WireId wire, DeviceId device, int pin);
+    /// No more devices or wires; buffers are made.
+    void start();
+
+    // ---- running ------------------------------------------------------------------------------------------------------------
+    /// Runs until virtual time is `until`, or a device breaks the run. On return every device has been synced.
+    RunEnd run_until(Instant until);
+    /// Ends run_until after the present event.
+    void break_run() { break_ = true; }
+    Instant now() const { return state_.now; }
+
+    // ---- for devices --------------------------------------------------------------------------------------------------------
+    /// When `device` wants to act next (>= now, or never); replaces what it asked for before.
+    void schedule(DeviceId device, Instant at);
+    /// Sets a wire's level now; listeners hear of it at this instant, first in, first out.
+    void set_wire(WireId wire, int level);
+    int level(WireId wire) const;
+    /// A listener begins or ceases to want changes (listeners want them from the start unless the wire is driven lazily).
+    void want(WireId wire, DeviceId device, bool wanted);
+    bool wanted(WireId wire) const;
+    void report(DeviceId device, std::uint16_t code, std::int64_t a = 0, std::int64_t b = 0);
+
+    // ---- from outside, between runs -----------------------------------------------------------------------------------------
+    /// Holds a wire at `level` whatever drives it (a stuck line, a hand on a switch) until release.
+    void force(WireId wire, int level);
+    void release(WireId wire);
+    /// Runs what is due at this very instant (after a port access or a forced wire).
+    void settle();
+
+    WireId find_wire(std::string_view name) const;  ///< WireId::none if there is none
+    const std::string& wire_name(WireId wire) const { return wires_[index(wire)].name; }
+    std::size_t wire_count() const { return wires_.size(); }
+    const std::string& device_name(DeviceId device) const { return devices_[index(device)].name; }
+    Device& device(DeviceId id) { return *devices_[index(id)].device; }
+    std::size_t device_count() const { return devices_.size(); }
+
+    /// Conditions since the start, oldest first; at most condition_capacity are kept, dropped_conditions() tells of the rest.
+    std::vector<Condition> conditions() const;
+    std::uint64_t dropped_conditions() const;
+    /// Events run since the start: what a run costs.
+    std::uint64_t events() const { return state_.events; }
+
+    Snapshot snapshot();
+    void restore(const Snapshot& snapshot);
+    /// Equal worlds, equal hash.
+    std::uint64_t state_hash();
+    /// Equal histories of wires and conditions, equal hash.
+    std::uint64_t trace_hash() const { return state_.trace_hash; }
+
+    /// An observer that hears of every wire change (a recorder); called in phase observers order, may be nullptr.
+    class WireObserver {
+      public:
+        virtual ~WireObserver() = default;
+        virtual void wire_changed(WireId wire, int level, Instant now) = 0;
+    };
+    void observe_wires(WireObserver* observer) { observer_ = observer; }
+
+    template <class Id>
+    static constexpr std::size_t index(Id id) {
+        return static_cast<std::size_t>(id);
+    }
+
+  private:
+    struct Slot {
+        Device* device = nullptr;
+        Phase phase = Phase::cards;
+        std::string name;
+    };
+    struct Listener {
+        DeviceId device{};
+        std::int16_t pin = 0;
+    };
+    struct Wire {
+        std::string name;
+        std::vector<Listener> listeners;
+        DeviceId lazy_owner{};
+        std::int16_t lazy_pin = -1;
+    };
+    struct WireState {
+        std::int32_t level = 0;
+        std::int32_t driven = 0;  // what its driver says, while forced
+        std::uint32_t wants = 0;  // bit i: listener i wants changes
+        std::uint8_t forced = 0;
+    };
+    struct Due {
+        Instant at = never;
+        std::uint64_t order = 0;  // phase in the top byte, then the sequence in which it was asked for
+    };
+    struct Change {
+        WireId wire{};
+        std::int32_t level = 0;
+    };
+    struct State {
+        Instant now{};
+        std::uint64_t sequence = 0;
+        std::uint64_t events = 0;
+        std::uint64_t trace_hash = 0x9E3779B97F4A7C15ull;
+        std::uint64_t condition_count = 0;
+    };
+
+    std::size_t earliest() const;
+    void deliver();
+    void sync_all();
+    void change(WireId wire, int level);
+    void mix(std::uint64_t value);
+
+    std::vector<Slot> devices_;
+    std::vector<Wire> wires_;
+    std::vector<Due> due_;
+    std::vector<WireState> wire_state_;
+    std::vector<Change> queue_;  // fixed capacity after start; queue_head_ .. queue_size_
+    std::size_t queue_head_ = 0;
+    std::size_t queue_size_ = 0;
+    std::vector<Condition> conditions_;  // ring
+    State state_;
+    WireObserver* observer_ = nullptr;
+    bool break_ = false;
+    bool started_ = false;
+};
+
+}  // namespace motionrack::sim
