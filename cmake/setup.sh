@@ -1,0 +1,68 @@
+# Shared by ./run and ./test: installs what is missing (Debian packages), configures and builds. Sourced, not run.
+
+say() { printf '%s\n' "motionrack: $*" >&2; }
+
+# need_packages PACKAGE...: installs those that are not there, saying first which and why root is needed.
+need_packages() {
+    local missing=() package
+    for package in "$@"; do
+        dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+    done
+    [ ${#missing[@]} -eq 0 ] && return 0
+    local sudo=()
+    if [ "$(id -u)" -ne 0 ]; then
+        if ! command -v sudo >/dev/null 2>&1; then
+            say "these Debian packages are missing: ${missing[*]}"
+            say "run this script as root once, or install them with: apt-get install ${missing[*]}"
+            return 1
+        fi
+        sudo=(sudo)
+    fi
+    say "installing Debian packages: ${missing[*]}"
+    local log
+    log=$(mktemp)
+    if ! {
+        # A machine whose last installation was cut off is put right first.
+        "${sudo[@]}" dpkg --configure -a &&
+            "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 -y -q --fix-broken install &&
+            "${sudo[@]}" apt-get -o DPkg::Lock::Timeout=300 -q update &&
+            "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
+                apt-get -o DPkg::Lock::Timeout=300 -y -q install --no-install-recommends "${missing[@]}"
+    } >"$log" 2>&1; then
+        tail -n 25 "$log" >&2
+        say "the installation failed; the whole log is $log"
+        return 1
+    fi
+    rm -f "$log"
+}
+
+# build_in FOLDER TARGETS CMAKE-OPTIONS...: configures once, then builds what changed; quiet unless something is wrong or long.
+build_in() {
+    local folder=$1 targets=$2
+    shift 2
+    local stamp="$folder/.configured-with" want="$*"
+    if [ ! -e "$folder/build.ninja" ] || [ "$(cat "$stamp" 2>/dev/null)" != "$want" ]; then
+        say "configuring in $folder"
+        rm -f "$folder/CMakeCache.txt"
+        cmake -S . -B "$folder" -G Ninja "$@" >"$folder.configure.log" 2>&1 || {
+            cat "$folder.configure.log" >&2
+            say "cmake could not configure; see above"
+            return 1
+        }
+        printf '%s' "$want" >"$stamp"
+    fi
+    # shellcheck disable=SC2086
+    if [ -n "$(ninja -C "$folder" -n $targets 2>&1 | grep -c 'no work to do' | grep -x 0)" ]; then
+        say "building (the first time takes a few minutes)"
+        # shellcheck disable=SC2086
+        ninja -C "$folder" $targets >&2 || {
+            say "the build failed; see above"
+            return 1
+        }
+    fi
+}
+
+run_packages=(g++ cmake ninja-build libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libexpected-dev
+    libfast-float-dev libxxhash-dev)
+test_packages=("${run_packages[@]}" libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev sigrok-cli iverilog clang
+    libclang-rt-14-dev)
