@@ -1,0 +1,59 @@
+// The kinds of card that a rack file can name: channels, pins, settings and default wires; one row a card type.
+#pragma once
+
+#include <motionrack/rack/config.hpp>
+#include <motionrack/rack/toml_reader.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::rack {
+
+enum class PinDirection : std::uint8_t { input, output };
+
+/// A pin of the card; a channel's pin is named with the channel's letter in front ("x" + "pp").
+struct PinType {
+    std::string_view name;
+    PinDirection direction;
+    std::string_view doc;
+};
+
+/// A wire that is there unless the rack file says otherwise: pin `pin` of the axis' channel, end `end` of the axis
+/// (NAME.end).
+struct DefaultWire {
+    std::string_view pin;
+    std::string_view end;
+};
+
+/// What the rack file may say about one kind of card.
+struct CardType {
+    std::string_view name;
+    std::string_view doc;
+    std::string_view channels;  ///< a letter for each axis channel
+    std::span<const PinType> channel_pins;
+    std::span<const PinType> chip_pins;
+    std::span<const DefaultWire> default_wires;
+    std::string_view estop_pin;                 ///< the chip pin that the emergency stop drives
+    std::span<const Field> settings;            ///< keys of [card.NAME] that only this type has
+    void* (*settings_of)(RackCard& card);       ///< the object that `settings` are read into
+    double (*max_pulse_hz)(const RackCard&);    ///< fastest pulse output
+    double (*max_accel_hz_s)(const RackCard&);  ///< fastest change of the pulse rate
+    double (*max_encoder_hz)(const RackCard&);  ///< most counts a second that an encoder input can follow
+};
+
+/// All card types, in the order of the reference page.
+std::span<const CardType> card_types();
+
+/// The type of that name, or nullptr.
+const CardType* find_card_type(std::string_view name);
+
+/// The pins of a card type by their full names, channel by channel, then the chip's own.
+struct Pin {
+    std::string name;
+    PinDirection direction;
+    int channel;  ///< index into `channels`, -1 for the chip's own
+};
+std::vector<Pin> pins_of(const CardType& type);
+
+}  // namespace motionrack::rack

@@ -1,0 +1,70 @@
+// What follows from a rack's plain numbers: pulses and counts for a unit, the planner's limits, names of wire ends.
+#include <algorithm>
+#include <motionrack/rack/config.hpp>
+
+namespace motionrack::rack {
+
+int RackAxis::index() const {
+    const auto found = std::find(control::axis_letters.begin(), control::axis_letters.end(), letter);
+    return static_cast<int>(found - control::axis_letters.begin());
+}
+
+namespace {
+
+/// `per_rev` of something for a motor turn, as so many for a mm or degree; few roundings, in this order on purpose.
+double for_one_unit(std::int64_t per_rev, const RackAxis& axis) {
+    const auto exact = static_cast<double>(per_rev);
+    return axis.kind == AxisKind::linear ? exact / axis.lead_mm : exact * axis.gear_ratio / 360;
+}
+
+}  // namespace
+
+double RackAxis::pulses_per_unit() const {
+    return for_one_unit(pulses_per_rev(), *this);
+}
+
+double RackAxis::counts_per_unit() const {
+    return for_one_unit(encoder_counts_per_rev, *this);
+}
+
+RackAxis default_axis(char letter) {
+    RackAxis axis;
+    axis.letter = letter;
+    axis.kind = axis.index() < 3 ? AxisKind::linear : AxisKind::rotary;
+    if (axis.kind == AxisKind::rotary) axis.max_position = 360;
+    return axis;
+}
+
+const RackAxis* RackConfig::axis(char letter) const {
+    const auto found = std::find_if(axes.begin(), axes.end(), [&](const RackAxis& a) { return a.letter == letter; });
+    return found != axes.end() ? &*found : nullptr;
+}
+
+const RackCard* RackConfig::card(std::string_view card_name) const {
+    const auto found = std::find_if(cards.begin(), cards.end(), [&](const RackCard& c) { return c.name == card_name; });
+    return found != cards.end() ? &*found : nullptr;
+}
+
+control::MachineLimits RackConfig::limits() const {
+    control::MachineLimits out;
+    for (const RackAxis& axis : axes) {
+        control::AxisLimits& limits = out[static_cast<std::size_t>(axis.index())];
+        limits.present = true;
+        limits.min_position = axis.min_position;
+        limits.max_position = axis.max_position;
+        limits.max_speed = axis.max_speed;
+        limits.max_accel = axis.max_accel;
+        limits.max_jerk = axis.max_jerk;
+        limits.start_speed = axis.start_speed;
+        limits.pulses_per_unit = axis.pulses_per_unit();
+    }
+    return out;
+}
+
+std::string RackConfig::end_name(const WireEnd& end) const {
+    if (end.owner == EndOwner::estop) return "estop";
+    const auto index = static_cast<std::size_t>(end.index);
+    return (end.owner == EndOwner::card ? cards[index].name : std::string(1, axes[index].letter)) + '.' + end.pin;
+}
+
+}  // namespace motionrack::rack

@@ -1,0 +1,166 @@
+// What a rack file says, as plain structs with units: cards in slots, axes of the machine, wires, the controller's
+// settings.
+//
+//   rack file (TOML) --read_rack--> RackConfig --(rack)--> running cards, wires and parts
+//                        |
+//                        +--> every mistake with its place, and warnings
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <motionrack/base/result.hpp>
+#include <motionrack/control/limits.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::rack {
+
+// ---- Cards ------------------------------------------------------------------------------------------------------
+
+/// Settings of a card of type mcx314.
+struct Mcx314Settings {
+    std::int64_t clock_hz = 16'000'000;  ///< 1,000,000 .. 16,000,000 Hz
+    std::int64_t bus_access_ns = 250;    ///< 0 .. 100,000 ns for a register access
+};
+
+/// One card; only the settings of its own type mean something. Defaults of the members are the rack file's defaults.
+struct RackCard {
+    std::string name;             ///< as the wires call it: letters, digits, '_'
+    std::string type = "mcx314";  ///< a name in card_types()
+    std::optional<int> slot;      ///< 0 .. 20; always set by read_rack (the lowest free slot if the file says none)
+    Mcx314Settings mcx314;
+};
+
+// ---- Axes -------------------------------------------------------------------------------------------------------
+
+enum class AxisKind : std::uint8_t {
+    linear,  ///< X Y Z: positions in mm
+    rotary   ///< A B C: positions in degrees
+};
+
+/// The stepping motor of an axis; rates are pulses (microsteps) a second.
+struct RackMotor {
+    double start_stop_hz = 2000;   ///< it starts and stops at up to this rate without losing steps
+    double pull_out_hz = 200'000;  ///< above this rate it loses steps
+};
+
+/// Switches of an axis by the machine position (mm or degrees) where they act; absent: there is no such switch.
+struct RackSwitches {
+    std::optional<double> limit_minus;  ///< active at and below
+    std::optional<double> limit_plus;   ///< active at and above
+    std::optional<double> home;         ///< active at and below
+    double hysteresis = 0.05;           ///< mm or degrees to go back before a switch is released
+    double bounce_ms = 1.0;             ///< ms that contacts bounce at each change; 0: clean edges
+};
+
+/// One axis of the machine. Positions and speeds are in mm (linear) or degrees (rotary), the axis' "unit", and seconds.
+struct RackAxis {
+    char letter = 'X';  ///< X Y Z A B C
+    AxisKind kind = AxisKind::linear;
+    std::string card;     ///< the card's name
+    std::string channel;  ///< one letter of the card's channels
+    std::int64_t motor_steps_per_rev = 200;
+    std::int64_t microsteps = 16;  ///< pulses for one full step
+    double lead_mm = 5;            ///< linear: travel for one motor turn
+    double gear_ratio = 90;        ///< rotary: motor turns for one turn of the axis
+    double max_speed = 100;
+    double max_accel = 1000;
+    double max_jerk = 20'000;  ///< 0: trapezoids
+    double start_speed = 2;
+    double min_position = 0;
+    double max_position = 300;
+    double start_position = 0;                   ///< where the machine stands when the rack starts
+    std::int64_t encoder_counts_per_rev = 4000;  ///< quadrature counts (4 a line) for one motor turn; 0: no encoder
+    bool reversed = false;  ///< the motor is mounted the other way round; the direction signal is inverted to match
+    RackMotor motor;
+    RackSwitches switches;
+
+    /// 0 .. 5: the index in control::axis_letters.
+    int index() const;
+    /// "mm" or "deg".
+    std::string_view unit() const { return kind == AxisKind::linear ? "mm" : "deg"; }
+    /// Pulses for one motor turn, exact.
+    std::int64_t pulses_per_rev() const { return motor_steps_per_rev * microsteps; }
+    /// Motor turns for one mm or degree.
+    double revs_per_unit() const { return kind == AxisKind::linear ? 1 / lead_mm : gear_ratio / 360; }
+    /// Pulses for one mm or degree, correctly rounded for linear axes, within 1 unit of the last place for rotary ones.
+    double pulses_per_unit() const;
+    /// Encoder counts for one mm or degree; 0 without an encoder.
+    double counts_per_unit() const;
+    /// The pulse rate at max_speed.
+    double max_pulse_hz() const { return max_speed * pulses_per_unit(); }
+};
+
+/// An axis of that letter with the rack file's defaults (positions 0 .. 300 mm or 0 .. 360 degrees).
+RackAxis default_axis(char letter);
+
+// ---- Wires ------------------------------------------------------------------------------------------------------
+
+enum class EndOwner : std::uint8_t { card, axis, estop };
+
+/// One end of a wire: pin `pin` of cards[index] ("xpp"), end `pin` of axes[index] ("step", "dir", "enc_a", "enc_b",
+/// "enc_z", "limit_plus", "limit_minus", "home"), or the emergency stop (pin empty).
+struct WireEnd {
+    EndOwner owner = EndOwner::card;
+    int index = 0;
+    std::string pin;
+    friend bool operator==(const WireEnd&, const WireEnd&) = default;
+};
+
+/// `from` (an output) drives `to` (an input). An output may drive many inputs; an input has one wire at most, and
+/// without one it is open.
+struct RackWire {
+    WireEnd from;
+    WireEnd to;
+    bool by_default = true;  ///< from the default rule, not from the file
+};
+
+// ---- The rack ---------------------------------------------------------------------------------------------------
+
+/// How the controller cuts paths where the part program does not say.
+struct RackController {
+    double default_path_tolerance_mm = 0.01;  ///< for G64 without P
+    double arc_tolerance_mm = 0.002;          ///< greatest distance of an arc from the short lines that stand for it
+};
+
+/// A whole rack, checked: every name is known, every wire has its two ends.
+struct RackConfig {
+    std::string name = "rack";
+    std::vector<RackCard> cards;  ///< in the order of the file
+    std::vector<RackAxis> axes;   ///< in the order X Y Z A B C
+    std::vector<RackWire> wires;  ///< the default rule with the file's changes; sorted by `to`: cards, axes, pins
+    RackController controller;
+
+    /// The axis of that letter, or nullptr.
+    const RackAxis* axis(char letter) const;
+    /// The card of that name, or nullptr.
+    const RackCard* card(std::string_view card_name) const;
+    /// What each axis may do, for the planner; axes that the rack has not are not present.
+    control::MachineLimits limits() const;
+    /// "motion.xpp", "X.step", "estop".
+    std::string end_name(const WireEnd& end) const;
+};
+
+/// What reading a rack file gave: a config exactly if there are no errors. Both lists are sorted by place.
+struct RackReading {
+    std::optional<RackConfig> config;
+    std::vector<Error> errors;
+    std::vector<Error> warnings;
+};
+
+/// Reads a rack file, or the text of one: what has a line end or '=' in it is text, anything else the path of a file.
+RackReading read_rack(std::string_view path_or_text);
+
+/// Reads the text of a rack file. `file` stands in the errors. Never throws; any text gives a config or errors.
+RackReading read_rack_text(std::string_view text, std::string_view file = {});
+
+/// Reads a rack file of at most 1 MB. Errors: io if it cannot be read, then those of the text.
+RackReading read_rack_file(const std::filesystem::path& path);
+
+/// The reference page of the rack file (Markdown): every section, key, unit, range and default, card types and their
+/// pins.
+std::string rack_file_reference();
+
+}  // namespace motionrack::rack

@@ -1,0 +1,261 @@
+// Checks between keys: axes against cards and channels, positions against each other, speeds against chip and motor.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <motionrack/rack/config_parts.hpp>
+
+namespace motionrack::rack {
+
+bool AxisSource::sound(std::initializer_list<std::string_view> keys) const {
+    return std::none_of(keys.begin(), keys.end(), [&](std::string_view key) {
+        return std::find(refused.begin(), refused.end(), key) != refused.end();
+    });
+}
+
+Place AxisSource::place(std::string_view key, std::string_view sub) const {
+    if (table == nullptr) return {};
+    const TomlNode* in = sub.empty() ? table : table->find(sub);
+    return in != nullptr ? in->place_of(key) : table->key_place;
+}
+
+int channel_index(const RackConfig& config, const RackAxis& axis) {
+    const RackCard* card = config.card(axis.card);
+    const CardType* type = card != nullptr ? find_card_type(card->type) : nullptr;
+    if (type == nullptr || axis.channel.size() != 1) return -1;
+    const std::size_t at = type->channels.find(axis.channel[0]);
+    return at == std::string_view::npos ? -1 : static_cast<int>(at);
+}
+
+namespace {
+
+/// The checks of one axis; each looks only at keys that were read well, so that one mistake gives one error.
+class AxisCheck {
+  public:
+    AxisCheck(const RackConfig& config, const RackAxis& axis, const AxisSource& source, Problems& problems)
+        : config_(config), axis_(axis), source_(source), problems_(problems) {}
+
+    void run() {
+        card_and_channel();
+        travel();
+        switches();
+        motor();
+        if (const RackCard* card = config_.card(axis_.card)) {
+            if (const CardType* type = find_card_type(card->type)) chip(*card, *type);
+        }
+    }
+
+  private:
+    void card_and_channel() {
+        if (!source_.sound({"card"})) return;
+        const RackCard* card = config_.card(axis_.card);
+        if (card == nullptr) {
+            std::vector<std::string_view> names;
+            for (const RackCard& other : config_.cards) names.push_back(other.name);
+            const std::string hint = did_you_mean(axis_.card, names);
+            error("card", {},
+                  fmt::format("Axis {} names the card {}, which the rack does not have{}", axis_.letter,
+                              in_quotes(axis_.card), hint.empty() ? "." : hint));
+            return;
+        }
+        const CardType* type = find_card_type(card->type);
+        if (type == nullptr || !source_.sound({"channel"})) return;
+        if (channel_index(config_, axis_) < 0) {
+            error("channel", {},
+                  fmt::format("Axis {} names the channel {}; a card of type {} has the channels {}.", axis_.letter,
+                              in_quotes(axis_.channel), type->name, fmt::join(type->channels, " ")));
+            return;
+        }
+        for (const RackAxis& other : config_.axes) {
+            if (&other == &axis_) return;  // each pair is told once, at the later letter
+            if (other.card == axis_.card && other.channel == axis_.channel) {
+                error("channel", {},
+                      fmt::format("Axes {} and {} are both on channel {} of card {}; each channel drives one axis.",
+                                  other.letter, axis_.letter, axis_.channel, axis_.card));
+            }
+        }
+    }
+
+    void travel() {
+        const std::string_view u = axis_.unit();
+        if (!source_.sound({"min_{u}", "max_{u}"})) return;
+        if (axis_.min_position >= axis_.max_position) {
+            error("min_{u}", {},
+                  fmt::format("min_{0} of axis {1} is {2}, not below max_{0}, which is {3}.", u, axis_.letter,
+                              number_text(axis_.min_position), number_text(axis_.max_position)));
+            return;
+        }
+        if (source_.sound({"start_{u}"}) && !inside(axis_.start_position, axis_.min_position, axis_.max_position)) {
+            error("start_{u}", {},
+                  fmt::format("start_{0} of axis {1} is {2}, outside its travel {3} .. {4} {0}.", u, axis_.letter,
+                              number_text(axis_.start_position), number_text(axis_.min_position),
+                              number_text(axis_.max_position)));
+        }
+    }
+
+    void switches() {
+        const std::string_view u = axis_.unit();
+        const RackSwitches& s = axis_.switches;
+        if (!source_.sound({"min_{u}", "max_{u}", "limit_minus_{u}", "limit_plus_{u}", "home_{u}"})) return;
+        if (axis_.min_position >= axis_.max_position) return;  // told already
+        const double low = s.limit_minus.value_or(axis_.min_position);
+        const double high = s.limit_plus.value_or(axis_.max_position);
+        if (low >= high) {
+            error(s.limit_minus ? "limit_minus_{u}" : "limit_plus_{u}", "switches",
+                  fmt::format("The limit switches of axis {} leave no way between them: the lower end is at {} {}, the "
+                              "upper at {} {}.",
+                              axis_.letter, number_text(low), u, number_text(high), u));
+            return;
+        }
+        if (s.home && !inside(*s.home, low, high)) {
+            error("home_{u}", "switches",
+                  fmt::format("home_{0} of axis {1} is {2}, where the axis cannot go: its ends are at {3} and {4} {0}.",
+                              u, axis_.letter, number_text(*s.home), number_text(low), number_text(high)));
+        }
+        if (s.limit_minus && low >= axis_.min_position)
+            limit_in_travel("limit_minus_{u}", low, "min", axis_.min_position);
+        if (s.limit_plus && high <= axis_.max_position)
+            limit_in_travel("limit_plus_{u}", high, "max", axis_.max_position);
+    }
+
+    void limit_in_travel(std::string_view key, double at, const char* end, double travel_end) {
+        warn(key, "switches",
+             fmt::format(
+                 "{} of axis {} acts at {} {}, within the travel ({}_{} is {}): moves to that end will stop at the "
+                 "switch.",
+                 with_unit(key, axis_.unit()), axis_.letter, number_text(at), axis_.unit(), end, axis_.unit(),
+                 number_text(travel_end)));
+    }
+
+    void motor() {
+        const std::string_view u = axis_.unit();
+        if (source_.sound({"start_speed_{u}_s", "max_speed_{u}_s"}) && axis_.start_speed > axis_.max_speed) {
+            error("start_speed_{u}_s", {},
+                  fmt::format("start_speed_{0}_s of axis {1} is {2}, above its max_speed_{0}_s, which is {3}.", u,
+                              axis_.letter, number_text(axis_.start_speed), number_text(axis_.max_speed)));
+        }
+        if (source_.sound({"max_jerk_{u}_s3"}) && axis_.max_jerk > 0 && axis_.max_jerk < 0.001) {
+            error("max_jerk_{u}_s3", {},
+                  fmt::format("max_jerk_{0}_s3 of axis {1} is {2}; it is 0 (trapezoids) or at least 0.001 {0}/s3.", u,
+                              axis_.letter, number_text(axis_.max_jerk)));
+        }
+        if (!source_.sound({"start_stop_hz", "pull_out_hz"})) return;
+        const RackMotor& m = axis_.motor;
+        if (m.start_stop_hz > m.pull_out_hz) {
+            error("start_stop_hz", "motor",
+                  fmt::format(
+                      "The motor of axis {} starts with {} pulses/s but already loses steps above {} (pull_out_hz); "
+                      "start_stop_hz must not be above it.",
+                      axis_.letter, number_text(m.start_stop_hz), number_text(m.pull_out_hz)));
+        } else if (pulses_known()) {
+            too_fast_for_motor("max_speed_{u}_s", axis_.max_speed, "pull_out_hz", m.pull_out_hz);
+            too_fast_for_motor("start_speed_{u}_s", axis_.start_speed, "start_stop_hz", m.start_stop_hz);
+        }
+    }
+
+    void too_fast_for_motor(std::string_view key, double speed, const char* limit_key, double limit) {
+        const double rate = speed * axis_.pulses_per_unit();
+        if (!source_.sound({key}) || rate <= limit * rounding) return;
+        warn(key, {},
+             fmt::format("{} of axis {} is {}, that is {} pulses/s at {} pulses/{}, above the motor's {} {}: it will "
+                         "lose steps.",
+                         with_unit(key, axis_.unit()), axis_.letter, number_text(speed), short_text(rate),
+                         short_text(axis_.pulses_per_unit()), axis_.unit(), limit_key, number_text(limit)));
+    }
+
+    void chip(const RackCard& card, const CardType& type) {
+        if (!pulses_known()) return;
+        const double fastest = type.max_pulse_hz(card);
+        too_fast_for_chip("max_speed_{u}_s", axis_.max_speed, "pulses/s", fastest, card);
+        too_fast_for_chip("max_accel_{u}_s2", axis_.max_accel, "pulses/s2", type.max_accel_hz_s(card), card);
+        const std::string_view u = axis_.unit();
+        if (source_.sound({"max_speed_{u}_s"}) && axis_.max_pulse_hz() < 1) {
+            error("max_speed_{u}_s", {},
+                  fmt::format(
+                      "max_speed_{}_s of axis {} is {}, that is {} pulses/s; the slowest that card {} can do is 1.", u,
+                      axis_.letter, number_text(axis_.max_speed), short_text(axis_.max_pulse_hz()), card.name));
+        }
+        counter_range();
+        if (source_.sound({"encoder_counts_per_rev", "max_speed_{u}_s"})) encoder(card, type.max_encoder_hz(card));
+    }
+
+    void too_fast_for_chip(std::string_view key, double value, const char* pulse_unit, double limit,
+                           const RackCard& card) {
+        const double rate = value * axis_.pulses_per_unit();
+        if (!source_.sound({key}) || rate <= limit * rounding) return;
+        error(key, {},
+              fmt::format("{} of axis {} is {}, that is {} {} at {} pulses/{}; card {} can do {}. Lower it to {} or "
+                          "give fewer microsteps.",
+                          with_unit(key, axis_.unit()), axis_.letter, number_text(value), short_text(rate), pulse_unit,
+                          short_text(axis_.pulses_per_unit()), axis_.unit(), card.name, short_text(limit),
+                          short_text(limit / axis_.pulses_per_unit())));
+    }
+
+    /// Positions must fit the 32-bit counters.
+    void counter_range() {
+        if (!source_.sound({"min_{u}", "max_{u}"})) return;
+        constexpr double most = 2'147'483'647;
+        const double per_unit = std::max(axis_.pulses_per_unit(), axis_.counts_per_unit());
+        for (const auto& [key, position] :
+             {std::pair{"min_{u}", axis_.min_position}, std::pair{"max_{u}", axis_.max_position}}) {
+            if (std::fabs(position) * per_unit <= most) continue;
+            error(key, {},
+                  fmt::format("{} of axis {} is {}, that is {} pulses or counts; the position counters hold {:.0f} at "
+                              "most, {} {} here.",
+                              with_unit(key, axis_.unit()), axis_.letter, number_text(position),
+                              short_text(std::fabs(position) * per_unit), most, short_text(most / per_unit),
+                              axis_.unit()));
+        }
+    }
+
+    void encoder(const RackCard& card, double limit) {
+        if (axis_.encoder_counts_per_rev % 4 != 0) {
+            error("encoder_counts_per_rev", {},
+                  fmt::format("encoder_counts_per_rev of axis {} is {}, but counts are four for each line: write a "
+                              "multiple of 4.",
+                              axis_.letter, axis_.encoder_counts_per_rev));
+            return;
+        }
+        const double rate = axis_.max_speed * axis_.counts_per_unit();
+        if (rate <= limit * rounding) return;
+        error("encoder_counts_per_rev", {},
+              fmt::format(
+                  "The encoder of axis {} gives {} counts/s at {} {}/s; the inputs of card {} follow {} counts/s.",
+                  axis_.letter, short_text(rate), number_text(axis_.max_speed), axis_.unit(), card.name,
+                  short_text(limit)));
+    }
+
+    bool pulses_known() const { return source_.sound({"motor_steps_per_rev", "microsteps", "lead_mm", "gear_ratio"}); }
+    static bool inside(double value, double low, double high) { return value >= low && value <= high; }
+    /// Six digits are enough for a number that was computed.
+    static std::string short_text(double value) {
+        const std::string text = fmt::format("{:.6g}", value);
+        double rounded = value;
+        std::from_chars(text.data(), text.data() + text.size(), rounded);
+        return number_text(rounded);
+    }
+
+    void error(std::string_view key, std::string_view sub, std::string what) {
+        problems_.error(source_.place(with_unit(key, axis_.unit()), sub), std::move(what));
+    }
+    void warn(std::string_view key, std::string_view sub, std::string what) {
+        problems_.warn(source_.place(with_unit(key, axis_.unit()), sub), std::move(what));
+    }
+
+    /// A limit that is met exactly in decimal may be exceeded by a rounding in binary.
+    static constexpr double rounding = 1 + 1e-12;
+
+    const RackConfig& config_;
+    const RackAxis& axis_;
+    const AxisSource& source_;
+    Problems& problems_;
+};
+
+}  // namespace
+
+void check_axes(const RackConfig& config, const std::vector<AxisSource>& sources, Problems& problems) {
+    for (std::size_t i = 0; i < config.axes.size(); ++i) AxisCheck(config, config.axes[i], sources[i], problems).run();
+}
+
+}  // namespace motionrack::rack

@@ -1,0 +1,120 @@
+// The keys of a rack file, each declared once: name, range, unit, meaning. Defaults are those of the structs in
+// config.hpp.
+#include <algorithm>
+#include <motionrack/rack/config_parts.hpp>
+
+namespace motionrack::rack {
+namespace {
+
+constexpr std::array<std::string_view, 1> card_type_names = {"mcx314"};
+constexpr std::array<std::string_view, 2> kinds = {"linear", "rotary"};
+
+constexpr std::array<Field, 1> rack_table = {
+    field<&RackConfig::name>("name", 1, 200, "", "what reports call the rack"),
+};
+
+constexpr std::array<Field, 2> card_table = {
+    required(with_choices(field<&RackCard::type>("type", 1, 32, "", "the kind of card"), card_type_names), "required"),
+    absent_means(field<&RackCard::slot>("slot", 0, slot_count - 1, "", "where the card sits in the rack"),
+                 "the lowest free slot"),
+};
+
+constexpr std::array<Field, 16> axis_table = {
+    required(field<&RackAxis::card>("card", 1, 32, "", "name of the card that drives the axis"), "required"),
+    required(field<&RackAxis::channel>("channel", 1, 1, "", "the card's channel (x, y, z or u of an mcx314)"),
+             "required"),
+    absent_means(with_choices(field<&RackAxis::kind>("kind", 0, 0, "", "X Y Z are linear, A B C rotary"), kinds),
+                 "by the letter"),
+    field<&RackAxis::motor_steps_per_rev>("motor_steps_per_rev", 1, 1'000'000, "", "full steps of a motor turn"),
+    field<&RackAxis::microsteps>("microsteps", 1, 1024, "", "pulses of a full step"),
+    only_in(field<&RackAxis::lead_mm>("lead_mm", 0.001, 10'000, "mm", "travel of a motor turn"), "mm"),
+    only_in(field<&RackAxis::gear_ratio>("gear_ratio", 0.001, 100'000, "", "motor turns of a turn of the axis"), "deg"),
+    field<&RackAxis::max_speed>("max_speed_{u}_s", 0.000001, 1e6, "{u}/s", "greatest speed"),
+    field<&RackAxis::max_accel>("max_accel_{u}_s2", 0.001, 1e9, "{u}/s2", "greatest acceleration"),
+    field<&RackAxis::max_jerk>("max_jerk_{u}_s3", 0, 1e12, "{u}/s3", "greatest jerk; 0: trapezoids"),
+    field<&RackAxis::start_speed>("start_speed_{u}_s", 0.000001, 1e6, "{u}/s", "speed reached at once from standstill"),
+    field<&RackAxis::min_position>("min_{u}", -1e7, 1e7, "{u}", "least position that may be commanded"),
+    field<&RackAxis::max_position>("max_{u}", -1e7, 1e7, "{u}", "greatest position that may be commanded"),
+    field<&RackAxis::start_position>("start_{u}", -1e7, 1e7, "{u}", "where the machine stands at the start"),
+    field<&RackAxis::encoder_counts_per_rev>("encoder_counts_per_rev", 0, 10'000'000, "",
+                                             "quadrature counts (4 a line) of a motor turn; 0: no encoder"),
+    field<&RackAxis::reversed>("reversed", 0, 1, "",
+                               "the motor is mounted the other way round; the direction signal is inverted to match"),
+};
+
+constexpr std::array<Field, 2> motor_table = {
+    field<&RackMotor::start_stop_hz>("start_stop_hz", 1, 1e7, "Hz",
+                                     "pulses (microsteps) a second that it can start and stop with"),
+    field<&RackMotor::pull_out_hz>("pull_out_hz", 1, 1e7, "Hz",
+                                   "pulses (microsteps) a second above which it loses steps"),
+};
+
+constexpr std::array<Field, 5> switch_table = {
+    absent_means(field<&RackSwitches::limit_minus>("limit_minus_{u}", -1e7, 1e7, "{u}", "active at and below"),
+                 "no such switch"),
+    absent_means(field<&RackSwitches::limit_plus>("limit_plus_{u}", -1e7, 1e7, "{u}", "active at and above"),
+                 "no such switch"),
+    absent_means(field<&RackSwitches::home>("home_{u}", -1e7, 1e7, "{u}", "active at and below"), "no such switch"),
+    field<&RackSwitches::hysteresis>("hysteresis_{u}", 0, 100, "{u}", "way back until a switch is released"),
+    field<&RackSwitches::bounce_ms>("bounce_ms", 0, 100, "ms", "time that contacts bounce; 0: clean edges"),
+};
+
+constexpr std::array<Field, 2> controller_table = {
+    field<&RackController::default_path_tolerance_mm>("default_path_tolerance_mm", 0, 100, "mm",
+                                                      "how far G64 without P may leave the path"),
+    field<&RackController::arc_tolerance_mm>("arc_tolerance_mm", 0.000001, 10, "mm",
+                                             "how far short lines may leave an arc"),
+};
+
+bool always(const RackAxis&) {
+    return true;
+}
+bool has_encoder(const RackAxis& axis) {
+    return axis.encoder_counts_per_rev > 0;
+}
+
+constexpr std::array<AxisEnd, 8> ends = {{
+    {"step", PinDirection::input, "a pulse moves the motor by one microstep", always, ""},
+    {"dir", PinDirection::input, "the direction of the pulses", always, ""},
+    {"enc_a", PinDirection::output, "encoder track A", has_encoder, "encoder_counts_per_rev above 0"},
+    {"enc_b", PinDirection::output, "encoder track B", has_encoder, "encoder_counts_per_rev above 0"},
+    {"enc_z", PinDirection::output, "encoder index, once a motor turn", has_encoder, "encoder_counts_per_rev above 0"},
+    {"limit_plus", PinDirection::output, "limit switch at the + end",
+     [](const RackAxis& axis) { return axis.switches.limit_plus.has_value(); }, "limit_plus_{u} in its switches"},
+    {"limit_minus", PinDirection::output, "limit switch at the - end",
+     [](const RackAxis& axis) { return axis.switches.limit_minus.has_value(); }, "limit_minus_{u} in its switches"},
+    {"home", PinDirection::output, "home switch", [](const RackAxis& axis) { return axis.switches.home.has_value(); },
+     "home_{u} in its switches"},
+}};
+
+}  // namespace
+
+std::span<const Field> rack_fields() {
+    return rack_table;
+}
+std::span<const Field> card_fields() {
+    return card_table;
+}
+std::span<const Field> axis_fields() {
+    return axis_table;
+}
+std::span<const Field> motor_fields() {
+    return motor_table;
+}
+std::span<const Field> switch_fields() {
+    return switch_table;
+}
+std::span<const Field> controller_fields() {
+    return controller_table;
+}
+
+std::span<const AxisEnd> axis_ends() {
+    return ends;
+}
+
+const AxisEnd* find_axis_end(std::string_view name) {
+    const auto found = std::find_if(ends.begin(), ends.end(), [&](const AxisEnd& end) { return end.name == name; });
+    return found != ends.end() ? &*found : nullptr;
+}
+
+}  // namespace motionrack::rack

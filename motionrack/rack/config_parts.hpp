@@ -1,0 +1,61 @@
+// What the files of the rack-file reader share: the tables of keys, the ends of an axis, and the steps of reading.
+#pragma once
+
+#include <array>
+#include <motionrack/rack/card_types.hpp>
+#include <motionrack/rack/config.hpp>
+#include <motionrack/rack/toml_reader.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::rack {
+
+// ---- The tables: one row a key ------------------------------------------------------------------------------------
+
+std::span<const Field> rack_fields();        ///< [rack] into RackConfig
+std::span<const Field> card_fields();        ///< [card.NAME] into RackCard, without the settings of its type
+std::span<const Field> axis_fields();        ///< [axis.X] into RackAxis
+std::span<const Field> motor_fields();       ///< [axis.X.motor] into RackMotor
+std::span<const Field> switch_fields();      ///< [axis.X.switches] into RackSwitches
+std::span<const Field> controller_fields();  ///< [controller] into RackController
+
+/// An end of a wire at an axis' parts.
+struct AxisEnd {
+    std::string_view name;
+    PinDirection direction;
+    std::string_view doc;
+    bool (*present)(const RackAxis& axis);
+    std::string_view needs;  ///< what the rack file must say for the end to be there
+};
+std::span<const AxisEnd> axis_ends();
+const AxisEnd* find_axis_end(std::string_view name);
+
+inline constexpr std::string_view estop_doc = "the emergency stop button: low while it is pressed";
+inline constexpr std::array<std::string_view, 6> axis_names = {"X", "Y", "Z", "A", "B", "C"};
+inline constexpr int slot_count = 21;
+
+// ---- Steps of reading ---------------------------------------------------------------------------------------------
+
+/// Where an axis was read from and what of it was refused.
+struct AxisSource {
+    const TomlNode* table = nullptr;  ///< nullptr: the axis was not in the file (ideal axes of a card alone)
+    std::vector<std::string_view> refused = {};
+
+    bool sound(std::initializer_list<std::string_view> keys) const;
+    /// The place of the key, in the axis' own table or its table `sub` ("motor", "switches").
+    Place place(std::string_view key, std::string_view sub = {}) const;
+};
+
+/// Checks what no single key can tell: axes against cards, positions against each other, speeds against chip and motor.
+/// `sources` goes with config.axes.
+void check_axes(const RackConfig& config, const std::vector<AxisSource>& sources, Problems& problems);
+
+/// The default rule, changed by the file's [wires] (may be nullptr).
+std::vector<RackWire> resolve_wires(const RackConfig& config, const TomlNode* wires, Problems& problems);
+
+/// The index of `axis`' channel in its card's type, or -1 if the card or the channel does not exist.
+int channel_index(const RackConfig& config, const RackAxis& axis);
+
+}  // namespace motionrack::rack

@@ -1,0 +1,105 @@
+// The reference page of the rack file, written from the tables that the reader reads with.
+#include <fmt/format.h>
+
+#include <motionrack/rack/config_parts.hpp>
+
+namespace motionrack::rack {
+namespace {
+
+/// "lead_mm", or "max_speed_mm_s / max_speed_deg_s" for a key of both kinds of axis.
+std::string both_units(std::string_view text, std::string_view only, std::string_view quote) {
+    const auto one = [&](std::string_view unit) { return fmt::format("{}{}{}", quote, with_unit(text, unit), quote); };
+    if (text.find("{u}") == std::string_view::npos || !only.empty()) return one(only);
+    return one("mm") + " / " + one("deg");
+}
+
+std::string defaults_text(const Field& field, const void* linear, const void* rotary) {
+    const std::string first = default_text(field, field.only == "deg" ? rotary : linear);
+    const std::string second = default_text(field, field.only == "mm" ? linear : rotary);
+    return first == second ? first : first + " / " + second;
+}
+
+std::string rows(std::span<const Field> fields, const void* linear, const void* rotary) {
+    std::string out = "| key | unit | range | default | meaning |\n|---|---|---|---|---|\n";
+    for (const Field& field : fields) {
+        Field without_unit = field;
+        without_unit.unit = {};
+        out += fmt::format("| {} | {} | {} | {} | {} |\n", both_units(field.key, field.only, "`"),
+                           field.unit.empty() ? "-" : both_units(field.unit, field.only, ""),
+                           range_text(without_unit, ""), defaults_text(field, linear, rotary), field.doc);
+    }
+    return out + '\n';
+}
+
+std::string card_type_text(const CardType& type) {
+    RackCard defaults;
+    std::string out = fmt::format("### {}\n{}. Channels: {}.\n\n", type.name, type.doc, fmt::join(type.channels, " "));
+    const void* settings = type.settings_of(defaults);
+    if (!type.settings.empty()) out += rows(type.settings, settings, settings);
+    out += "| pin | direction | meaning | wired by default to |\n|---|---|---|---|\n";
+    const auto direction = [](const PinType& pin) { return pin.direction == PinDirection::input ? "input" : "output"; };
+    for (const PinType& pin : type.channel_pins) {
+        std::string wired = "-";
+        for (const DefaultWire& wire : type.default_wires) {
+            if (wire.pin == pin.name) wired = fmt::format("`NAME.{}`", wire.end);
+        }
+        out += fmt::format("| `{}{}` | {} | {} | {} |\n", type.channels[0], pin.name, direction(pin), pin.doc, wired);
+    }
+    for (const PinType& pin : type.chip_pins) {
+        out += fmt::format("| `{}` | {} | {} | {} |\n", pin.name, direction(pin), pin.doc,
+                           pin.name == type.estop_pin ? "`estop`" : "-");
+    }
+    return out + fmt::format(
+                     "\nThe first {} pins are those of channel {}; the other channels have the same with their own "
+                     "letter in front.\n\n",
+                     type.channel_pins.size(), type.channels[0]);
+}
+
+std::string wires_text() {
+    std::string out =
+        "## [wires]\nOne line a wire, only for what differs from the default rule: the input left, the output that "
+        "drives it right, both in "
+        "quotes; `\"open\"` leaves an input without a wire. An output may drive many inputs.\n\n"
+        "```toml\n[wires]\n\"motion.xlmtp\" = \"Y.limit_plus\"\n\"motion.xin2\" = \"open\"\n```\n\n"
+        "Pins of cards are written CARD.pin (below), the ends of an axis' parts NAME.end:\n\n"
+        "| end | direction | meaning | there if |\n|---|---|---|---|\n";
+    for (const AxisEnd& end : axis_ends()) {
+        out += fmt::format("| `X.{}` | {} | {} | {} |\n", end.name,
+                           end.direction == PinDirection::input ? "input" : "output", end.doc,
+                           end.needs.empty() ? "always" : with_unit(end.needs, "mm"));
+    }
+    return out + fmt::format("| `estop` | output | {} | always |\n\n", estop_doc);
+}
+
+}  // namespace
+
+std::string rack_file_reference() {
+    const RackConfig rack;
+    const RackCard card;
+    const RackAxis linear = default_axis('X');
+    const RackAxis rotary = default_axis('A');
+    std::string out =
+        "# The rack file\nTOML. `motionrack new` writes one to start from. Unknown keys, wrong types and values out of "
+        "range are errors; all "
+        "are told at once, with line and column. Text such as `card.c1 = \"mcx314\"` (a card alone, by its type) is a "
+        "rack too: default settings "
+        "and four ideal axes X Y Z A, 1000 pulses and 1000 encoder counts a mm or degree.\n\n";
+    out += "## [rack]\n" + rows(rack_fields(), &rack, &rack);
+    out +=
+        "## [card.NAME]\nOne section a card; NAME is yours: letters, digits, `_`. The card types are described "
+        "below.\n\n" +
+        rows(card_fields(), &card, &card);
+    out += "## [axis.NAME]\nNAME is X, Y, Z (linear, mm) or A, B, C (rotary, degrees).\n\n" +
+           rows(axis_fields(), &linear, &rotary);
+    out += "## [axis.NAME.motor]\nPulses are microsteps.\n\n" + rows(motor_fields(), &linear.motor, &rotary.motor);
+    out += "## [axis.NAME.switches]\nMachine positions where they act.\n\n" +
+           rows(switch_fields(), &linear.switches, &rotary.switches);
+    out += "## [controller]\n" + rows(controller_fields(), &rack.controller, &rack.controller);
+    out += wires_text();
+    out += "## Card types\n\n";
+    for (const CardType& type : card_types()) out += card_type_text(type);
+    out.pop_back();
+    return out;
+}
+
+}  // namespace motionrack::rack

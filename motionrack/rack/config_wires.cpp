@@ -1,0 +1,217 @@
+// Wires: the default rule of each card type, and what the rack file says otherwise. In the file the input stands left
+// and the output that drives it right, so that every input has one driver by the grammar of TOML itself:
+//
+//   [wires]
+//   "motion.xlmtp" = "Y.limit_plus"    # this instead of X.limit_plus
+//   "motion.xin0" = "open"             # no wire
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <motionrack/rack/config_parts.hpp>
+#include <set>
+#include <tuple>
+
+namespace motionrack::rack {
+namespace {
+
+struct KnownEnd {
+    WireEnd end;
+    PinDirection direction = PinDirection::input;
+    std::string missing;  ///< not empty: the name is right, but the rack has no such part; why
+};
+
+class WireResolver {
+  public:
+    WireResolver(const RackConfig& config, Problems& problems) : config_(config), problems_(problems) {
+        for (std::size_t i = 0; i < config.cards.size(); ++i) add_card(static_cast<int>(i));
+        for (std::size_t i = 0; i < config.axes.size(); ++i) add_axis(static_cast<int>(i));
+        known_["estop"] = {{EndOwner::estop, 0, ""}, PinDirection::output, {}};
+    }
+
+    void default_rule() {
+        for (std::size_t i = 0; i < config_.axes.size(); ++i) {
+            const RackAxis& axis = config_.axes[i];
+            if (channel_index(config_, axis) < 0) continue;
+            const CardType& type = *find_card_type(config_.card(axis.card)->type);
+            for (const DefaultWire& wire : type.default_wires) {
+                connect(fmt::format("{}.{}{}", axis.card, axis.channel, wire.pin),
+                        fmt::format("{}.{}", axis.letter, wire.end));
+            }
+        }
+        for (const RackCard& card : config_.cards) {
+            const CardType* type = find_card_type(card.type);
+            if (type != nullptr && !type->estop_pin.empty())
+                connect(fmt::format("{}.{}", card.name, type->estop_pin), "estop");
+        }
+    }
+
+    void read(const TomlNode& wires) {
+        for (const TomlNode& node : wires.children) {
+            if (node.type != TomlType::table) {
+                read_wire(node.key, node);
+                continue;
+            }
+            for (const TomlNode& inner : node.children) read_wire(node.key + "." + inner.key, inner);
+        }
+        find_loops();
+    }
+
+    std::vector<RackWire> take() {
+        std::vector<RackWire> out;
+        for (auto& [to, wire] : wires_) out.push_back(std::move(wire));
+        const auto order = [](const WireEnd& end) { return std::tie(end.owner, end.index, end.pin); };
+        std::sort(out.begin(), out.end(),
+                  [&](const RackWire& a, const RackWire& b) { return order(a.to) < order(b.to); });
+        return out;
+    }
+
+  private:
+    void add_card(int index) {
+        const RackCard& card = config_.cards[static_cast<std::size_t>(index)];
+        const CardType* type = find_card_type(card.type);
+        if (type == nullptr) {
+            unjudged_.push_back(card.name);
+            return;
+        }
+        for (Pin& pin : pins_of(*type)) {
+            known_[card.name + "." + pin.name] = {{EndOwner::card, index, pin.name}, pin.direction, {}};
+        }
+    }
+
+    void add_axis(int index) {
+        const RackAxis& axis = config_.axes[static_cast<std::size_t>(index)];
+        for (const AxisEnd& end : axis_ends()) {
+            KnownEnd known{{EndOwner::axis, index, std::string(end.name)}, end.direction, {}};
+            if (!end.present(axis)) {
+                known.missing =
+                    fmt::format("axis {} needs {} to have it", axis.letter, with_unit(end.needs, axis.unit()));
+            }
+            known_[fmt::format("{}.{}", axis.letter, end.name)] = std::move(known);
+        }
+    }
+
+    /// A wire of the default rule, from whichever of the two is the output; none if a part is not there.
+    void connect(const std::string& a, const std::string& b) {
+        const auto first = known_.find(a);
+        const auto second = known_.find(b);
+        if (first == known_.end() || second == known_.end()) return;
+        if (!first->second.missing.empty() || !second->second.missing.empty()) return;
+        const bool second_drives = first->second.direction == PinDirection::input;
+        const auto& [from, to] = second_drives ? std::tie(second, first) : std::tie(first, second);
+        wires_.emplace(to->first, RackWire{from->second.end, to->second.end, true});
+    }
+
+    /// The end of that name, or nullptr after an error (none for cards whose own type is in error already).
+    const KnownEnd* find_end(const std::string& name, Place place) {
+        const auto found = known_.find(name);
+        if (found != known_.end()) {
+            if (found->second.missing.empty()) return &found->second;
+            problems_.error(place, fmt::format("There is no {}: {}.", name, found->second.missing));
+            return nullptr;
+        }
+        const std::string owner = name.substr(0, name.find('.'));
+        if (std::find(unjudged_.begin(), unjudged_.end(), owner) != unjudged_.end()) return nullptr;
+        std::string hint;
+        if (problems_.wants_hints()) {
+            std::vector<std::string_view> names;
+            for (const auto& [known, end] : known_) names.push_back(known);
+            hint = did_you_mean(name, names);
+        }
+        problems_.error(place, fmt::format("No card, axis or part of this rack has the pin {}{}", in_quotes(name),
+                                           hint.empty() ? "." : hint));
+        return nullptr;
+    }
+
+    void read_wire(const std::string& name, const TomlNode& node) {
+        if (node.type != TomlType::text) {
+            problems_.error(
+                node.value_place,
+                fmt::format("The wire {} is {}; write what drives it in quotes, such as \"X.home\", or \"open\".",
+                            in_quotes(name), type_name(node.type)));
+            return;
+        }
+        const KnownEnd* left = find_end(name, node.key_place);
+        if (left != nullptr && !named_.emplace(name, &node).second) {
+            problems_.error(node.key_place, fmt::format("{} is wired twice; an input has one wire.", name));
+            return;
+        }
+        if (node.text == "open") {
+            if (left != nullptr && left->direction == PinDirection::output) {
+                problems_.error(
+                    node.key_place,
+                    fmt::format("{} is an output; to leave it open, write \"open\" for each input that it drives.",
+                                name));
+            } else {
+                wires_.erase(name);
+            }
+            return;
+        }
+        const KnownEnd* right = find_end(node.text, node.value_place);
+        if (left != nullptr && right != nullptr) join(name, *left, *right, node);
+    }
+
+    void join(const std::string& name, const KnownEnd& left, const KnownEnd& right, const TomlNode& node) {
+        using enum PinDirection;
+        if (name == node.text) {
+            problems_.error(node.key_place, fmt::format("{} is wired to itself.", name));
+        } else if (left.direction == output && right.direction == output) {
+            problems_.error(
+                node.key_place,
+                fmt::format("{} and {} are both outputs and would drive against each other; write input = output.",
+                            name, node.text));
+        } else if (left.direction == output) {
+            problems_.error(
+                node.key_place,
+                fmt::format("{0} is an output and {1} an input; the input stands left: write \"{1}\" = \"{0}\".", name,
+                            node.text));
+        } else if (right.direction == input) {
+            inputs_[name] = &node;
+        } else {
+            wires_.insert_or_assign(name, RackWire{right.end, left.end, false});
+        }
+    }
+
+    /// Inputs that were wired to inputs: nothing drives them; where they go round in a circle, say so (once a circle).
+    void find_loops() {
+        std::set<std::string> told;
+        for (const auto& [name, node] : inputs_) {
+            if (told.count(name) != 0) continue;
+            std::vector<std::string> way = {name};
+            const TomlNode* at = node;
+            while (at->text != name && way.size() < 16 && inputs_.count(at->text) != 0) {
+                way.push_back(at->text);
+                at = inputs_.at(at->text);
+            }
+            if (at->text == name) {
+                told.insert(way.begin(), way.end());
+                problems_.error(node->key_place,
+                                fmt::format("These wires go round in a circle: {} = {}; no output drives them.",
+                                            fmt::join(way, " = "), name));
+            } else {
+                problems_.error(
+                    node->key_place,
+                    fmt::format("{} and {} are both inputs; name the output that drives {}.", name, node->text, name));
+            }
+        }
+    }
+
+    const RackConfig& config_;
+    Problems& problems_;
+    std::map<std::string, KnownEnd> known_;
+    std::map<std::string, RackWire> wires_;  ///< by the name of the input
+    std::map<std::string, const TomlNode*> named_;
+    std::map<std::string, const TomlNode*> inputs_;
+    std::vector<std::string> unjudged_;  ///< cards of unknown type
+};
+
+}  // namespace
+
+std::vector<RackWire> resolve_wires(const RackConfig& config, const TomlNode* wires, Problems& problems) {
+    WireResolver resolver(config, problems);
+    resolver.default_rule();
+    if (wires != nullptr) resolver.read(*wires);
+    return resolver.take();
+}
+
+}  // namespace motionrack::rack

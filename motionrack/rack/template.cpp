@@ -1,0 +1,147 @@
+// `motionrack new`: a machine as a RackConfig, written out key by key with what the table of keys says about each.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/template.hpp>
+
+namespace motionrack::rack {
+namespace {
+
+constexpr std::array<TemplateVariant, 3> variants = {{
+    {"router", "three linear axes X Y Z and a rotary table A on the card's fourth channel"},
+    {"stage", "two linear axes X Y"},
+    {"single", "one linear axis X"},
+}};
+
+/// A linear axis with switches 2 mm outside its travel.
+RackAxis linear_axis(char letter, char channel, double travel) {
+    RackAxis axis = default_axis(letter);
+    axis.card = "motion";
+    axis.channel = channel;
+    axis.max_position = travel;
+    axis.switches.limit_minus = -2;
+    axis.switches.limit_plus = travel + 2;
+    axis.switches.home = 1;
+    return axis;
+}
+
+RackConfig router() {
+    RackConfig out;
+    out.name = "three-axis router with a rotary table";
+    out.axes = {linear_axis('X', 'x', 300), linear_axis('Y', 'y', 200), linear_axis('Z', 'z', 80), default_axis('A')};
+    RackAxis& z = out.axes[2];
+    z.max_speed = 50;
+    z.max_accel = 500;
+    z.start_position = 80;  // the tool stands above the work
+    RackAxis& a = out.axes[3];
+    a.card = "motion";
+    a.channel = "u";
+    a.min_position = -3600;
+    a.max_position = 3600;
+    a.switches.home = 0;
+    return out;
+}
+
+RackConfig stage() {
+    RackConfig out;
+    out.name = "two-axis stage";
+    out.axes = {linear_axis('X', 'x', 100), linear_axis('Y', 'y', 100)};
+    for (RackAxis& axis : out.axes) {
+        axis.lead_mm = 1;
+        axis.max_speed = 20;
+        axis.start_speed = 0.5;
+    }
+    return out;
+}
+
+RackConfig single() {
+    RackConfig out;
+    out.name = "one axis";
+    out.axes = {linear_axis('X', 'x', 300)};
+    return out;
+}
+
+/// Writes sections as "key = value  # meaning; range; default", the comments in one column.
+class Writer {
+  public:
+    void section(const std::string& header, std::string_view doc) {
+        text_ += fmt::format("\n[{}]  # {}\n", header, doc);
+    }
+
+    void fields(std::span<const Field> fields, const void* object, const void* defaults, std::string_view unit) {
+        for (const Field& field : fields) {
+            if (!field.only.empty() && field.only != unit) continue;
+            const FieldValue value = field.get(object, field);
+            const bool absent = std::holds_alternative<std::monostate>(value);
+            const std::string key = with_unit(field.key, unit);
+            const std::string line =
+                absent ? fmt::format("# {} =", key) : fmt::format("{} = {}", key, toml_text(value));
+            text_ += fmt::format("{:<38}  # {}; {}; {}\n", line, with_unit(field.doc, unit), range_text(field, unit),
+                                 field.required ? "required" : "default " + default_text(field, defaults));
+        }
+    }
+
+    void line(std::string_view text) { text_.append(text).append("\n"); }
+    std::string take() { return std::move(text_); }
+
+  private:
+    std::string text_;
+};
+
+void write_axis(Writer& out, const RackAxis& axis) {
+    const RackAxis defaults = default_axis(axis.letter);
+    const std::string_view unit = axis.unit();
+    const std::string name = fmt::format("axis.{}", axis.letter);
+    out.section(name, axis.kind == AxisKind::linear ? "a linear axis: mm" : "a rotary axis: degrees");
+    out.fields(axis_fields(), &axis, &defaults, unit);
+    out.section(name + ".motor", "the stepping motor; its pulses are microsteps");
+    out.fields(motor_fields(), &axis.motor, &defaults.motor, unit);
+    out.section(name + ".switches", "machine positions where they act; leave a switch out and the axis has none");
+    out.fields(switch_fields(), &axis.switches, &defaults.switches, unit);
+}
+
+std::string write(RackConfig config) {
+    RackCard card;
+    card.name = "motion";
+    card.slot = 0;
+    const CardType& type = *find_card_type(card.type);
+    Writer out;
+    out.line(
+        "# A rack file: cards, axes, wires. Each comment tells what the key means; its range and unit; its default.");
+    const RackConfig defaults;
+    const RackCard card_defaults;
+    out.section("rack", "the whole machine");
+    out.fields(rack_fields(), &config, &defaults, "");
+    out.section("card.motion", fmt::format("a card, by a name of your choice; {}: {}", type.name, type.doc));
+    out.fields(card_fields(), &card, &card_defaults, "");
+    RackCard scratch = card_defaults;
+    out.fields(type.settings, type.settings_of(card), type.settings_of(scratch), "");
+    for (const RackAxis& axis : config.axes) write_axis(out, axis);
+    out.section("controller", "how paths are cut where the part program does not say");
+    out.fields(controller_fields(), &config.controller, &defaults.controller, "");
+    out.section("wires", "only what differs from the default rule: input = output that drives it, or \"open\"");
+    out.line("# \"motion.xin1\" = \"X.home\"              # the home switch of X also at stop input 1");
+    out.line("# \"motion.xin2\" = \"open\"                # the encoder's index not connected");
+    return out.take();
+}
+
+}  // namespace
+
+std::span<const TemplateVariant> template_variants() {
+    return variants;
+}
+
+Result<std::string> rack_template(std::string_view variant) {
+    if (variant == "router") return write(router());
+    if (variant == "stage") return write(stage());
+    if (variant == "single") return write(single());
+    std::vector<std::string_view> names;
+    for (const TemplateVariant& known : variants) names.push_back(known.name);
+    const std::string hint = did_you_mean(variant, names);
+    return fail(Trouble::bad_input,
+                fmt::format("There is no rack template {}: the templates are {}{} Nothing was written.",
+                            in_quotes(variant), fmt::join(names, ", "), hint.empty() ? "." : hint));
+}
+
+}  // namespace motionrack::rack

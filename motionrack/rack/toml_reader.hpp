@@ -1,0 +1,239 @@
+// Reading TOML with types, units, ranges and places: a text becomes a small tree, and one table of fields says for each
+// key what it is; reading, range checks, templates and reference pages all come from that one table.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <motionrack/base/result.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+namespace motionrack::rack {
+
+// ---- The tree ---------------------------------------------------------------------------------------------------
+
+enum class TomlType : std::uint8_t { table, text, integer, number, flag, array, date };
+
+/// A key with its value; tables keep their entries in the order of the file.
+struct TomlNode {
+    std::string key;
+    Place key_place;    ///< where the key (or the table's header) stands
+    Place value_place;  ///< where the value begins
+    TomlType type = TomlType::table;
+    std::string text;
+    std::int64_t integer = 0;
+    double number = 0;  ///< may be NaN or infinite here; fields refuse them
+    bool flag = false;
+    std::vector<TomlNode> children;
+
+    /// The entry of that name, or nullptr.
+    const TomlNode* find(std::string_view name) const;
+    /// Where that entry's value stands; where this node stands if there is no such entry.
+    Place place_of(std::string_view name) const;
+};
+
+/// The largest rack file and the deepest nesting that are read.
+inline constexpr std::size_t max_toml_bytes = 1'000'000;
+inline constexpr int max_toml_depth = 16;
+
+/// Reads TOML 1.0. Errors: more than `max_toml_bytes`, nesting deeper than `max_toml_depth`, syntax (with its place).
+/// Never throws and never overruns the stack, whatever the text is. `file` is used in errors only.
+Result<TomlNode> parse_toml(std::string_view text, std::string_view file);
+
+/// "text", "whole number", "table" ...: the type's name in a sentence.
+std::string_view type_name(TomlType type);
+
+// ---- Problems ---------------------------------------------------------------------------------------------------
+
+/// Collects everything that is wrong with one file, so that the user sees all of it at once.
+class Problems {
+  public:
+    explicit Problems(std::string file) : file_(std::move(file)) {}
+    void error(Place place, std::string message) { add(errors_, place, std::move(message)); }
+    void warn(Place place, std::string message) { add(warnings_, place, std::move(message)); }
+    bool any_errors() const { return !errors_.empty(); }
+    /// False once the list is longer than what is shown: then nobody needs hints, which cost time.
+    bool wants_hints() const { return errors_.size() < max_listed; }
+    /// Sorted by place; at most `max_listed`, then one sentence that tells how many more there were.
+    std::vector<Error> take_errors() { return take(errors_); }
+    std::vector<Error> take_warnings() { return take(warnings_); }
+
+    static constexpr std::size_t max_listed = 200;
+
+  private:
+    void add(std::vector<Error>& list, Place place, std::string message);
+    std::vector<Error> take(std::vector<Error>& list);
+    std::string file_;
+    std::vector<Error> errors_;
+    std::vector<Error> warnings_;
+};
+
+/// Text from outside as it may stand in a message: without control characters, cut after `longest` bytes.
+std::string printable(std::string_view text, std::size_t longest);
+/// The user's own text in a message: printable and in quotes, cut after 60 bytes.
+std::string in_quotes(std::string_view text);
+
+/// "; did you mean 'max_mm'?" if a candidate is near enough to `text` (edit distance), else an empty string.
+std::string did_you_mean(std::string_view text, std::span<const std::string_view> candidates);
+
+/// A number as the user would write it: the shortest text that reads back to the same double.
+std::string number_text(double value);
+
+// ---- Fields -----------------------------------------------------------------------------------------------------
+
+/// A field's value; monostate is "not there" (optional fields only). Choices are their names.
+using FieldValue = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
+
+enum class FieldType : std::uint8_t { flag, integer, number, text, choice };
+
+/// One key: everything that the reader, the template and the reference page know about it. In `key` and `unit`, "{u}"
+/// stands for the section's own unit (mm for a linear axis, deg for a rotary one).
+struct Field {
+    std::string_view key;
+    FieldType type = FieldType::number;
+    double min = 0;  ///< least value, or least length of a text
+    double max = 0;  ///< greatest value, or greatest length of a text (bytes)
+    std::string_view unit;
+    std::string_view doc;  ///< one sentence without a full stop
+    std::span<const std::string_view> choices = {};
+    std::string_view only = {};         ///< the section unit that the key belongs to ("mm", "deg"); empty: all
+    bool required = false;              ///< the key must be there
+    bool optional = false;              ///< may be absent, and that means something; `default_doc` says what
+    std::string_view default_doc = {};  ///< in place of the default, where there is none to show
+    FieldValue (*get)(const void* object, const Field& field) = nullptr;
+    void (*set)(void* object, const FieldValue& value, const Field& field) = nullptr;
+};
+
+namespace detail {
+
+template <class T>
+struct Member;
+template <class Object, class T>
+struct Member<T Object::*> {
+    using object = Object;
+    using type = T;
+};
+
+template <class T>
+struct Inner {
+    using type = T;
+    static constexpr bool optional = false;
+};
+template <class T>
+struct Inner<std::optional<T>> {
+    using type = T;
+    static constexpr bool optional = true;
+};
+
+std::size_t choice_index(const Field& field, const FieldValue& value);
+
+template <class T>
+FieldValue to_value(const T& member, const Field& field) {
+    if constexpr (std::is_same_v<T, bool>) {
+        return member;
+    } else if constexpr (std::is_enum_v<T>) {
+        return std::string(field.choices[static_cast<std::size_t>(member)]);
+    } else if constexpr (std::is_integral_v<T>) {
+        return static_cast<std::int64_t>(member);
+    } else {
+        return member;
+    }
+}
+
+template <auto member>
+FieldValue get_member(const void* object, const Field& field) {
+    using M = Member<decltype(member)>;
+    const auto& value = static_cast<const typename M::object*>(object)->*member;
+    if constexpr (Inner<typename M::type>::optional) {
+        return value ? to_value(*value, field) : FieldValue{};
+    } else {
+        return to_value(value, field);
+    }
+}
+
+template <auto member>
+void set_member(void* object, const FieldValue& value, const Field& field) {
+    using M = Member<decltype(member)>;
+    using T = typename Inner<typename M::type>::type;
+    auto& target = static_cast<typename M::object*>(object)->*member;
+    if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, double> || std::is_same_v<T, std::string>) {
+        target = std::get<T>(value);
+    } else if constexpr (std::is_enum_v<T>) {
+        target = static_cast<T>(choice_index(field, value));
+    } else {
+        target = static_cast<T>(std::get<std::int64_t>(value));
+    }
+}
+
+template <class T>
+constexpr FieldType field_type() {
+    if (std::is_same_v<T, bool>) return FieldType::flag;
+    if (std::is_enum_v<T>) return FieldType::choice;
+    if (std::is_same_v<T, double>) return FieldType::number;
+    return std::is_integral_v<T> ? FieldType::integer : FieldType::text;
+}
+
+}  // namespace detail
+
+/// Declares the key that is read into `member` (a pointer to a bool, integer, double, enum, std::string or an optional
+/// of those). Enums need `choices` in the order of their values, from 0; texts may have choices.
+template <auto member>
+constexpr Field field(std::string_view key, double min, double max, std::string_view unit, std::string_view doc) {
+    using Inner = detail::Inner<typename detail::Member<decltype(member)>::type>;
+    Field out;
+    out.key = key;
+    out.type = detail::field_type<typename Inner::type>();
+    out.min = min;
+    out.max = max;
+    out.unit = unit;
+    out.doc = doc;
+    out.optional = Inner::optional;
+    out.get = &detail::get_member<member>;
+    out.set = &detail::set_member<member>;
+    return out;
+}
+
+constexpr Field with_choices(Field f, std::span<const std::string_view> choices) {
+    f.type = FieldType::choice;
+    f.choices = choices;
+    return f;
+}
+constexpr Field only_in(Field f, std::string_view unit) {
+    return f.only = unit, f;
+}
+constexpr Field required(Field f, std::string_view instead) {
+    return f.required = true, f.default_doc = instead, f;
+}
+constexpr Field absent_means(Field f, std::string_view meaning) {
+    return f.default_doc = meaning, f;
+}
+
+/// `text` with "{u}" replaced by `unit`.
+std::string with_unit(std::string_view text, std::string_view unit);
+/// "0.001 .. 1000 mm", "linear or rotary", "true or false": what the field takes.
+std::string range_text(const Field& field, std::string_view unit);
+/// The default as it would stand in a file, or what takes its place ("required", "none").
+std::string default_text(const Field& field, const void* defaults);
+/// A value as TOML.
+std::string toml_text(const FieldValue& value);
+
+/// What read_fields reads: one table of the file.
+struct Section {
+    std::string name;                             ///< for messages: "axis X"
+    std::string unit;                             ///< for "{u}": "mm", "deg" or empty
+    std::string kind;                             ///< for keys of other units: "a linear axis"
+    std::span<const std::string_view> also = {};  ///< further keys that are allowed (read by others)
+};
+
+/// Reads every field of `table` into `object` (of the type that the fields were declared for). Values that are missing
+/// or wrong leave the member as it is; each wrong, unknown or missing key is one error. Returns the fields (their
+/// `key`) that were refused or missing though required.
+std::vector<std::string_view> read_fields(const TomlNode& table, std::span<const Field> fields, void* object,
+                                          const Section& section, Problems& problems);
+
+}  // namespace motionrack::rack
