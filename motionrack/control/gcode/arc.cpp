@@ -1,0 +1,47 @@
+// Centres and extreme points of arcs.
+#include <motionrack/control/gcode/arc.hpp>
+
+#include <cmath>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+double cross(Planar a, Planar b) { return a.first * b.second - a.second * b.first; }
+double dot(Planar a, Planar b) { return a.first * b.first + a.second * b.second; }
+
+/// Whether `v` comes before `w` when turning counter-clockwise from `from`; a `v` along `from` comes first of all.
+bool comes_before(Planar from, Planar v, Planar w) {
+    const auto second_half = [&](Planar p) { return !(cross(from, p) > 0 || (cross(from, p) == 0 && dot(from, p) > 0)); };
+    const bool v_second = second_half(v);
+    const bool w_second = second_half(w);
+    if (v_second != w_second) return w_second;
+    return cross(v, w) > 0;
+}
+
+}  // namespace
+
+double length(Planar v) { return std::sqrt(dot(v, v)); }
+
+bool centre_from_radius(Planar start, Planar end, double radius, bool counter_clockwise, Planar& centre) {
+    const Planar chord = {end.first - start.first, end.second - start.second};
+    const double whole = length(chord);
+    const double half = whole / 2;
+    const double size = std::fabs(radius);
+    if (half - size > radius_slack_mm) return false;
+    const double height = half >= size ? 0 : std::sqrt((size - half) * (size + half));
+    const double side = counter_clockwise == (radius > 0) ? height / whole : -height / whole;
+    centre.first = start.first + chord.first / 2 - chord.second * side;
+    centre.second = start.second + chord.second / 2 + chord.first * side;
+    return true;
+}
+
+std::array<bool, 4> extremes_passed(Planar from, Planar to, bool counter_clockwise) {
+    constexpr std::array<Planar, 4> extremes = {Planar{1, 0}, Planar{0, 1}, Planar{-1, 0}, Planar{0, -1}};
+    if (!counter_clockwise) std::swap(from, to);
+    std::array<bool, 4> passed = {};
+    for (std::size_t i = 0; i < 4; ++i) passed[i] = comes_before(from, extremes[i], to);
+    return passed;
+}
+
+}  // namespace motionrack::control::gcode

@@ -1,0 +1,328 @@
+// One line of G-code from words to steps: modal state, the order in which things take effect, and what is left to pull.
+#include <motionrack/control/gcode/interpreter.hpp>
+
+#include <bit>
+#include <cmath>
+#include <fmt/format.h>
+#include <motionrack/control/gcode/codes.hpp>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+constexpr double largest_line_number = 9'999'999;
+constexpr double largest_tool = 99'999;
+
+}  // namespace
+
+Interpreter::Interpreter(const Settings& settings) : settings_(settings) {
+    constexpr double nowhere = 4e9;
+    for (int axis = 0; axis < axis_count; ++axis) {
+        const AxisLimits& limits = settings.limits[axis];
+        low_[axis] = limits.present ? limits.min_position - limit_slack : nowhere;
+        high_[axis] = limits.present ? limits.max_position + limit_slack : -nowhere;
+        if (limits.present) present_words_ |= letter_bit(axis_letters[axis]);
+    }
+    modes_.tolerance_mm = settings.path_tolerance_mm;
+    if (settings.start_in_g0) modes_.motion = 0;
+    frame_.work = settings.work_offsets;
+    frame_.g28 = settings.g28;
+    frame_.g30 = settings.g30;
+    next_ = modes_;
+    sum_offsets(frame_);
+    position_ = settings.start;
+}
+
+Outcome<void> Interpreter::line(std::string_view text, std::int32_t number) {
+    todo_ = 0;
+    line_ = number;
+    if (!scan_line(text, settings_.block_delete, block_, problem_) || !evaluate()) {
+        todo_ = 0;
+        problem_.place.line = number;
+        return tl::unexpected<Problem>(problem_);
+    }
+    return {};
+}
+
+bool Interpreter::evaluate() {
+    next_ = modes_;
+    frame_edited_ = false;
+    axis_words_taken_ = false;
+    used_ = letter_bit('F') | letter_bit('N') | letter_bit('S') | letter_bit('T');
+    end_ = position_;
+    if (!check_values()) return false;
+    if ((block_.g_groups & ~(1u << g_motion)) != 0 && !apply_modes()) return false;
+    if (block_.has('F')) apply_feed();
+    if ((block_.m_groups | (block_.words & (letter_bit('S') | letter_bit('T')))) != 0 && !apply_machine_words()) return false;
+    if (block_.has_g(g_nonmodal) && !nonmodal()) return false;
+    if (!motion()) return false;
+    if ((block_.words & ~used_) != 0) return unused();
+    if (!block_.comments.empty()) {
+        todo_ |= todo_comments;
+        comments_pulled_ = 0;
+    }
+    commit();
+    return true;
+}
+
+bool Interpreter::check_values() {
+    constexpr std::uint32_t not_negative = letter_bit('F') | letter_bit('N') | letter_bit('P') | letter_bit('S') |
+                                           letter_bit('T') | letter_bit('L') | letter_bit('Q');
+    for (std::uint32_t left = block_.words & not_negative; left != 0; left &= left - 1) {
+        const int index = std::countr_zero(left);
+        if (block_.value[index] >= 0) continue;
+        const char letter = static_cast<char>('A' + index);
+        return fail_word(letter, GrblStatus::negative_value,
+                       fmt::format("{} is negative; {} must be 0 or more", written(letter), letter));
+    }
+    if (const std::uint32_t absent = block_.words & axis_words & ~present_words_; absent != 0) {
+        const char letter = static_cast<char>('A' + std::countr_zero(absent));
+        std::string present;
+        for (const char axis : axis_letters) {
+            if ((present_words_ & letter_bit(axis)) != 0) present += present.empty() ? std::string(1, axis) : fmt::format(" {}", axis);
+        }
+        return fail_word(letter, GrblStatus::unsupported,
+                       fmt::format("{}: this machine has no {} axis (it has {}); take the word out or set the axis up",
+                                   written(letter), letter, present.empty() ? "none" : present));
+    }
+    if (block_.has('N') && (block_['N'] > largest_line_number || block_['N'] != std::floor(block_['N']))) {
+        return fail_word('N', GrblStatus::bad_line_number,
+                       fmt::format("{}: line numbers are integers from N0 to N9999999", written('N')));
+    }
+    if (block_.has('T')) {
+        if (!need_integer('T', 0, 1e9, "a tool number")) return false;
+        if (block_['T'] > largest_tool) {
+            return fail_word('T', GrblStatus::value_too_large, fmt::format("{}: tools are T0 to T99999", written('T')));
+        }
+    }
+    return true;
+}
+
+bool Interpreter::apply_modes() {
+    if (block_.has_g(g_units)) next_.inch = block_.g[g_units] == 200;
+    if (block_.has_g(g_feed_mode)) {
+        const bool inverse = block_.g[g_feed_mode] == 930;
+        if (inverse != next_.inverse_time) next_.feed = next_.feed_rotary = 0;
+        next_.inverse_time = inverse;
+    }
+    if (block_.has_g(g_plane)) next_.plane = static_cast<std::uint8_t>((block_.g[g_plane] - 170) / 10);
+    if (block_.has_g(g_distance)) next_.incremental = block_.g[g_distance] == 910;
+    if (block_.has_g(g_arc_distance)) next_.arc_absolute = block_.g[g_arc_distance] == 901;
+    if (block_.has_g(g_retract)) next_.retract_to_r = block_.g[g_retract] == 990;
+    if (block_.has_g(g_tool_length) && !tool_length()) return false;
+    if (block_.has_g(g_system)) {
+        next_.system = static_cast<std::uint8_t>((block_.g[g_system] - 540) / 10);
+        sum_offsets(edit_frame());
+    }
+    if (block_.has_g(g_path)) {
+        const int code = block_.g[g_path];
+        next_.path = code == 610   ? PathControl::exact_path
+                     : code == 611 ? PathControl::exact_stop
+                                   : PathControl::continuous;
+        if (code == 640) {
+            next_.tolerance_mm = settings_.path_tolerance_mm;
+            const bool others = block_.has_g(g_nonmodal) && (block_.g[g_nonmodal] == 40 || block_.g[g_nonmodal] == 100);
+            if (block_.has('P') && !others) {
+                next_.tolerance_mm = scaled('P');
+                used_ |= letter_bit('P');
+            }
+        }
+    }
+    return true;
+}
+
+void Interpreter::apply_feed() {
+    if (next_.inverse_time) {
+        next_.feed = block_['F'] / 60;
+    } else {
+        next_.feed = scaled('F') / 60;
+        next_.feed_rotary = block_['F'] / 60;
+    }
+}
+
+bool Interpreter::apply_machine_words() {
+    if (block_.has('S')) {
+        next_.speed_rpm = block_['S'];
+        todo_ |= todo_speed;
+    }
+    if (block_.has('T')) {
+        next_.tool_selected = static_cast<std::int32_t>(block_['T']);
+        todo_ |= todo_tool_select;
+    }
+    if (block_.has_m(m_tool)) {
+        if (next_.tool_selected < 0) {
+            return fail_at(block_.m_column[m_tool], GrblStatus::word_missing,
+                           "M6 changes to the tool that a T word has selected, and there was none; write e.g. T1 M6");
+        }
+        todo_ |= todo_tool_change;
+    }
+    if (block_.has_m(m_spindle)) {
+        const int code = block_.m[m_spindle];
+        next_.spindle = code == 3 ? Spindle::clockwise : code == 4 ? Spindle::counter_clockwise : Spindle::off;
+        todo_ |= todo_spindle;
+    }
+    if (block_.has_m(m_mist)) next_.mist = true;
+    if (block_.has_m(m_flood)) next_.flood = true;
+    if (block_.has_m(m_coolant_off)) next_.mist = next_.flood = false;
+    if ((block_.m_groups & (1u << m_mist | 1u << m_flood | 1u << m_coolant_off)) != 0) todo_ |= todo_coolant;
+    if (block_.has_m(m_stop)) {
+        stop_code_ = block_.m[m_stop];
+        todo_ |= todo_stop;
+    }
+    return true;
+}
+
+/// What M2 and M30 leave behind: the state that both Grbl and LinuxCNC put back.
+void Interpreter::apply_end() {
+    next_.motion = 10;
+    next_.plane = 0;
+    next_.incremental = next_.inverse_time = next_.arc_absolute = false;
+    next_.feed = next_.feed_rotary = 0;
+    next_.spindle = Spindle::off;
+    next_.mist = next_.flood = false;
+    next_.ended = true;
+    if (next_.system != 0) {
+        next_.system = 0;
+        sum_offsets(edit_frame());
+    }
+}
+
+void Interpreter::commit() {
+    if ((todo_ & todo_dwell) != 0) dwell_at_ = position_;
+    if ((todo_ & todo_stop) != 0 && stop_code_ >= 2) apply_end();
+    position_ = end_;
+    modes_ = next_;
+    if (frame_edited_) frame_ = next_frame_;
+}
+
+const Step* Interpreter::pull_next() {
+    const std::uint32_t what = todo_ & (0 - todo_);
+    if (what == todo_motion) return pull_motion();
+    if (what == todo_comments) return pull_comment();
+    todo_ &= ~what;
+    event_ = Step{};
+    event_.line = line_;
+    event_.speed_rpm = modes_.speed_rpm;
+    event_.tool = modes_.tool_selected;
+    event_.mist = modes_.mist;
+    event_.flood = modes_.flood;
+    switch (what) {
+        case todo_speed: event_.kind = StepKind::spindle_speed; break;
+        case todo_tool_select: event_.kind = StepKind::tool_select; break;
+        case todo_tool_change: event_.kind = StepKind::tool_change; break;
+        case todo_coolant: event_.kind = StepKind::coolant; break;
+        case todo_spindle:
+            event_.kind = StepKind::spindle;
+            event_.spindle = block_.m[m_spindle] == 3   ? Spindle::clockwise
+                             : block_.m[m_spindle] == 4 ? Spindle::counter_clockwise
+                                                        : Spindle::off;
+            break;
+        case todo_dwell:
+            event_.move.kind = MoveKind::dwell;
+            event_.move.path = modes_.path;
+            event_.move.tolerance_mm = modes_.tolerance_mm;
+            event_.move.line = line_;
+            event_.move.seconds = dwell_seconds_;
+            event_.move.end = dwell_at_;
+            break;
+        default:
+            event_.kind = stop_code_ == 0 ? StepKind::pause : stop_code_ == 1 ? StepKind::optional_pause : StepKind::end;
+            break;
+    }
+    return &event_;
+}
+
+const Step* Interpreter::pull_motion() {
+    if (motion_ == Motion::single) {
+        todo_ &= ~static_cast<std::uint32_t>(todo_motion);
+        return &moving_;
+    }
+    if (motion_ == Motion::by_way_of) {
+        moving_.move.end = on_the_way_ ? position_ : via_;
+        if (on_the_way_) todo_ &= ~static_cast<std::uint32_t>(todo_motion);
+        on_the_way_ = true;
+        return &moving_;
+    }
+    if (cycle_.next(moving_.move)) return &moving_;
+    todo_ &= ~static_cast<std::uint32_t>(todo_motion);
+    return pull();
+}
+
+const Step* Interpreter::pull_comment() {
+    const Comment& comment = block_.comments[comments_pulled_++];
+    if (comments_pulled_ == block_.comments.size()) todo_ &= ~static_cast<std::uint32_t>(todo_comments);
+    event_ = Step{};
+    event_.kind = comment.message ? StepKind::message : StepKind::comment;
+    event_.line = line_;
+    event_.text = comment.text;
+    return &event_;
+}
+
+Frame& Interpreter::edit_frame() {
+    if (!frame_edited_) next_frame_ = frame_;
+    frame_edited_ = true;
+    return next_frame_;
+}
+
+void Interpreter::sum_offsets(Frame& frame) const {
+    for (int axis = 0; axis < axis_count; ++axis) frame.offset[axis] = frame.work[next_.system][axis] + frame.g92[axis];
+    frame.offset[2] += frame.tool_length;
+}
+
+bool Interpreter::fail_at(std::size_t column, GrblStatus status, std::string message, Trouble trouble) {
+    set_problem(problem_, block_.text, column, status, std::move(message), trouble);
+    return false;
+}
+
+bool Interpreter::fail_word(char letter, GrblStatus status, std::string message) {
+    return fail_at(block_.column[letter_index(letter)], status, std::move(message));
+}
+
+std::string_view Interpreter::written(char letter) const {
+    return word_at(block_.text, block_.column[letter_index(letter)]);
+}
+
+bool Interpreter::need_integer(char letter, double low, double high, const char* use) {
+    const double value = block_[letter];
+    if (value != std::floor(value)) {
+        return fail_word(letter, GrblStatus::not_an_integer,
+                       fmt::format("{}: {} is {}, an integer; write e.g. {}{}", written(letter), letter, use, letter, low));
+    }
+    if (value < low || value > high) {
+        return fail_word(letter, GrblStatus::value_too_large,
+                       fmt::format("{}: {} is {}, from {} to {}", written(letter), letter, use, low, high));
+    }
+    return true;
+}
+
+std::size_t Interpreter::blame() const {
+    if (block_.has_g(g_motion)) return block_.g_column[g_motion];
+    std::size_t first = block_.text.size();
+    for (std::uint32_t left = block_.words & (axis_words | offset_words); left != 0; left &= left - 1) {
+        first = std::min<std::size_t>(first, block_.column[std::countr_zero(left)]);
+    }
+    return first;
+}
+
+bool Interpreter::unused() {
+    const int index = std::countr_zero(block_.words & ~used_);
+    const char letter = static_cast<char>('A' + index);
+    const std::int16_t code = next_.motion;
+    const char* use = "";
+    if (letter == 'I' || letter == 'J' || letter == 'K') {
+        use = code == 20 || code == 30 ? "; the offsets of an arc are I J in G17, I K in G18, J K in G19, and none beside R"
+                                       : "; it is the centre of an arc (G2, G3)";
+    } else if (letter == 'R') {
+        use = "; it is the radius of an arc (G2, G3) or the retract height of a drilling cycle (G81 G82 G83)";
+    } else if (letter == 'P') {
+        use = "; it goes with G4, G10, G64 and G82, and with arcs that have an end or offsets on the same line";
+    } else if (letter == 'L') {
+        use = "; it goes with G10 and the drilling cycles (G81 G82 G83)";
+    } else if (letter == 'Q') {
+        use = "; it is the peck depth of G83";
+    }
+    return fail_word(letter, GrblStatus::unused_word,
+                   fmt::format("{}: nothing on this line uses the {} word{}", written(letter), letter, use));
+}
+
+}  // namespace motionrack::control::gcode

@@ -1,0 +1,188 @@
+// The meaning of G-code, line by line: words and modal state become moves in machine coordinates and events.
+//
+// The dialect is Grbl 1.1's, with what LinuxCNC adds for paths and drilling. Where the two differ, or neither is followed:
+// - At the start no motion mode is active (LinuxCNC); Grbl starts in G0: Settings::start_in_g0.
+// - F0 or no F on a feed is an error (both); in G93 every feed line needs its F (both); G93 <-> G94 forgets the feed (both).
+// - Arcs: offsets without axis words make full turns, P turns them several times, a third-axis word alone makes a helix
+//   (LinuxCNC; Grbl's errors 26 and 32). Offset words outside the plane, and R beside I J K, are errors (LinuxCNC; Grbl leaves
+//   them out silently). R arcs may be 0.005 mm too short for half a turn (LinuxCNC).
+// - M7 and M8 may stand on one line (Grbl); LinuxCNC refuses it.
+// - G53 reaches machine coordinates without the tool length (both). G43.1 takes Z alone (Grbl).
+// - G61 is exact path, G61.1 exact stop, G64 P blends (LinuxCNC); G64 without P takes the settings' tolerance, where LinuxCNC
+//   takes any. G64's Q (naive cam) is refused.
+// - Cycles begin with G98 (LinuxCNC's interpreter begins with G99). A G83 peck thinner than the clearance never rapids above R.
+// - G38.x, G41, G42, G43, M56, O words, variables and expressions are refused with a sentence. M0, M1, M2 and M30 are events.
+// - A program may end without M2 (Grbl); LinuxCNC wants M2 or %.
+// - Ends and bulges past the axis limits are errors of the line (Grbl raises alarm 2).
+#pragma once
+
+#include <motionrack/control/gcode/arc.hpp>
+#include <motionrack/control/gcode/block.hpp>
+#include <motionrack/control/gcode/cycle.hpp>
+#include <motionrack/control/gcode/settings.hpp>
+#include <motionrack/control/gcode/step.hpp>
+
+namespace motionrack::control::gcode {
+
+/// Positions may pass a limit by this much (mm or degrees): what sums of rounded numbers can be off.
+inline constexpr double limit_slack = 1e-6;
+
+inline constexpr std::int16_t no_motion = -1;
+
+/// Modal state that is only numbers.
+struct Modes {
+    std::int16_t motion = no_motion;  ///< G code in tenths: 0, 10, 20, 30, 810, 820, 830; no_motion after G80
+    std::uint8_t plane = 0;           ///< 0 G17, 1 G18, 2 G19
+    std::uint8_t system = 0;          ///< 0 G54 .. 5 G59
+    bool inch = false;                ///< G20
+    bool incremental = false;         ///< G91
+    bool arc_absolute = false;        ///< G90.1
+    bool inverse_time = false;        ///< G93
+    bool retract_to_r = false;        ///< G99
+    PathControl path = PathControl::continuous;
+    Spindle spindle = Spindle::off;
+    bool mist = false;
+    bool flood = false;
+    bool ended = false;               ///< after M2, M30
+    std::int32_t tool_selected = -1;  ///< by T; -1: none yet
+    double tolerance_mm = 0;
+    double feed = 0;                  ///< G94: mm/s, G93: 1/s; 0: none yet
+    double feed_rotary = 0;           ///< G94: degrees/s, where no linear axis moves
+    double speed_rpm = 0;
+    std::uint32_t cycle_words = 0;    ///< which of the next four the current cycle has had
+    double cycle_r = 0;               ///< as written, mm
+    double cycle_z = 0;               ///< the drilling axis' word, as written, mm
+    double cycle_q = 0;               ///< mm
+    double cycle_p = 0;               ///< seconds
+    double cycle_level = 0;           ///< G98: machine coordinate of the drilling axis before the first hole
+};
+
+/// Where program coordinates lie: machine = program + offset.
+struct Frame {
+    std::array<Point, work_system_count> work = {};
+    Point g92 = {};
+    Point g92_kept = {};     ///< what G92.3 brings back
+    double tool_length = 0;  ///< G43.1, mm along Z
+    Point g28 = {};
+    Point g30 = {};
+    Point offset = {};       ///< sum of the active ones
+};
+
+/// Give it lines, take the steps of each: `if (auto done = interpreter.line(text, 7); done) while (auto* step = interpreter.pull()) ...`
+class Interpreter {
+public:
+    /// `settings` must pass check_settings.
+    explicit Interpreter(const Settings& settings);
+
+    /// Reads and checks one line (without its line end) and prepares its steps; steps of the line before that were not pulled are
+    /// dropped. After a problem nothing of the line has taken effect. Steps' texts point into `text`.
+    Outcome<void> line(std::string_view text, std::int32_t number);
+
+    /// The next step of the last line, valid until the next call; null: no more.
+    const Step* pull() {
+        if (todo_ == 0) return nullptr;
+        return pull_next();
+    }
+
+    const Point& position() const { return position_; }  ///< machine coordinates after the last line
+    const Modes& modes() const { return modes_; }
+    const Frame& frame() const { return frame_; }
+    const Block& block() const { return block_; }        ///< the words of the last line
+
+private:
+    enum Todo : std::uint32_t {
+        todo_comments = 1,
+        todo_speed = 2,
+        todo_tool_select = 4,
+        todo_tool_change = 8,
+        todo_spindle = 16,
+        todo_coolant = 32,
+        todo_dwell = 64,
+        todo_motion = 128,
+        todo_stop = 256
+    };
+    enum class Motion : std::uint8_t { single, by_way_of, cycle };
+
+    bool evaluate();
+    bool check_values();
+    bool apply_modes();
+    void apply_feed();
+    bool apply_machine_words();
+    void apply_end();
+    void commit();
+    bool nonmodal();
+    bool dwell();
+    bool set_offsets();
+    bool set_work_offset(int system, bool from_position);
+    bool tool_length();
+    bool shift();
+    bool reference();
+    bool motion();
+    bool motion_needs(std::int16_t code, bool wants_motion);
+    bool straight(std::int16_t code);
+    bool arc(std::int16_t code);
+    bool arc_centre(bool counter_clockwise, Planar& centre);
+    bool arc_within_limits(Planar centre, double radius);
+    bool cycle(std::int16_t code);
+    bool cycle_words(std::int16_t code);
+    bool cycle_within_limits(CyclePlan& plan);
+    bool targets(bool machine_coordinates);
+    bool feed_of(Move& move);
+    bool reach(int axis, double value, std::size_t column) {
+        return (value >= low_[axis] && value <= high_[axis]) || beyond(axis, value, column);
+    }
+    bool beyond(int axis, double value, std::size_t column);
+    bool no_feed();
+    bool unused();
+    const Step* pull_next();
+    const Step* pull_motion();
+    const Step* pull_comment();
+
+    bool fail_at(std::size_t column, GrblStatus status, std::string message, Trouble trouble = Trouble::bad_input);
+    bool fail_word(char letter, GrblStatus status, std::string message);
+    bool need_integer(char letter, double low, double high, const char* use);
+    std::size_t blame() const;            ///< column of the motion word, or of the first axis or offset word
+    std::string_view written(char letter) const;
+    double scale_of(int axis) const { return axis < 3 && next_.inch ? 25.4 : 1.0; }
+    double scaled(char letter) const { return next_.inch ? block_[letter] * 25.4 : block_[letter]; }
+    Frame& edit_frame();
+    const Frame& frame_now() const { return frame_edited_ ? next_frame_ : frame_; }
+    void sum_offsets(Frame& frame) const;
+    static std::size_t axis_letter(int axis) { return static_cast<std::size_t>(letter_index(axis_letters[axis])); }
+
+    Settings settings_;
+    Point low_ = {};
+    Point high_ = {};
+    std::uint32_t present_words_ = 0;
+
+    Modes modes_;
+    Frame frame_;
+    Point position_ = {};
+
+    // What the line being read will have changed when it is found good.
+    Modes next_;
+    Frame next_frame_;
+    bool frame_edited_ = false;
+    Point end_ = {};
+    std::uint32_t used_ = 0;
+    bool axis_words_taken_ = false;
+
+    Block block_;
+    Problem problem_;
+    std::int32_t line_ = 0;
+
+    // What is left to pull.
+    std::uint32_t todo_ = 0;
+    Motion motion_ = Motion::single;
+    bool on_the_way_ = false;
+    std::size_t comments_pulled_ = 0;
+    double dwell_seconds_ = 0;
+    Point dwell_at_ = {};
+    std::int16_t stop_code_ = 0;
+    Point via_ = {};
+    Step event_;
+    Step moving_;
+    Cycle cycle_;
+};
+
+}  // namespace motionrack::control::gcode

@@ -1,0 +1,145 @@
+// What axis words mean: which motion they belong to, where it ends, whether the machine reaches it, and at which feed.
+#include <bit>
+#include <fmt/format.h>
+#include <motionrack/control/gcode/codes.hpp>
+#include <motionrack/control/gcode/interpreter.hpp>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+bool is_arc(std::int16_t code) { return code == 20 || code == 30; }
+bool is_cycle(std::int16_t code) { return code >= 810; }
+
+}  // namespace
+
+bool Interpreter::motion() {
+    const bool is_explicit = block_.has_g(g_motion);
+    std::int16_t code = is_explicit ? block_.g[g_motion] : modes_.motion;
+    if (code == 800) code = no_motion;
+    next_.motion = code;
+    const bool own_axis_words = !axis_words_taken_ && (block_.words & axis_words) != 0;
+    const bool own_offsets = is_arc(code) && (block_.words & offset_words) != 0;
+    const bool wants_motion = own_axis_words || (own_offsets && !axis_words_taken_);
+    if (!wants_motion && !is_explicit && !block_.has_g(g_nonmodal)) return true;
+    if (!motion_needs(code, wants_motion)) return false;
+    if (!wants_motion) return true;
+    used_ |= axis_words;
+    if (is_arc(code)) return arc(code);
+    if (is_cycle(code)) return cycle(code);
+    return straight(code);
+}
+
+/// The rules for which words may stand beside a motion word, and the other way round.
+bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
+    const bool is_explicit = block_.has_g(g_motion);
+    if (axis_words_taken_ && is_explicit && code != no_motion) {
+        const GroupG other = block_.has_g(g_tool_length) && block_.g[g_tool_length] == 431 ? g_tool_length : g_nonmodal;
+        return fail_at(block_.g_column[g_motion], GrblStatus::axis_conflict,
+                       fmt::format("{} and {} on one line both use axis words; put them on two lines", name_of_g(code),
+                                   name_of_g(block_.g[other])));
+    }
+    if (block_.has_g(g_nonmodal) && block_.g[g_nonmodal] == 530) {
+        const std::size_t column = block_.g_column[g_nonmodal];
+        if (code != 0 && code != 10) {
+            return fail_at(column, GrblStatus::g53_without_line,
+                           fmt::format("G53 (machine coordinates) goes with G0 or G1 only, and {} is active; write e.g. G53 G0 Z0",
+                                       code == no_motion ? "no motion" : name_of_g(code)));
+        }
+        if (!wants_motion) {
+            return fail_at(column, GrblStatus::no_axis_words, "axis words missing: G53 needs a target; write e.g. G53 G0 Z0");
+        }
+    }
+    if (code == no_motion && wants_motion) {
+        const char letter = static_cast<char>('A' + std::countr_zero(block_.words & axis_words));
+        return fail_word(letter, GrblStatus::axis_words_unused,
+                       fmt::format("{}: no motion is active {}; write G0 (rapid) or G1 (feed) before it", written(letter),
+                                   is_explicit ? "after G80" : "here"));
+    }
+    if (is_explicit && !wants_motion && !axis_words_taken_ && (is_arc(code) || is_cycle(code))) {
+        return fail_at(block_.g_column[g_motion], GrblStatus::no_axis_words,
+                       is_arc(code) ? fmt::format("{} needs an end and a centre; write e.g. {} X10 Y0 I5 J0", name_of_g(code),
+                                                  name_of_g(code))
+                                    : fmt::format("{} needs a place and a depth; write e.g. {} X10 Y10 Z-5 R2", name_of_g(code),
+                                                  name_of_g(code)));
+    }
+    return true;
+}
+
+/// Ends of the axes that have words.
+bool Interpreter::targets(bool machine_coordinates) {
+    const Point& offset = frame_now().offset;
+    for (int axis = 0; axis < axis_count; ++axis) {
+        const std::size_t index = axis_letter(axis);
+        if ((block_.words >> index & 1) == 0) continue;
+        const double value = block_.value[index] * scale_of(axis);
+        const double target = machine_coordinates ? value : next_.incremental ? position_[axis] + value : value + offset[axis];
+        if (!reach(axis, target, block_.column[index])) return false;
+        end_[axis] = target;
+    }
+    return true;
+}
+
+bool Interpreter::straight(std::int16_t code) {
+    if (!targets(block_.has_g(g_nonmodal) && block_.g[g_nonmodal] == 530)) return false;
+    Move& move = moving_.move;
+    move.kind = code == 0 ? MoveKind::traverse : MoveKind::feed;
+    move.path = next_.path;
+    move.tolerance_mm = next_.tolerance_mm;
+    move.line = line_;
+    move.end = end_;
+    move.feed = 0;
+    move.feed_mode = FeedMode::units_per_second;
+    if (code != 0 && !feed_of(move)) return false;
+    moving_.line = line_;
+    motion_ = Motion::single;
+    todo_ |= todo_motion;
+    return true;
+}
+
+bool Interpreter::feed_of(Move& move) {
+    if (next_.inverse_time) {
+        if (!block_.has('F') || next_.feed == 0) return no_feed();
+        move.feed_mode = FeedMode::inverse_time;
+        move.feed = next_.feed;
+        return true;
+    }
+    if (next_.feed == 0) return no_feed();
+    const bool rotary_only = end_[0] == position_[0] && end_[1] == position_[1] && end_[2] == position_[2] &&
+                             (block_.words & rotary_words) != 0 && move.kind == MoveKind::feed;
+    move.feed_mode = FeedMode::units_per_second;
+    move.feed = rotary_only ? next_.feed_rotary : next_.feed;
+    return true;
+}
+
+bool Interpreter::no_feed() {
+    const std::string code = name_of_g(next_.motion);
+    if (block_.has('F')) {
+        return fail_word('F', GrblStatus::no_feed,
+                       fmt::format("{}: {} cannot move at feed 0; write e.g. F600", written('F'), code));
+    }
+    if (next_.inverse_time) {
+        return fail_at(blame(), GrblStatus::no_feed,
+                       fmt::format("F word missing: in G93 every {} line needs its own; write e.g. F2 (the move takes 1/2 minute)",
+                                   code));
+    }
+    return fail_at(blame(), GrblStatus::no_feed,
+                   fmt::format("F word missing: {} needs a feed; write e.g. F600 ({}/min) on this line or before it", code,
+                               next_.inch ? "inch" : "mm"));
+}
+
+bool Interpreter::beyond(int axis, double value, std::size_t column) {
+    const AxisLimits& limits = settings_.limits[axis];
+    const char* unit = axis < 3 ? "mm" : "degrees";
+    const double offset = frame_now().offset[axis];
+    const std::string shift =
+        offset == 0 ? std::string() : fmt::format(" (the work offset is {:.6g})", offset);
+    return fail_at(column, GrblStatus::travel_exceeded,
+                   fmt::format("{} leads to {} = {:.6g} {} in machine coordinates{}, but the axis goes from {:.6g} to {:.6g}; "
+                               "nothing of this line was done; move the work or change its offset",
+                               word_at(block_.text, column), axis_letters[axis], value, unit, shift, limits.min_position,
+                               limits.max_position),
+                   Trouble::refused);
+}
+
+}  // namespace motionrack::control::gcode

@@ -1,0 +1,156 @@
+// G2 and G3: centre, turns, and whether the machine reaches every point of the arc.
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <motionrack/control/gcode/arc.hpp>
+#include <motionrack/control/gcode/codes.hpp>
+#include <motionrack/control/gcode/interpreter.hpp>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+/// Start and end may differ in radius by this much (mm), or by 0.1 % of the radius up to the second number; as Grbl, LinuxCNC.
+constexpr double radius_difference_mm = 0.005;
+constexpr double radius_difference_relative = 0.001;
+constexpr double radius_difference_most_mm = 0.5;
+
+/// An end this near to the start (mm) is the start, and the arc a full turn.
+constexpr double same_point_mm = 1e-7;
+
+constexpr double most_turns = 100'000;
+
+constexpr std::array<std::array<std::uint8_t, 3>, 3> plane_axes = {{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
+constexpr std::array<char, 3> offset_letters = {'I', 'J', 'K'};
+constexpr std::array<const char*, 3> plane_names = {"G17 (XY)", "G18 (XZ)", "G19 (YZ)"};
+
+}  // namespace
+
+bool Interpreter::arc(std::int16_t code) {
+    if (!targets(false)) return false;
+    const auto& axes = plane_axes[next_.plane];
+    const bool counter_clockwise = code == 30;
+    double turns = 1;
+    if (block_.has('P') && (used_ & letter_bit('P')) == 0) {
+        if (!need_integer('P', 1, most_turns, "the number of turns of an arc")) return false;
+        turns = block_['P'];
+        used_ |= letter_bit('P');
+    }
+    Planar centre;
+    if (!arc_centre(counter_clockwise, centre)) return false;
+    Move& move = moving_.move;
+    move = Move{};
+    move.kind = MoveKind::arc;
+    move.path = next_.path;
+    move.tolerance_mm = next_.tolerance_mm;
+    move.line = line_;
+    move.first = axes[0];
+    move.second = axes[1];
+    move.turns = static_cast<std::int32_t>(counter_clockwise ? turns : -turns);
+    move.centre_first = centre.first;
+    move.centre_second = centre.second;
+    move.end = end_;
+    if (!feed_of(move)) return false;
+    const Planar from = {position_[axes[0]] - centre.first, position_[axes[1]] - centre.second};
+    const Planar to = {end_[axes[0]] - centre.first, end_[axes[1]] - centre.second};
+    if (!arc_within_limits(centre, std::max(length(from), length(to)))) return false;
+    moving_.line = line_;
+    motion_ = Motion::single;
+    todo_ |= todo_motion;
+    return true;
+}
+
+/// Finds the centre from R or from I J K, and brings an end that is the start but for rounding onto it.
+bool Interpreter::arc_centre(bool counter_clockwise, Planar& centre) {
+    const auto& axes = plane_axes[next_.plane];
+    const Planar start = {position_[axes[0]], position_[axes[1]]};
+    Planar end = {end_[axes[0]], end_[axes[1]]};
+    const bool closed =
+        std::fabs(end.first - start.first) <= same_point_mm && std::fabs(end.second - start.second) <= same_point_mm;
+    const std::string code = name_of_g(next_.motion);
+    if (block_.has('R')) {
+        used_ |= letter_bit('R');
+        const std::uint32_t plane_words = letter_bit(axis_letters[axes[0]]) | letter_bit(axis_letters[axes[1]]);
+        if ((block_.words & plane_words) == 0) {
+            return fail_at(blame(), GrblStatus::no_plane_axis,
+                           fmt::format("an arc with R needs an end in its plane, {} ({} or {})", plane_names[next_.plane],
+                                       axis_letters[std::min(axes[0], axes[1])], axis_letters[std::max(axes[0], axes[1])]));
+        }
+        if (block_['R'] == 0) return fail_word('R', GrblStatus::bad_target, "R0: an arc cannot have radius 0; use G1 for a line");
+        if (closed) {
+            return fail_word('R', GrblStatus::bad_target,
+                           fmt::format("{}: an arc with R cannot end where it starts; write a full turn with offsets, e.g. {} I10 J0",
+                                       written('R'), code));
+        }
+        const double radius = scaled('R');
+        if (centre_from_radius(start, end, radius, counter_clockwise, centre)) return true;
+        const double chord = length({end.first - start.first, end.second - start.second});
+        return fail_word('R', GrblStatus::bad_radius,
+                       fmt::format("{}: the radius is {:.6g} mm but the end is {:.6g} mm away; it must be at least {:.6g} mm",
+                                   written('R'), std::fabs(radius), chord, chord / 2));
+    }
+    const std::array<char, 2> letters = {offset_letters[axes[0]], offset_letters[axes[1]]};
+    if (!block_.has(letters[0]) && !block_.has(letters[1])) {
+        return fail_at(blame(), GrblStatus::no_offsets,
+                       fmt::format("{} needs the centre ({} {} in {}) or the radius (R)", code, std::min(letters[0], letters[1]),
+                                   std::max(letters[0], letters[1]), plane_names[next_.plane]));
+    }
+    std::array<double, 2> middle = {start.first, start.second};
+    for (int i = 0; i < 2; ++i) {
+        used_ |= letter_bit(letters[i]);
+        if (block_.has(letters[i])) {
+            middle[i] = scaled(letters[i]) + (next_.arc_absolute ? frame_now().offset[axes[i]] : middle[i]);
+        } else if (next_.arc_absolute) {
+            return fail_at(blame(), GrblStatus::no_offsets,
+                           fmt::format("{} word missing: in G90.1 (absolute centres) {} needs both {} and {}", letters[i], code,
+                                       letters[0], letters[1]));
+        }
+    }
+    centre = {middle[0], middle[1]};
+    if (closed) {
+        end_[axes[0]] = start.first;
+        end_[axes[1]] = start.second;
+        end = start;
+    }
+    const double radius = length({start.first - centre.first, start.second - centre.second});
+    const double end_radius = length({end.first - centre.first, end.second - centre.second});
+    const char offset_letter = block_.has(letters[0]) ? letters[0] : letters[1];
+    if (radius == 0 || end_radius == 0) {
+        return fail_word(offset_letter, GrblStatus::bad_target,
+                       fmt::format("{}: the radius of this arc is 0; its {} lies on the centre", written(offset_letter),
+                                   radius == 0 ? "start" : "end"));
+    }
+    const double difference = std::fabs(radius - end_radius);
+    if (difference > radius_difference_mm &&
+        (difference > radius_difference_most_mm || difference > radius_difference_relative * std::max(radius, end_radius))) {
+        return fail_word(offset_letter, GrblStatus::bad_target,
+                       fmt::format("{}: the arc starts {:.6g} mm from its centre but ends {:.6g} mm from it; they may differ by "
+                                   "0.005 mm or 0.1 %; correct {} or the end",
+                                   written(offset_letter), radius, end_radius, block_.has(letters[0]) && block_.has(letters[1]) ? "the offsets" : "the offset"));
+    }
+    return true;
+}
+
+bool Interpreter::arc_within_limits(Planar centre, double radius) {
+    const auto& axes = plane_axes[next_.plane];
+    const std::array<double, 4> extremes = {centre.first + radius, centre.second + radius, centre.first - radius,
+                                            centre.second - radius};
+    const std::array<int, 4> axis = {axes[0], axes[1], axes[0], axes[1]};
+    bool inside = true;
+    for (int i = 0; i < 4; ++i) inside = inside && extremes[i] >= low_[axis[i]] && extremes[i] <= high_[axis[i]];
+    if (inside) return true;
+    const Planar from = {position_[axes[0]] - centre.first, position_[axes[1]] - centre.second};
+    const Planar to = {end_[axes[0]] - centre.first, end_[axes[1]] - centre.second};
+    const bool full = std::abs(moving_.move.turns) > 1 || (from.first == to.first && from.second == to.second);
+    const auto passed = full ? std::array<bool, 4>{true, true, true, true}
+                             : extremes_passed(from, to, moving_.move.turns > 0);
+    for (int i = 0; i < 4; ++i) {
+        if (passed[i] && !reach(axis[i], extremes[i], blame())) {
+            problem_.message = "on its way this arc goes too far: " + problem_.message;
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace motionrack::control::gcode

@@ -1,0 +1,131 @@
+// G81, G82, G83: from words to a checked plan of the holes.
+#include <algorithm>
+#include <bit>
+#include <fmt/format.h>
+#include <motionrack/control/gcode/codes.hpp>
+#include <motionrack/control/gcode/interpreter.hpp>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+constexpr double most_repeats = 10'000;
+constexpr double most_pecks = 100'000;
+
+constexpr std::array<std::array<std::uint8_t, 3>, 3> plane_axes = {{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
+
+/// Marks in Modes::cycle_words for the word of the drilling axis, whatever its letter.
+constexpr std::uint32_t depth_word = letter_bit('Z');
+
+}  // namespace
+
+/// Words that the cycle keeps from line to line; each must have been given since the cycle's own G word.
+bool Interpreter::cycle_words(std::int16_t code) {
+    const char depth = axis_letters[plane_axes[next_.plane][2]];
+    if (modes_.motion != code) next_.cycle_words = 0;
+    const auto keep = [&](char letter, std::uint32_t mark, double& kept, double value) {
+        if (!block_.has(letter) || (used_ & letter_bit(letter) & ~axis_words) != 0) return;
+        kept = value;
+        next_.cycle_words |= mark;
+        used_ |= letter_bit(letter);
+    };
+    if (block_.has('R')) keep('R', letter_bit('R'), next_.cycle_r, scaled('R'));
+    if (block_.has(depth)) keep(depth, depth_word, next_.cycle_z, scaled(depth));
+    if (code == 820 && block_.has('P')) keep('P', letter_bit('P'), next_.cycle_p, block_['P']);
+    if (code == 830 && block_.has('Q')) keep('Q', letter_bit('Q'), next_.cycle_q, scaled('Q'));
+    const std::uint32_t needed = letter_bit('R') | depth_word | (code == 820 ? letter_bit('P') : 0) |
+                                 (code == 830 ? letter_bit('Q') : 0);
+    const std::uint32_t missing = needed & ~next_.cycle_words;
+    if (missing == 0) return true;
+    const bool no_depth = (missing & depth_word) != 0;
+    const char letter = no_depth ? depth : static_cast<char>('A' + std::countr_zero(missing));
+    const char* what = no_depth          ? "the depth of the hole"
+                       : letter == 'R' ? "the height to which to rapid, e.g. R2"
+                       : letter == 'P' ? "the wait at the bottom in seconds, e.g. P0.5"
+                                       : "the depth of a peck, e.g. Q1.5";
+    return fail_at(blame(), GrblStatus::word_missing,
+                   fmt::format("{} word missing: {} needs {}", letter, name_of_g(code), what));
+}
+
+bool Interpreter::cycle(std::int16_t code) {
+    if ((block_.words & rotary_words) != 0) {
+        const char letter = static_cast<char>('A' + std::countr_zero(block_.words & rotary_words));
+        return fail_word(letter, GrblStatus::unused_word,
+                       fmt::format("{}: a drilling cycle does not turn axes; put the turn on a line before it", written(letter)));
+    }
+    if (next_.inverse_time) {
+        return fail_at(blame(), GrblStatus::no_feed,
+                       fmt::format("{} cannot be done in G93 (inverse time); write G94 and a feed before it", name_of_g(code)));
+    }
+    const auto& axes = plane_axes[next_.plane];
+    const int third = axes[2];
+    const char depth_letter = axis_letters[third];
+    if (!cycle_words(code)) return false;
+    CyclePlan plan;
+    if (block_.has('L')) {
+        if (!need_integer('L', 1, most_repeats, "the number of holes")) return false;
+        plan.repeats = static_cast<std::int32_t>(block_['L']);
+        used_ |= letter_bit('L');
+    }
+    plan.code = code;
+    plan.first = axes[0];
+    plan.second = axes[1];
+    plan.third = axes[2];
+    plan.from = position_;
+    plan.level = position_[third];
+    const double offset = frame_now().offset[third];
+    plan.r = next_.incremental ? plan.level + next_.cycle_r : next_.cycle_r + offset;
+    plan.bottom = next_.incremental ? plan.r + next_.cycle_z : next_.cycle_z + offset;
+    if (plan.r < plan.bottom) {
+        return fail_at(block_.has('R') ? block_.column[letter_index('R')] : blame(), GrblStatus::bad_target,
+                       fmt::format("R is at {} = {:.6g} mm, below the bottom of the hole at {:.6g} mm; R must be above it",
+                                   depth_letter, plan.r - offset, plan.bottom - offset));
+    }
+    const bool goes_on = modes_.motion >= 810 && modes_.plane == next_.plane;
+    if (!goes_on) next_.cycle_level = plan.level;
+    plan.clear = next_.retract_to_r ? plan.r : std::max(plan.r, next_.cycle_level);
+    plan.peck = next_.cycle_q;
+    plan.clearance = settings_.peck_clearance_mm;
+    plan.seconds = next_.cycle_p;
+    if (code == 830 && !(plan.peck * most_pecks >= plan.r - plan.bottom && plan.peck > 0)) {
+        return fail_at(block_.has('Q') ? block_.column[letter_index('Q')] : blame(), GrblStatus::bad_target,
+                       fmt::format("the peck depth Q is {:.6g} mm for a hole of {:.6g} mm; it must be above 0 and make at most 100000 "
+                                   "pecks",
+                                   plan.peck, plan.r - plan.bottom));
+    }
+    plan.pattern.path = PathControl::exact_path;
+    plan.pattern.line = line_;
+    plan.pattern.kind = MoveKind::feed;
+    if (next_.feed == 0) return no_feed();
+    plan.pattern.feed = next_.feed;
+    if (!cycle_within_limits(plan)) return false;
+    cycle_.begin(plan);
+    moving_.line = line_;
+    motion_ = Motion::cycle;
+    todo_ |= todo_motion;
+    return true;
+}
+
+/// The holes lie on a straight line, so the first and the last decide. Fills the plan's steps and first hole, and the end.
+bool Interpreter::cycle_within_limits(CyclePlan& plan) {
+    plan.pattern.end = position_;
+    for (const int axis : {static_cast<int>(plan.first), static_cast<int>(plan.second)}) {
+        const char letter = axis_letters[axis];
+        if (!block_.has(letter)) continue;
+        const double value = scaled(letter);
+        double& step = axis == plan.first ? plan.step_first : plan.step_second;
+        const std::size_t column = block_.column[letter_index(letter)];
+        if (next_.incremental) step = value;
+        else plan.pattern.end[axis] = value + frame_now().offset[axis];
+        end_[axis] = plan.pattern.end[axis] + plan.repeats * step;
+        if (!reach(axis, plan.pattern.end[axis] + step, column) || !reach(axis, end_[axis], column)) return false;
+    }
+    const char depth = axis_letters[plan.third];
+    const std::size_t r_column = block_.has('R') ? block_.column[letter_index('R')] : blame();
+    const std::size_t depth_column = block_.has(depth) ? block_.column[letter_index(depth)] : blame();
+    end_[plan.third] = plan.clear;
+    if (plan.clear != plan.level && !reach(plan.third, plan.clear, r_column)) return false;
+    return reach(plan.third, plan.r, r_column) && reach(plan.third, plan.bottom, depth_column);
+}
+
+}  // namespace motionrack::control::gcode
