@@ -1,0 +1,109 @@
+// Look-ahead: moves go in one by one, planned moves come out in order, each with the speeds at its ends.
+//
+//   push --> | ready: speeds final | open: speeds may still rise |
+//   pull <---'                     '-- entry speed is committed
+//
+// An open window ends at rest, so whatever happens next the machine can stop on its path. Speeds are found backwards
+// from that rest (what can still be braked), then forwards (what can be reached). The backward pass does not run at
+// every push but when a quarter more than the window is open; it ends where nothing can change any more, which is where
+// an entry speed is limited by its joint and not by braking. So a push costs the same for any window.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/base/result.hpp>
+#include <motionrack/control/geometry.hpp>
+#include <motionrack/control/limits.hpp>
+#include <motionrack/control/move.hpp>
+#include <motionrack/control/path_limits.hpp>
+#include <motionrack/control/plan.hpp>
+#include <vector>
+
+namespace motionrack::control {
+
+struct PlannerSettings {
+    /// Every move is planned with at least this many moves after it in view, unless the path stands still before; 1 ..
+    /// 1'000'000.
+    int window = 1024;
+};
+
+/// Plans a path for a machine. Allocates only when it is made and for the text of an error.
+///
+///     for (const Move& move : program) {
+///         while (!planner.has_room() && planner.pull(planned)) use(planned);
+///         planner.push(move);
+///     }
+///     planner.flush();
+///     while (planner.pull(planned)) use(planned);
+class Planner {
+  public:
+    /// `start`: where the machine stands, at rest.
+    Planner(const MachineLimits& limits, const Point& start, PlannerSettings settings = {});
+
+    /// Adds a move that starts where the last one ended. Needs has_room(). A move of no length is left out; a dwell
+    /// ends the window. Refused, with the planner as it was: numbers that are not finite, a feed that is not above 0,
+    /// an arc without a plane or turns, an axis the machine does not have.
+    Result<void> push(const Move& move);
+
+    /// False only while there are planned moves to pull.
+    bool has_room() const { return tail_ - head_ <= mask_; }
+
+    /// No move follows for now: the path comes to rest at its present end, and all of it can be pulled.
+    void flush();
+
+    /// The next planned move, in the order of push; false if none is ready.
+    bool pull(PlannedMove& planned);
+
+    /// Where the path ends so far.
+    const Point& position() const { return position_; }
+
+  private:
+    /// What the two passes need of a move, apart from the rest so that they stay in the cache.
+    struct Node {
+        double joint;   ///< square of the greatest speed at the start
+        double reach;   ///< change of the square of the speed over the move: 2 accel length
+        double cruise;  ///< square of the greatest speed on the move
+        double entry;   ///< square of the speed at the start from which the end of the window can be reached
+    };
+
+    Node& node(std::uint64_t index) { return nodes_[index & mask_]; }
+    PlannedMove& slot(std::uint64_t index) { return slots_[index & mask_]; }
+    Result<void> check(const Move& move, const Geometry& path) const;
+    void append_dwell(const Move& move);
+    void append(const Move& move, const Geometry& path, const AlongPath& along, double joint);
+    void backward();
+    void forward(std::uint64_t until);
+
+    PathLimits limits_;
+    std::vector<PlannedMove> slots_;
+    std::vector<Node> nodes_;
+    std::uint64_t mask_ = 0;
+    std::uint64_t batch_ = 0;    ///< so many open moves start the passes
+    std::uint64_t chunk_ = 0;    ///< at least so many then become ready
+    std::uint64_t head_ = 0;     ///< next to pull
+    std::uint64_t ready_ = 0;    ///< first open move
+    std::uint64_t tail_ = 0;     ///< one past the last move
+    std::uint64_t settled_ = 0;  ///< the entry speed of this move and of all before it is final
+    double committed_ = 0;       ///< entry speed of the first open move
+    Point position_;
+    Geometry last_;  ///< of the last open move
+    AlongPath last_along_;
+    PathControl last_path_ = PathControl::exact_stop;
+    double last_tolerance_mm_ = 0;
+};
+
+/// Seconds that a planned move takes: a dwell its seconds, a move its trapezoid, or its S-curve where it has a jerk.
+double seconds_of(const PlannedMove& planned);
+
+/// Sums over planned moves, for reports.
+struct PlanSummary {
+    std::int64_t moves = 0;
+    std::int64_t dwells = 0;
+    std::int64_t stops = 0;  ///< moves that end at rest
+    double seconds = 0;      ///< all, dwells included
+    double path_mm = 0;      ///< XYZ path; moves of ABC alone add nothing
+    double top_speed = 0;    ///< mm/s, of moves of XYZ
+
+    void add(const PlannedMove& planned);
+};
+
+}  // namespace motionrack::control

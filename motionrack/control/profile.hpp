@@ -1,0 +1,133 @@
+// Speed profiles of one axis: trapezoids between any two speeds, and jerk-limited S-curves from rest to rest.
+//
+//   speed   trapezoid                      S-curve (7 phases)
+//             ____________                      ____________
+//            /            \                   ,'            `.          phases 0 2 4 6: jerk +j -j -j +j
+//           /              \                 /                \         phases 1 5:     acceleration constant
+//   entry  /                \  exit        ,'                  `.       phase  3:       cruise
+//         |  0  |    1   |  2 |            | 0|1|2|    3    |4|5|6|     any phase may last 0 s
+//
+// Units: any length (mm, degrees, pulses) and seconds. Plans take no loops and no C library functions beyond sqrt.
+#pragma once
+
+#include <array>
+
+namespace motionrack::control {
+
+/// Where an axis is in its profile.
+struct ProfileSample {
+    double position;  ///< from the start of the profile
+    double speed;
+    double accel;
+    double jerk;  ///< of the phase that begins or lasts here; 0 for trapezoids
+};
+
+/// The quickest way over a distance between two speeds, within a speed and an acceleration.
+class Trapezoid {
+  public:
+    Trapezoid() = default;
+
+    /// From rest to rest. `distance` >= 0, `speed` > 0, `accel` > 0, all finite.
+    Trapezoid(double distance, double speed, double accel);
+
+    /// From `entry` to `exit`, both 0 .. `speed`. If the distance is too short to get from the one to the other, the
+    /// exit speed becomes the nearest that can be reached; see exit().
+    Trapezoid(double distance, double entry, double exit, double speed, double accel);
+
+    double distance() const { return distance_; }  ///< length
+    double duration() const { return duration_; }  ///< s
+    double entry() const { return entry_; }        ///< speed at the start
+    double exit() const { return exit_; }          ///< speed at the end
+    double peak() const { return peak_; }          ///< greatest speed reached
+
+    /// Ends of the phases (speeding up, cruise, slowing down), s.
+    std::array<double, 3> phase_ends() const { return {cruise_from_, cruise_until_, duration_}; }
+
+    /// The state at `t` s; before 0 the start, from duration() on the end, at which the distance is reached exactly.
+    ProfileSample sample(double t) const;
+
+  private:
+    void settle(double peak_squared, double speed, double per_accel);
+    void reach_what_can_be_reached();
+
+    double distance_ = 0;
+    double duration_ = 0;
+    double entry_ = 0;
+    double exit_ = 0;
+    double accel_ = 0;
+    double peak_ = 0;
+    double cruise_from_ = 0;
+    double cruise_until_ = 0;
+    double cruise_start_ = 0;  ///< position at cruise_from_
+};
+
+/// The quickest way from rest to rest within a speed, an acceleration and a jerk. It is symmetric about its middle, so
+/// only the first half is kept: three phases and half the cruise.
+class SCurve {
+  public:
+    SCurve() = default;
+
+    /// `distance` >= 0, the others > 0, all finite.
+    SCurve(double distance, double speed, double accel, double jerk);
+
+    double distance() const { return distance_; }      ///< length
+    double duration() const { return duration_; }      ///< s
+    double peak() const { return peak_; }              ///< greatest speed reached
+    double peak_accel() const { return peak_accel_; }  ///< greatest acceleration reached
+
+    /// Ends of the seven phases, s.
+    std::array<double, 7> phase_ends() const;
+
+    /// The state at `t` s; before 0 the start, from duration() on the end, at which the distance is reached exactly.
+    ProfileSample sample(double t) const;
+
+  private:
+    /// A cubic in the time since the phase's own zero.
+    struct Phase {
+        double zero = 0;
+        double position = 0;
+        double speed = 0;
+        double accel = 0;
+        double jerk = 0;
+    };
+
+    double distance_ = 0;
+    double duration_ = 0;
+    double peak_ = 0;
+    double peak_accel_ = 0;
+    std::array<double, 3> ends_ = {};  ///< of phases 0, 1, 2
+    std::array<Phase, 4> phases_ = {};
+};
+
+/// The cube root of x >= 0 to 5e-16 of its value, with the same bits everywhere.
+double cube_root(double x);
+
+inline ProfileSample Trapezoid::sample(double t) const {
+    if (t < cruise_from_) {
+        if (t < 0) t = 0;
+        return {t * (entry_ + 0.5 * accel_ * t), entry_ + accel_ * t, accel_, 0};
+    }
+    if (t < cruise_until_) return {cruise_start_ + peak_ * (t - cruise_from_), peak_, 0, 0};
+    if (t < duration_) {
+        const double left = duration_ - t;
+        return {distance_ - left * (exit_ + 0.5 * accel_ * left), exit_ + accel_ * left, -accel_, 0};
+    }
+    return {distance_, exit_, 0, 0};
+}
+
+inline ProfileSample SCurve::sample(double t) const {
+    const double left = duration_ - t;
+    if (!(left > 0)) return {distance_, 0, 0, 0};
+    if (t < 0) t = 0;
+    const bool first_half = t <= left;
+    const double u = first_half ? t : left;
+    const int phase = (u >= ends_[0]) + (u >= ends_[1]) + (u >= ends_[2]);
+    const Phase& p = phases_[static_cast<std::size_t>(phase)];
+    const double s = u - p.zero;
+    const double position = p.position + s * (p.speed + s * (0.5 * p.accel + s * (1.0 / 6 * p.jerk)));
+    const double speed = p.speed + s * (p.accel + 0.5 * p.jerk * s);
+    const double accel = p.accel + p.jerk * s;
+    return {first_half ? position : distance_ - position, speed, first_half ? accel : -accel, p.jerk};
+}
+
+}  // namespace motionrack::control
