@@ -1,10 +1,10 @@
-// Trigonometry by Taylor polynomials after an exact reduction of the argument; constants are split in two or three doubles.
-
-#include <motionrack/base/trig.hpp>
+// Trigonometry by Taylor polynomials after an exact reduction of the argument; constants are split in two or three
+// doubles.
 
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <motionrack/base/trig.hpp>
 
 namespace motionrack {
 namespace {
@@ -118,10 +118,14 @@ SinCos sin_cos(double radians) {
     const double s = sin_core(x);
     const double c = cos_core(x);
     switch (quadrant & 3) {
-        case 0: return {s, c};
-        case 1: return {c, -s};
-        case 2: return {-s, -c};
-        default: return {-c, s};
+        case 0:
+            return {s, c};
+        case 1:
+            return {c, -s};
+        case 2:
+            return {-s, -c};
+        default:
+            return {-c, s};
     }
 }
 
@@ -147,6 +151,8 @@ double atan2(double y, double x) {
     return std::copysign(angle.high + angle.low, y);
 }
 
-double acos(double x) { return 2 * atan2(std::sqrt(1 - x), std::sqrt(1 + x)); }
+double acos(double x) {
+    return 2 * atan2(std::sqrt(1 - x), std::sqrt(1 + x));
+}
 
 }  // namespace motionrack

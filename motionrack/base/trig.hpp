@@ -14,8 +14,8 @@ struct SinCos {
     double cos;
 };
 
-/// Sine and cosine of `radians`, each within 1 ulp (measured: 0.8) for |radians| <= 1e6. Up to 1e9 the angle is off by at
-/// most 1e-6 rad; beyond 1e9 and for infinities and NaN both are NaN.
+/// Sine and cosine of `radians`, each within 1 ulp (measured: 0.8) for |radians| <= 1e6. Up to 1e9 the angle is off by
+/// at most 1e-6 rad; beyond 1e9 and for infinities and NaN both are NaN.
 SinCos sin_cos(double radians);
 
 /// The angle of (x, y) from the positive x axis, in [-pi, pi] rad, within 1.2 ulp (measured: 1.05). Zeros, their signs

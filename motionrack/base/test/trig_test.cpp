@@ -23,7 +23,9 @@ double ulps(double value, long double truth) {
     return std::fabs(static_cast<double>((static_cast<long double>(value) - truth) / static_cast<long double>(ulp)));
 }
 
-bool wide_long_double() { return std::numeric_limits<long double>::digits >= 64; }
+bool wide_long_double() {
+    return std::numeric_limits<long double>::digits >= 64;
+}
 
 double worst_sin_cos(double range, std::mt19937_64& random) {
     std::uniform_real_distribution<double> angle(-range, range);
