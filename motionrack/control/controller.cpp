@@ -1,0 +1,102 @@
+// The loop of a part program.
+#include <motionrack/control/controller.hpp>
+
+#include <fmt/format.h>
+
+namespace motionrack::control {
+
+namespace {
+
+MachineLimits with_reserve(MachineLimits limits, double kept_back) {
+    for (AxisLimits& axis : limits) axis.max_accel *= 1 - kept_back;
+    return limits;
+}
+
+std::string words_of(const gcode::Step& step) {
+    using gcode::StepKind;
+    switch (step.kind) {
+        case StepKind::comment: return fmt::format("comment: {}", step.text);
+        case StepKind::message: return fmt::format("message: {}", step.text);
+        case StepKind::spindle_speed: return fmt::format("spindle speed {} rpm", step.speed_rpm);
+        case StepKind::spindle:
+            if (step.spindle == gcode::Spindle::off) return "spindle off";
+            return fmt::format("spindle {} at {} rpm", step.spindle == gcode::Spindle::clockwise ? "clockwise" : "counter-clockwise",
+                               step.speed_rpm);
+        case StepKind::coolant: return fmt::format("coolant: mist {}, flood {}", step.mist ? "on" : "off", step.flood ? "on" : "off");
+        case StepKind::tool_select: return fmt::format("tool {} selected", step.tool);
+        case StepKind::tool_change: return fmt::format("tool {} changed in", step.tool);
+        case StepKind::pause: return "pause (M0): nobody waits in simulated time, the program goes on";
+        case StepKind::optional_pause: return "optional pause (M1): not asked for, the program goes on";
+        case StepKind::end: return "end of program";
+        case StepKind::move: break;
+    }
+    return {};
+}
+
+}  // namespace
+
+Controller::Controller(PathAxes& axes, const ControllerSettings& settings)
+    : axes_(axes),
+      settings_(settings),
+      planner_(with_reserve(settings.gcode.limits, settings.kept_back), settings.gcode.start, settings.planner) {}
+
+Result<void> Controller::hand_over() {
+    PlannedMove planned;
+    while (planner_.pull(planned)) {
+        summary_.add(planned);
+        if (on_block_) on_block_(blocks_, planned);
+        ++blocks_;
+        MOTIONRACK_CHECK(axes_.follow(planned));
+    }
+    return {};
+}
+
+void Controller::remember(const gcode::Step& step, ProgramRun& run) {
+    if (run.events.size() < settings_.event_limit)
+        run.events.push_back({step.line, blocks_ - 1, words_of(step)});
+    else
+        ++run.events_left_out;
+}
+
+Result<void> Controller::take(const gcode::Step& step, ProgramRun& run) {
+    using gcode::StepKind;
+    if (step.kind == StepKind::move) {
+        if (!planner_.has_room()) MOTIONRACK_CHECK(hand_over());
+        return planner_.push(step.move);
+    }
+    // What needs the machine at rest waits for it; a spindle or coolant word does not interrupt the path.
+    if (step.kind == StepKind::tool_change || step.kind == StepKind::pause || step.kind == StepKind::end) {
+        planner_.flush();
+        MOTIONRACK_CHECK(hand_over());
+    }
+    remember(step, run);
+    if (step.kind == StepKind::end) run.ended = true;
+    return {};
+}
+
+Result<void> Controller::run(std::string_view text, const std::string& file, ProgramRun& run) {
+    MOTIONRACK_CHECK(axes_.begin());
+    gcode::Reader reader(text, settings_.gcode, file);
+    Result<void> outcome;
+    while (outcome) {
+        auto step = reader.next();
+        run.lines = reader.line();
+        if (!step) {
+            outcome = tl::unexpected<Error>(step.error());
+            break;
+        }
+        if (*step == nullptr) break;
+        outcome = take(**step, run);
+    }
+    // What was read before a problem is driven to its end, so that the machine stands where the program says.
+    if (outcome || outcome.error().trouble == Trouble::bad_input) {
+        planner_.flush();
+        Result<void> rest = hand_over();
+        if (rest) rest = axes_.finish();
+        if (outcome) outcome = rest;
+    }
+    run.plan = summary_;
+    return outcome;
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,66 @@
+// Runs a part program: the reader's moves go through look-ahead to the axes, in constant memory, whatever the program's length.
+//
+//   text --Reader--> Move --Planner--> PlannedMove --PathAxes--> card
+//
+// The whole text is read and checked before anything moves (check_program); run reads it a second time.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <motionrack/control/gcode/reader.hpp>
+#include <motionrack/control/path.hpp>
+#include <motionrack/control/path_axes.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::control {
+
+/// Something the program asked for beside motion, in order, with the planned move that was last handed out before it.
+struct ProgramEvent {
+    int line = 0;
+    std::int64_t after_block = -1;
+    std::string text;  ///< "spindle clockwise at 12000 rpm", "message: clamp the part"
+};
+
+struct ControllerSettings {
+    gcode::Settings gcode;          ///< limits, start position, offsets
+    PlannerSettings planner;
+    double kept_back = 0;           ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
+    std::size_t event_limit = 2000; ///< events kept; later ones are counted only
+};
+
+/// What came of a program.
+struct ProgramRun {
+    PlanSummary plan;
+    std::int64_t lines = 0;            ///< lines read
+    std::vector<ProgramEvent> events;
+    std::int64_t events_left_out = 0;
+    bool ended = false;                ///< by M2 or M30
+};
+
+class Controller {
+  public:
+    Controller(PathAxes& axes, const ControllerSettings& settings);
+
+    /// Called with each planned move just before the axes get it (block numbers from 0).
+    void on_block(std::function<void(std::int64_t block, const PlannedMove& move)> call) { on_block_ = std::move(call); }
+
+    /// Drives a program that check_program found nothing wrong with. Errors: bad_input (with place) if the reader finds a problem all the
+    /// same: the axes then finish what was read before and stand; machine and stopped as PathAxes says. `run` is filled as far as it went.
+    Result<void> run(std::string_view text, const std::string& file, ProgramRun& run);
+
+  private:
+    Result<void> hand_over();
+    Result<void> take(const gcode::Step& step, ProgramRun& run);
+    void remember(const gcode::Step& step, ProgramRun& run);
+
+    PathAxes& axes_;
+    ControllerSettings settings_;
+    Planner planner_;
+    PlanSummary summary_;
+    std::int64_t blocks_ = 0;
+    std::function<void(std::int64_t, const PlannedMove&)> on_block_;
+};
+
+}  // namespace motionrack::control

@@ -1,0 +1,45 @@
+// What a card offers that can follow a planned path: the controller hands over planned moves, the card's axes drive them.
+#pragma once
+
+#include <motionrack/base/result.hpp>
+#include <motionrack/base/time.hpp>
+#include <motionrack/control/plan.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::control {
+
+/// What driving a path differently from how it was programmed costs, told to the user.
+struct PathNote {
+    int line = 0;             ///< line of the part program
+    std::string what;         ///< a sentence
+    double deviation_mm = 0;  ///< greatest distance from the programmed path that it adds
+};
+
+/// A planned move really began (block >= 0), or everything came to rest (block = -1).
+struct BlockStart {
+    std::int64_t block = -1;  ///< number of the planned move, in the order of PathAxes::follow, from 0
+    int line = 0;
+    Instant at{};
+};
+
+class PathAxes {
+  public:
+    virtual ~PathAxes() = default;
+    /// Prepares a new path from where the axes stand. Blocks count from 0 again.
+    virtual Result<void> begin() = 0;
+    /// Takes the next move; returns when the card has room for another one. Errors: Trouble::machine where the motion was stopped by a
+    /// limit, an alarm or lost contact (nothing more is driven), Trouble::stopped where the user asked to stop.
+    virtual Result<void> follow(const PlannedMove& move) = 0;
+    /// Drives what is left; returns at standstill.
+    virtual Result<void> finish() = 0;
+    /// Comes to a stop along the path as quickly as the acceleration allows (or at once) and forgets what was queued. In every state.
+    virtual void stop(bool immediate) = 0;
+    /// Where the card's own pulse counters say the axes are.
+    virtual Point commanded_position() = 0;
+    /// Since the last call, oldest first.
+    virtual std::vector<PathNote> take_notes() = 0;
+    virtual std::vector<BlockStart> take_starts() = 0;
+};
+
+}  // namespace motionrack::control
