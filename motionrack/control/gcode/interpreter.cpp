@@ -36,6 +36,7 @@ Interpreter::Interpreter(const Settings& settings) : settings_(settings) {
 Outcome<void> Interpreter::line(std::string_view text, std::int32_t number) {
     todo_ = 0;
     line_ = number;
+    if (end_pending_) apply_end();
     if (!scan_line(text, settings_.block_delete, block_, problem_) || !evaluate()) {
         todo_ = 0;
         problem_.place.line = number;
@@ -172,8 +173,11 @@ bool Interpreter::apply_machine_words() {
     return true;
 }
 
-/// What M2 and M30 leave behind: the state that both Grbl and LinuxCNC put back.
+/// What M2 and M30 leave behind: the state that both Grbl and LinuxCNC put back. Done when the end is pulled, so that the moves
+/// before it on the line still show the frame they were written in.
 void Interpreter::apply_end() {
+    end_pending_ = false;
+    next_ = modes_;
     next_.motion = 10;
     next_.plane = 0;
     next_.incremental = next_.inverse_time = next_.arc_absolute = false;
@@ -181,15 +185,14 @@ void Interpreter::apply_end() {
     next_.spindle = Spindle::off;
     next_.mist = next_.flood = false;
     next_.ended = true;
-    if (next_.system != 0) {
-        next_.system = 0;
-        sum_offsets(edit_frame());
-    }
+    next_.system = 0;
+    sum_offsets(frame_);
+    modes_ = next_;
 }
 
 void Interpreter::commit() {
     if ((todo_ & todo_dwell) != 0) dwell_at_ = position_;
-    if ((todo_ & todo_stop) != 0 && stop_code_ >= 2) apply_end();
+    end_pending_ = (todo_ & todo_stop) != 0 && stop_code_ >= 2;
     position_ = end_;
     modes_ = next_;
     if (frame_edited_) frame_ = next_frame_;
@@ -226,6 +229,7 @@ const Step* Interpreter::pull_next() {
             event_.move.end = dwell_at_;
             break;
         default:
+            if (end_pending_) apply_end();
             event_.kind = stop_code_ == 0 ? StepKind::pause : stop_code_ == 1 ? StepKind::optional_pause : StepKind::end;
             break;
     }

@@ -10,7 +10,12 @@
 // - G53 reaches machine coordinates without the tool length (both). G43.1 takes Z alone (Grbl).
 // - G61 is exact path, G61.1 exact stop, G64 P blends (LinuxCNC); G64 without P takes the settings' tolerance, where LinuxCNC
 //   takes any. G64's Q (naive cam) is refused.
-// - Cycles begin with G98 (LinuxCNC's interpreter begins with G99). A G83 peck thinner than the clearance never rapids above R.
+// - G80 may stand beside another motion word, which then counts (LinuxCNC; CAM programs begin with G0 G40 G80); Grbl refuses it.
+// - G53 ignores G91 (Grbl); LinuxCNC refuses the two together.
+// - Cycles begin with G98 (LinuxCNC's interpreter begins with G99). In G91, R counts from the level before the first hole
+//   (LinuxCNC). Between holes the drill stays at the height where it left the last one, after rising to R where that is higher;
+//   after a change from G99 to G98, LinuxCNC rises to the first level on the slant. A peck thinner than the clearance never
+//   rapids above R.
 // - G38.x, G41, G42, G43, M56, O words, variables and expressions are refused with a sentence. M0, M1, M2 and M30 are events.
 // - A program may end without M2 (Grbl); LinuxCNC wants M2 or %.
 // - Ends and bulges past the axis limits are errors of the line (Grbl raises alarm 2).
@@ -179,6 +184,7 @@ private:
     double dwell_seconds_ = 0;
     Point dwell_at_ = {};
     std::int16_t stop_code_ = 0;
+    bool end_pending_ = false;
     Point via_ = {};
     Step event_;
     Step moving_;

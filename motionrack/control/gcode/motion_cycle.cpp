@@ -74,15 +74,15 @@ bool Interpreter::cycle(std::int16_t code) {
     plan.from = position_;
     plan.level = position_[third];
     const double offset = frame_now().offset[third];
-    plan.r = next_.incremental ? plan.level + next_.cycle_r : next_.cycle_r + offset;
+    const bool goes_on = modes_.motion >= 810 && modes_.plane == next_.plane;
+    if (!goes_on) next_.cycle_level = plan.level;
+    plan.r = next_.incremental ? next_.cycle_level + next_.cycle_r : next_.cycle_r + offset;
     plan.bottom = next_.incremental ? plan.r + next_.cycle_z : next_.cycle_z + offset;
     if (plan.r < plan.bottom) {
         return fail_at(block_.has('R') ? block_.column[letter_index('R')] : blame(), GrblStatus::bad_target,
                        fmt::format("R is at {} = {:.6g} mm, below the bottom of the hole at {:.6g} mm; R must be above it",
                                    depth_letter, plan.r - offset, plan.bottom - offset));
     }
-    const bool goes_on = modes_.motion >= 810 && modes_.plane == next_.plane;
-    if (!goes_on) next_.cycle_level = plan.level;
     plan.clear = next_.retract_to_r ? plan.r : std::max(plan.r, next_.cycle_level);
     plan.peck = next_.cycle_q;
     plan.clearance = settings_.peck_clearance_mm;

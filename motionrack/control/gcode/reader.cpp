@@ -66,14 +66,15 @@ Outcome<const Step*> Reader::next_from_lines() {
     while (!over_ && lines_.next(text)) {
         if (auto done = interpreter_.line(text, lines_.number()); !done) {
             done.error().file = file_;
-            if (lines_.at_end() && done.error().word == "(") {
+            const std::size_t column = static_cast<std::size_t>(done.error().place.column);
+            if (lines_.at_end() && done.error().word == "(" && text.find(')', column) == std::string_view::npos) {
                 done.error().message = "the text ends inside this comment; is the file complete?";
             }
             return tl::unexpected<Problem>(std::move(done.error()));
         }
         const Block& block = interpreter_.block();
         if (block.percent) over_ = begun_;
-        if (interpreter_.modes().ended) over_ = true;
+        if (block.has_m(m_stop) && block.m[m_stop] >= 2) over_ = true;
         begun_ = begun_ || block.percent || (block.words | block.g_groups | block.m_groups) != 0;
         if (const Step* step = interpreter_.pull()) return step;
     }

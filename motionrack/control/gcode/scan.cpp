@@ -105,7 +105,10 @@ bool Scanner::code_g(const Number& number, std::size_t column) {
                        named ? why_not_g(tenths)
                              : fmt::format("{} is not a known command; nothing of this line was done", word_at(text_, column)));
     }
-    if (block_.has_g(group)) {
+    constexpr std::int16_t end_of_cycle = 800;
+    if (group == g_motion && block_.has_g(group) && tenths == end_of_cycle && block_.g[group] != end_of_cycle) return true;
+    const bool replaces = group == g_motion && block_.has_g(group) && block_.g[group] == end_of_cycle && tenths != end_of_cycle;
+    if (block_.has_g(group) && !replaces) {
         return fail_at(column, GrblStatus::modal_group,
                        fmt::format("{} and {} exclude each other: a line takes one of {}; put them on two lines",
                                    name_of_g(block_.g[group]), name_of_g(tenths), members_of_g(group)));

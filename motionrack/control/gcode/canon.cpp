@@ -1,0 +1,213 @@
+// Canonical calls as text.
+#include <motionrack/control/gcode/canon.hpp>
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+/// Four decimals hide it: print 0.0000 and not -0.0000.
+double tidy(double value) { return std::fabs(value) < 0.00005 ? 0.0 : value; }
+
+std::string six(const std::array<double, axis_count>& v) {
+    return fmt::format("{:.4f}, {:.4f}, {:.4f}, {:.4f}, {:.4f}, {:.4f}", tidy(v[0]), tidy(v[1]), tidy(v[2]), tidy(v[3]),
+                       tidy(v[4]), tidy(v[5]));
+}
+
+/// mm and degrees in the program's units.
+Point in_units(const Point& point, bool inch) {
+    Point out = point;
+    for (int axis = 0; inch && axis < 3; ++axis) out[axis] /= 25.4;
+    return out;
+}
+
+/// G28 or G30 without axis words: rs274 prints a traverse to where the machine is before the one home.
+bool straight_home(const Block& block) {
+    return block.has_g(g_nonmodal) && (block.g[g_nonmodal] == 280 || block.g[g_nonmodal] == 300) &&
+           (block.words & axis_words) == 0;
+}
+
+constexpr std::array<const char*, 3> plane_names = {"XY", "XZ", "YZ"};
+
+}  // namespace
+
+void CanonPrinter::call(std::string_view text) {
+    ++count_;
+    if (!options_.numbered) return put_(fmt::format("{}\n", text));
+    const std::string n = n_word_ < 0 ? std::string(".....") : std::to_string(n_word_);
+    put_(fmt::format("{:>5} N{:<5} {}\n", count_, n, text));
+}
+
+void CanonPrinter::begin(const Interpreter& interpreter) {
+    path_ = interpreter.modes().path;
+    position_ = interpreter.position();
+    call("USE_LENGTH_UNITS(CANON_UNITS_MM)");
+    offsets(interpreter);
+}
+
+void CanonPrinter::line(Interpreter& interpreter) {
+    const Block& block = interpreter.block();
+    n_word_ = block.has('N') ? static_cast<std::int64_t>(block['N']) : -1;
+    bool fed = false;
+    bool told = false;
+    const auto before = [&](StepKind kind, bool dwell) {
+        if (kind == StepKind::comment || kind == StepKind::message) return;
+        if (!fed) feed(interpreter);
+        fed = true;
+        const bool late = kind == StepKind::pause || kind == StepKind::optional_pause || kind == StepKind::end ||
+                          (kind == StepKind::move && !dwell);
+        if (late && !told) {
+            modes(interpreter);
+            told = true;
+        }
+    };
+    std::size_t comments = 0;
+    while (const Step* step = interpreter.pull()) {
+        const bool dwell = step->kind == StepKind::move && step->move.kind == MoveKind::dwell;
+        before(step->kind, dwell);
+        if (step->kind == StepKind::move) {
+            if (!dwell && straight_home(block)) here(interpreter);
+            move(step->move, interpreter);
+        } else if (step->kind != StepKind::comment || !block.comments[comments].rest_of_line) {
+            event(*step, interpreter);
+        }
+        if (step->kind == StepKind::comment || step->kind == StepKind::message) ++comments;
+    }
+    before(StepKind::move, false);
+    position_ = interpreter.position();
+    if (path_ != interpreter.modes().path) path(interpreter.modes().path, interpreter.modes().tolerance_mm, interpreter);
+}
+
+void CanonPrinter::feed(const Interpreter& interpreter) {
+    const Block& block = interpreter.block();
+    if (block.has_g(g_feed_mode)) {
+        call("SET_FEED_MODE(0, 0)");
+        if (block.g[g_feed_mode] == 940 && !block.has('F')) {
+            const double scale = interpreter.modes().inch ? 25.4 : 1.0;
+            call(fmt::format("SET_FEED_RATE({:.4f})", interpreter.modes().feed * 60 / scale));
+        }
+    }
+    if (block.has('F')) call(fmt::format("SET_FEED_RATE({:.4f})", block['F']));
+}
+
+void CanonPrinter::modes(const Interpreter& interpreter) {
+    const Block& block = interpreter.block();
+    const Modes& now = interpreter.modes();
+    if (block.has_g(g_plane)) call(fmt::format("SELECT_PLANE(CANON_PLANE_{})", plane_names[now.plane]));
+    if (block.has_g(g_units)) {
+        call(now.inch ? "USE_LENGTH_UNITS(CANON_UNITS_INCHES)" : "USE_LENGTH_UNITS(CANON_UNITS_MM)");
+    }
+    if (block.has_g(g_tool_length)) {
+        const double length = interpreter.frame().tool_length / (now.inch ? 25.4 : 1.0);
+        call(fmt::format("USE_TOOL_LENGTH_OFFSET(0.0000 0.0000 {:.4f}, 0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000)", tidy(length)));
+    }
+    const std::int16_t once = block.has_g(g_nonmodal) ? block.g[g_nonmodal] : no_motion;
+    if (block.has_g(g_system) || once == 100 || once >= 920) offsets(interpreter);
+    if (block.has_g(g_path)) path(now.path, now.tolerance_mm, interpreter);
+}
+
+void CanonPrinter::offsets(const Interpreter& interpreter) {
+    const Modes& now = interpreter.modes();
+    const Frame& frame = interpreter.frame();
+    const Block& block = interpreter.block();
+    const bool shift = block.has_g(g_nonmodal) && block.g[g_nonmodal] >= 920;
+    if (!shift || block.has_g(g_system)) {
+        call(fmt::format("SET_G5X_OFFSET({}, {})", now.system + 1, six(in_units(frame.work[now.system], now.inch))));
+    }
+    if (shift || block.has_g(g_system) || count_ < 3) call(fmt::format("SET_G92_OFFSET({})", six(in_units(frame.g92, now.inch))));
+    if (!shift) call("SET_XY_ROTATION(0.0000)");
+}
+
+void CanonPrinter::path(PathControl path, double tolerance_mm, const Interpreter& interpreter) {
+    path_ = path;
+    const double tolerance = tolerance_mm / (interpreter.modes().inch ? 25.4 : 1.0);
+    call(path == PathControl::exact_path   ? "SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)"
+         : path == PathControl::exact_stop ? "SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)"
+                                           : fmt::format("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {:.6f})", tolerance));
+}
+
+void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
+    switch (step.kind) {
+        case StepKind::comment: return call(fmt::format("COMMENT(\"{}\")", step.text));
+        case StepKind::message: return call(fmt::format("MESSAGE(\"{}\")", step.text));
+        case StepKind::spindle_speed: return call(fmt::format("SET_SPINDLE_SPEED(0, {:.4f})", step.speed_rpm));
+        case StepKind::spindle:
+            return call(step.spindle == Spindle::clockwise           ? "START_SPINDLE_CLOCKWISE(0)"
+                        : step.spindle == Spindle::counter_clockwise ? "START_SPINDLE_COUNTERCLOCKWISE(0)"
+                                                                     : "STOP_SPINDLE_TURNING(0)");
+        case StepKind::coolant:
+            if (interpreter.block().has_m(m_mist)) call("MIST_ON()");
+            if (interpreter.block().has_m(m_flood)) call("FLOOD_ON()");
+            if (!interpreter.block().has_m(m_coolant_off)) return;
+            call("MIST_OFF()");
+            return call("FLOOD_OFF()");
+        case StepKind::tool_select: return call(fmt::format("SELECT_TOOL({})", step.tool));
+        case StepKind::tool_change:
+            call("START_CHANGE()");
+            return call(fmt::format("CHANGE_TOOL({})", step.tool));
+        case StepKind::pause: return call("PROGRAM_STOP()");
+        case StepKind::optional_pause: return call("OPTIONAL_PROGRAM_STOP()");
+        case StepKind::end:
+            call(fmt::format("SET_G5X_OFFSET(1, {})", six(in_units(interpreter.frame().work[0], interpreter.modes().inch))));
+            call("SET_XY_ROTATION(0.0000)");
+            call("SET_FEED_MODE(0, 0)");
+            call("SET_FEED_RATE(0.0000)");
+            call("STOP_SPINDLE_TURNING(0)");
+            return call("PROGRAM_END()");
+        case StepKind::move: return;
+    }
+}
+
+double CanonPrinter::shown(const Interpreter& interpreter, int axis, double machine) const {
+    if (options_.coordinates == Coordinates::machine) return machine;
+    const double scale = axis < 3 && interpreter.modes().inch ? 25.4 : 1.0;
+    return (machine - interpreter.frame().offset[axis]) / scale;
+}
+
+void CanonPrinter::here(const Interpreter& interpreter) {
+    Move still;
+    still.path = path_;
+    still.end = position_;
+    move(still, interpreter);
+}
+
+void CanonPrinter::move(const Move& move, const Interpreter& interpreter) {
+    if (move.kind == MoveKind::dwell) return call(fmt::format("DWELL({:.4f})", move.seconds));
+    if (move.path != path_) path(move.path, move.tolerance_mm, interpreter);
+    Point end = {};
+    for (int axis = 0; axis < axis_count; ++axis) end[axis] = shown(interpreter, axis, move.end[axis]);
+    if (move.kind != MoveKind::arc) {
+        return call(fmt::format("{}({})", move.kind == MoveKind::traverse ? "STRAIGHT_TRAVERSE" : "STRAIGHT_FEED", six(end)));
+    }
+    const int third = 3 - move.first - move.second;
+    call(fmt::format("ARC_FEED({:.4f}, {:.4f}, {:.4f}, {:.4f}, {}, {:.4f}, {:.4f}, {:.4f}, {:.4f})", tidy(end[move.first]),
+                     tidy(end[move.second]), tidy(shown(interpreter, move.first, move.centre_first)),
+                     tidy(shown(interpreter, move.second, move.centre_second)), move.turns, tidy(end[third]), tidy(end[3]),
+                     tidy(end[4]), tidy(end[5])));
+}
+
+Outcome<void> print_canon(std::string_view text, const Settings& settings, CanonOptions options, const CanonPrinter::Put& put,
+                          const std::string& file) {
+    Lines lines(text);
+    Interpreter interpreter(settings);
+    CanonPrinter printer(options, put);
+    printer.begin(interpreter);
+    std::string_view line;
+    bool begun = false;
+    while (lines.next(line)) {
+        if (auto done = interpreter.line(line, lines.number()); !done) {
+            done.error().file = file;
+            return done;
+        }
+        const Block& block = interpreter.block();
+        if (block.percent && begun) break;
+        begun = begun || block.percent || (block.words | block.g_groups | block.m_groups) != 0;
+        printer.line(interpreter);
+        if (interpreter.modes().ended) break;
+    }
+    return {};
+}
+
+}  // namespace motionrack::control::gcode

@@ -1,0 +1,66 @@
+// What the G-code tests share: a machine, a whole program as a list of steps, and one line's problem.
+#pragma once
+
+#include <motionrack/control/gcode/reader.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::control::gcode::testing {
+
+/// Axes as wanted, each from -500 to 500.
+inline Settings machine(std::string_view axes = "XYZABC", double reach = 500) {
+    Settings settings;
+    for (int axis = 0; axis < axis_count; ++axis) {
+        AxisLimits& limits = settings.limits[axis];
+        limits.present = axes.find(axis_letters[axis]) != std::string_view::npos;
+        limits.min_position = -reach;
+        limits.max_position = reach;
+    }
+    return settings;
+}
+
+struct Program {
+    std::vector<Step> steps;
+    std::vector<Problem> problems;
+
+    std::vector<Move> moves() const {
+        std::vector<Move> out;
+        for (const Step& step : steps) {
+            if (step.kind == StepKind::move) out.push_back(step.move);
+        }
+        return out;
+    }
+};
+
+/// Reads all of `text`; going on after problems. The steps' texts point into `text`.
+inline Program read(std::string_view text, const Settings& settings = machine()) {
+    Program program;
+    Reader reader(text, settings, "part.ngc");
+    for (;;) {
+        auto step = reader.next();
+        if (!step) {
+            program.problems.push_back(step.error());
+        } else if (*step == nullptr) {
+            return program;
+        } else {
+            program.steps.push_back(**step);
+        }
+    }
+}
+
+/// Everything that counts of a move, for comparing two programs exactly but for their line numbers.
+inline std::string describe(const Move& move) {
+    std::string out = std::to_string(static_cast<int>(move.kind)) + ' ' + std::to_string(static_cast<int>(move.path)) + ' ' +
+                      std::to_string(static_cast<int>(move.feed_mode)) + ' ' + std::to_string(move.turns);
+    char number[40];
+    const auto add = [&](double value) {
+        std::snprintf(number, sizeof number, " %.17g", value);
+        out += number;
+    };
+    for (const double value : {move.feed, move.tolerance_mm, move.centre_first, move.centre_second, move.seconds}) add(value);
+    for (const double value : move.end) add(value);
+    return out;
+}
+
+}  // namespace motionrack::control::gcode::testing
