@@ -20,51 +20,60 @@ double cube_root(double x) {
 }
 
 Trapezoid::Trapezoid(double distance, double speed, double accel) : distance_(distance), accel_(accel) {
-    settle(accel * distance, speed, 1 / accel);
+    const double reach = accel * distance;
+    if (reach > speed * speed) {
+        cruise_at(speed);
+        return;
+    }
+    peak_ = std::sqrt(reach);
+    cruise_from_ = cruise_until_ = peak_ / accel;
+    cruise_start_ = 0.5 * distance;
+    duration_ = 2 * cruise_from_;
 }
 
 Trapezoid::Trapezoid(double distance, double entry, double exit, double speed, double accel)
     : distance_(distance), entry_(entry), exit_(exit), accel_(accel) {
-    const double most = 0.5 * (entry * entry + exit * exit) + accel * distance;
-    if (most < std::max(entry * entry, exit * exit)) {
+    const double reach = accel * distance;
+    const double half_gain = 0.5 * (exit - entry) * (exit + entry);  // of the square of the speed
+    if (std::fabs(half_gain) > reach) {
         reach_what_can_be_reached();
         return;
     }
-    settle(most, std::max({speed, entry, exit}), 1 / accel);
-}
-
-/// `peak_squared`: of the triangle; `per_accel`: 1 / acceleration.
-void Trapezoid::settle(double peak_squared, double speed, double per_accel) {
+    const double peak_squared = 0.5 * (entry * entry + exit * exit) + reach;
     if (peak_squared > speed * speed) {
-        peak_ = speed;
-        const double up = (peak_ - entry_) * per_accel;
-        const double down = (peak_ - exit_) * per_accel;
-        cruise_from_ = up;
-        cruise_start_ = 0.5 * (entry_ + peak_) * up;
-        cruise_until_ = up + std::max(0.0, (distance_ - cruise_start_ - 0.5 * (exit_ + peak_) * down) / peak_);
-        duration_ = cruise_until_ + down;
+        cruise_at(std::max({speed, entry, exit}));
         return;
     }
-    peak_ = std::max({std::sqrt(peak_squared), entry_, exit_});
-    cruise_from_ = (peak_ - entry_) * per_accel;
-    cruise_start_ = 0.5 * (entry_ + peak_) * cruise_from_;
+    peak_ = std::max({std::sqrt(peak_squared), entry, exit});
+    if (!(peak_ > 0)) return;
+    // times from lengths: differences of nearly equal speeds would lose their digits
+    cruise_start_ = 0.5 * (reach + half_gain) / accel;
+    cruise_from_ = 2 * cruise_start_ / (entry + peak_);
     cruise_until_ = cruise_from_;
-    duration_ = cruise_from_ + (peak_ - exit_) * per_accel;
+    duration_ = cruise_from_ + 2 * (distance - cruise_start_) / (exit + peak_);
+}
+
+void Trapezoid::cruise_at(double speed) {
+    const double per_accel = 1 / accel_;
+    const double up = (speed - entry_) * per_accel;
+    const double down = (speed - exit_) * per_accel;
+    peak_ = speed;
+    cruise_from_ = up;
+    cruise_start_ = 0.5 * (entry_ + speed) * up;
+    cruise_until_ = up + std::max(0.0, (distance_ - cruise_start_ - 0.5 * (exit_ + speed) * down) / speed);
+    duration_ = cruise_until_ + down;
 }
 
 void Trapezoid::reach_what_can_be_reached() {
     const double change = 2 * accel_ * distance_;
-    const double entry_squared = entry_ * entry_;
-    if (exit_ > entry_) {
-        exit_ = std::sqrt(entry_squared + change);
-        peak_ = exit_;
-        cruise_from_ = cruise_until_ = duration_ = (exit_ - entry_) / accel_;
+    const bool up = exit_ > entry_;
+    exit_ = std::sqrt(std::max(0.0, entry_ * entry_ + (up ? change : -change)));
+    peak_ = std::max(entry_, exit_);
+    duration_ = 2 * distance_ / (entry_ + exit_);
+    if (up) {
+        cruise_from_ = cruise_until_ = duration_;
         cruise_start_ = distance_;
-        return;
     }
-    exit_ = std::sqrt(std::max(0.0, entry_squared - change));
-    peak_ = entry_;
-    duration_ = (entry_ - exit_) / accel_;
 }
 
 SCurve::SCurve(double distance, double speed, double accel, double jerk) : distance_(distance) {

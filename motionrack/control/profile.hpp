@@ -47,7 +47,7 @@ class Trapezoid {
     ProfileSample sample(double t) const;
 
   private:
-    void settle(double peak_squared, double speed, double per_accel);
+    void cruise_at(double speed);
     void reach_what_can_be_reached();
 
     double distance_ = 0;
@@ -99,7 +99,7 @@ class SCurve {
     std::array<Phase, 4> phases_ = {};
 };
 
-/// The cube root of x >= 0 to 5e-16 of its value, with the same bits everywhere.
+/// The cube root of x >= 0 to 7e-16 of its value, with the same bits everywhere.
 double cube_root(double x);
 
 inline ProfileSample Trapezoid::sample(double t) const {

@@ -1,0 +1,55 @@
+// The look-ahead takes memory when it is made, and none for a move.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <motionrack/control/path.hpp>
+#include <new>
+
+namespace {
+std::uint64_t allocations = 0;
+}  // namespace
+
+void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+namespace motionrack::control {
+namespace {
+
+TEST(Planner, TakesNoMemoryForAMove) {
+    MachineLimits limits;
+    for (AxisLimits& axis : limits) axis = {true, -1e6, 1e6, 100, 1000, 1e5, 1, 1000};
+    Planner planner(limits, Point{});
+    PlannedMove planned;
+    Move move;
+    move.kind = MoveKind::feed;
+    move.feed = 50;
+    move.path = PathControl::continuous;
+    move.tolerance_mm = 0.01;
+    double seconds = 0;
+    const std::uint64_t before = allocations;
+    for (int i = 0; i < 5000; ++i) {
+        move.kind = i % 700 == 699 ? MoveKind::dwell : MoveKind::feed;
+        move.end[0] += 0.1;
+        move.end[1] += i % 50 == 0 ? 0.5 : 0.001;
+        while (!planner.has_room() && planner.pull(planned)) seconds += seconds_of(planned);
+        if (!planner.push(move)) std::abort();
+    }
+    planner.flush();
+    while (planner.pull(planned)) seconds += seconds_of(planned);
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(seconds, 5);
+}
+
+}  // namespace
+}  // namespace motionrack::control
