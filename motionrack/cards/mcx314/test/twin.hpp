@@ -1,0 +1,184 @@
+// The MCX314 tick by tick: plain, slow and obviously right, written from RULES.md alone. It is the oracle of the event-driven
+// model's tests and the baseline of the benchmarks.
+//
+//     write / read            tick n: step 1 inputs ─► step 2 pulse ─► step 3 speed, for every driving generator
+//     set_input                       (an access at the instant of tick n comes after it)
+//
+// One tick is 125 ns (SCLK = 8 MHz).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/cards/mcx314/test/twin_path.hpp>
+#include <vector>
+
+namespace motionrack::mcx314::twin {
+
+inline constexpr int axis_count = 4;
+
+/// The input pins of one axis, by name; all rest High.
+enum class Pin : std::uint8_t { in0, in1, in2, in3, exp_plus, exp_minus, in_position, alarm, limit_plus, limit_minus };
+inline constexpr int pin_count = 10;
+
+/// A pulse: the tick of its active edge, the axis 0..3 and the direction +1 or -1.
+struct Pulse {
+    std::int64_t tick = 0;
+    int axis = 0;
+    int direction = 0;
+    friend bool operator==(const Pulse&, const Pulse&) = default;
+};
+
+/// The parameter registers, as written (cut to their width, not to their range).
+struct Parameters {
+    std::uint32_t range = 0, jerk = 0, accel = 0, decel = 0, start_speed = 0, speed = 0;
+    std::uint32_t pulses = 0, decel_point = 0, centre = 0, offset = 8;
+};
+
+/// One generator at work.
+struct Generator {
+    enum class Kind : std::uint8_t { idle, fixed, continuous, path };
+    enum class Phase : std::uint8_t { increasing, constant, decreasing };
+    Kind kind = Kind::idle;
+    int wait = 0;  ///< start ticks still to pass
+    bool manual = false, own_decel = false, s_curve = false;
+    std::int64_t range = 0, range_now = 0;
+    std::int64_t acc = 0, speed = 0, speed_part = 0;        ///< acc, CV, va
+    std::int64_t rate = 0, rate_part = 0, speed_steps = 0;  ///< CA, ja, dvup
+    std::int64_t aim = 0, n = 0, accel_pulses = 0;
+    int ramp = 0;
+    Phase phase = Phase::increasing;
+    bool final = false, final_seen = false, stopping = false, constant = false;
+    bool ask_decelerating = false, ask_immediate = false;  ///< commands 26h and 27h, taken at the next working tick
+};
+
+/// One axis: its registers, counters, inputs and generator.
+struct Axis {
+    Parameters reg;
+    std::uint16_t wr1 = 0, wr2 = 0, wr3 = 0;
+    std::int32_t lp = 0, ep = 0, comp_plus = 0, comp_minus = 0;
+    int direction = +1;
+    std::uint16_t causes = 0;    ///< stop causes of the running drive, RR1 D8-D15
+    std::uint16_t finished = 0;  ///< RR1 D8-D15
+    std::uint16_t flags = 0;     ///< RR3
+    unsigned compared = 0;       ///< the four comparisons as they were, in the bits of RR3
+    bool waits_position = false;
+    bool hold = false;
+    int held_command = 0;
+    Segment held_segment;
+    std::array<bool, pin_count> pin{true, true, true, true, true, true, true, true, true, true};
+    Generator gen;
+};
+
+class Twin {
+  public:
+    Twin();
+
+    /// The register bus, byte offsets 0, 2, .. 14; an access comes after the last tick and before the next.
+    void write(std::uint32_t offset, std::uint16_t value);
+    std::uint16_t read(std::uint32_t offset);
+    std::uint16_t peek(std::uint32_t offset) const;
+
+    /// Levels count from the next tick on (and in the status registers at once).
+    void set_input(int axis, Pin pin, bool level) { axes_[axis].pin[static_cast<int>(pin)] = level; }
+    void set_emergency(bool level) { emgn_ = level; }
+
+    void tick();
+    void run(std::int64_t ticks) {
+        for (; ticks > 0; --ticks) tick();
+    }
+
+    std::int64_t now() const { return now_; }
+    const Axis& axis(int a) const { return axes_[a]; }
+    bool driving(int a) const { return axes_[a].gen.kind != Generator::Kind::idle || (chain_ >> a & 1) != 0; }
+    bool any_driving() const;
+    /// Net pulses of an axis since the start, + minus -.
+    std::int64_t count(int a) const { return count_[a]; }
+    /// True: an interrupt is requested (INTN Low).
+    bool interrupt() const;
+    /// Commands that were ignored since the start.
+    std::uint64_t ignored() const { return ignored_; }
+
+    /// Pulses are recorded unless switched off.
+    void record(bool on) { recording_ = on; }
+    const std::vector<Pulse>& pulses() const { return pulses_; }
+
+  private:
+    // twin.cpp: the tick
+    void work(int a);
+    bool inputs(int a);
+    std::uint16_t active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const;
+    bool beyond_software_limit(const Axis& axis) const;
+    bool stop(int a, bool decelerating, bool immediate);
+    bool pulse(int a);
+    int step_axes(int a);
+    void move(int a, int direction);
+    bool segment_end(int a);
+    void check_final(int a);
+    void check_final_of_path();
+    void end(int a);
+    void compare(int a);
+    bool moves_with(int a, int other) const;
+    void begin_segment(const Segment& segment);
+
+    // twin_speed.cpp: the speed step
+    bool speed_step(int a);
+    std::int64_t target(int a) const;
+    void t_curve(int a);
+    void s_curve(int a);
+    void s_turn_final(int a);
+    void s_advance(int a);
+    void set_ramp(int a, int ramp);
+
+    // twin_bus.cpp: registers and commands
+    void command(std::uint16_t value);
+    void data_write(int code, Axis& axis);
+    void data_read(int code, const Axis& axis);
+    void drive_command(int code, unsigned axes);
+    void start_drive(int a, int code);
+    void path_command(int code);
+    void start_path(const Segment& segment);
+    Segment captured(int code) const;
+    bool any_busy(const Segment& segment) const;
+    void begin_generator(int a, Generator::Kind kind);
+    void free_held(unsigned axes);
+    void ask_stop(unsigned axes, bool immediate);
+    void reset();
+    int selected() const;
+    std::uint16_t main_status() const;
+    std::uint16_t status1(int a) const;
+    std::uint16_t status2(int a) const;
+    std::uint16_t levels(int a) const;
+
+    std::array<Axis, axis_count> axes_;
+    std::array<std::int64_t, axis_count> count_{};
+    std::int64_t now_ = 0;
+    bool emgn_ = true;
+    unsigned selected_ = 1;
+    std::uint16_t wr4_ = 0, wr5_ = 0, wr6_ = 0, wr7_ = 0, rr6_ = 0, rr7_ = 0;
+    // The interpolation: the axes of its chain (0: none runs), whose generator, the running segment and the queued one.
+    unsigned chain_ = 0;
+    int master_ = 0;
+    Path path_;
+    bool queued_ = false;
+    Segment queue_;
+    std::array<std::int64_t, 3> path_range_{};  // Rnow when one, two, three axes step
+    int path_stepped_ = 1;                      // axes stepped in the last pulse
+    bool decel_enabled_ = false;
+    bool path_interrupt_ = false;
+    std::uint64_t ignored_ = 0;
+    bool recording_ = true;
+    std::vector<Pulse> pulses_;
+};
+
+/// A register as the generator uses it: held inside its documented range.
+constexpr std::int64_t used(std::uint32_t written, std::int64_t low, std::int64_t high) {
+    return written < low ? low : written > high ? high : written;
+}
+constexpr std::int64_t used_range(const Parameters& p) { return used(p.range, 16'000, 16'777'215); }
+constexpr std::int64_t used_speed(const Parameters& p) { return used(p.speed, 1, 8'000); }
+constexpr std::int64_t used_start_speed(const Parameters& p) { return used(p.start_speed, 1, 8'000); }
+constexpr std::int64_t used_accel(const Parameters& p) { return used(p.accel, 1, 8'000); }
+constexpr std::int64_t used_decel(const Parameters& p) { return used(p.decel, 1, 8'000); }
+constexpr std::int64_t used_jerk(const Parameters& p) { return used(p.jerk, 1, 65'535); }
+
+}  // namespace motionrack::mcx314::twin

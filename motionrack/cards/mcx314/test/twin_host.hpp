@@ -1,0 +1,41 @@
+// A little host for the twin: the register traffic of a command in one call.
+#pragma once
+
+#include <motionrack/cards/mcx314/test/twin.hpp>
+
+namespace motionrack::mcx314::twin {
+
+class Host {
+  public:
+    void command(unsigned axes, int code) { twin.write(0, static_cast<std::uint16_t>(axes << 8 | static_cast<unsigned>(code))); }
+    void data(unsigned axes, int code, std::int64_t value) {
+        twin.write(14, static_cast<std::uint16_t>(value >> 16));
+        twin.write(12, static_cast<std::uint16_t>(value));
+        command(axes, code);
+    }
+    void mode(unsigned axes, int number, unsigned value) {
+        command(axes, 0x0F);
+        twin.write(static_cast<std::uint32_t>(2 * number), static_cast<std::uint16_t>(value));
+    }
+    /// R, V, SV, A, D, K and AO of some axes.
+    void speeds(unsigned axes, std::int64_t r, std::int64_t v, std::int64_t sv, std::int64_t a, std::int64_t d, std::int64_t k,
+                std::int64_t ao) {
+        data(axes, 0x00, r);
+        data(axes, 0x05, v);
+        data(axes, 0x04, sv);
+        data(axes, 0x02, a);
+        data(axes, 0x03, d);
+        data(axes, 0x01, k);
+        data(axes, 0x0D, ao);
+    }
+    /// Ticks until nothing drives, at most `most`; returns the ticks it took.
+    std::int64_t until_idle(std::int64_t most) {
+        const std::int64_t from = twin.now();
+        while (twin.any_driving() && twin.now() - from < most) twin.tick();
+        return twin.now() - from;
+    }
+
+    Twin twin;
+};
+
+}  // namespace motionrack::mcx314::twin

@@ -1,0 +1,133 @@
+// The twin's third step: the speed moves towards its target, by a straight or an S-shaped ramp.
+#include <motionrack/cards/mcx314/test/twin.hpp>
+
+#include <cstdlib>
+
+namespace motionrack::mcx314::twin {
+
+namespace {
+constexpr std::int64_t speed_carry = 64'000;
+constexpr std::uint16_t flag_constant_end = 1u << 5;
+constexpr std::uint16_t flag_constant_start = 1u << 6;
+}  // namespace
+
+// True if the drive ended.
+bool Twin::speed_step(int a) {
+    Axis& axis = axes_[a];
+    Generator& gen = axis.gen;
+    const auto at_start_speed = [&] { return gen.speed <= used_start_speed(axis.reg); };
+    if (gen.stopping && at_start_speed()) return end(a), true;
+    if (gen.s_curve)
+        s_curve(a);
+    else
+        t_curve(a);
+    gen.final_seen = gen.final;
+    if (gen.stopping && at_start_speed()) return end(a), true;
+    return false;
+}
+
+std::int64_t Twin::target(int a) const {
+    const Axis& axis = axes_[a];
+    if (!axis.gen.final) return used_speed(axis.reg);
+    const std::int64_t start_speed = used_start_speed(axis.reg);
+    return axis.gen.speed > start_speed ? start_speed : axis.gen.speed;
+}
+
+void Twin::set_ramp(int a, int ramp) {
+    Axis& axis = axes_[a];
+    Generator& gen = axis.gen;
+    if (gen.ramp != 0 && ramp == 0 && !gen.final) {
+        gen.constant = true;
+        axis.flags |= axis.wr1 >> 8 & flag_constant_start;
+    }
+    if (gen.ramp == 0 && ramp != 0 && gen.constant) {
+        gen.constant = false;
+        axis.flags |= axis.wr1 >> 8 & flag_constant_end;
+    }
+    gen.ramp = ramp;
+}
+
+void Twin::t_curve(int a) {
+    Axis& axis = axes_[a];
+    Generator& gen = axis.gen;
+    const std::int64_t to = target(a);
+    const int want = to > gen.speed ? +1 : to < gen.speed ? -1 : 0;
+    if (want != gen.ramp) {
+        set_ramp(a, want);
+        gen.speed_part = 0;
+    }
+    if (gen.ramp == 0) return;
+    gen.rate = gen.ramp < 0 && gen.own_decel ? used_decel(axis.reg) : used_accel(axis.reg);
+    gen.speed_part += gen.rate;
+    if (gen.speed_part >= speed_carry) {
+        gen.speed_part -= speed_carry;
+        gen.speed += gen.ramp;
+    }
+    if (gen.speed == target(a)) {
+        set_ramp(a, 0);
+        gen.speed_part = 0;
+    }
+}
+
+void Twin::s_curve(int a) {
+    Generator& gen = axes_[a].gen;
+    if (gen.final && !gen.final_seen) s_turn_final(a);
+    const std::int64_t to = target(a);
+    if (gen.ramp == 0 && gen.speed != to) {
+        set_ramp(a, to > gen.speed ? +1 : -1);
+        gen.aim = to;
+        gen.phase = Generator::Phase::increasing;
+        gen.rate = gen.speed_part = gen.rate_part = gen.speed_steps = 0;
+    }
+    if (gen.ramp != 0) s_advance(a);
+}
+
+// The final deceleration begins in this tick: a rising ramp is dropped, a falling one gets a new aim.
+void Twin::s_turn_final(int a) {
+    Generator& gen = axes_[a].gen;
+    const std::int64_t to = target(a);
+    const auto over = [&] {
+        set_ramp(a, 0);
+        gen.speed_part = gen.rate_part = 0;
+    };
+    if (gen.ramp > 0) return over();
+    if (gen.ramp == 0) return;
+    gen.aim = to;
+    if (gen.speed <= gen.aim) return over();
+    if (gen.phase == Generator::Phase::decreasing) {
+        gen.phase = Generator::Phase::increasing;
+        gen.rate_part = 0;
+    }
+}
+
+void Twin::s_advance(int a) {
+    using Phase = Generator::Phase;
+    Axis& axis = axes_[a];
+    Generator& gen = axis.gen;
+    const std::int64_t limit = gen.ramp < 0 && gen.own_decel ? used_decel(axis.reg) : used_accel(axis.reg);
+    const std::int64_t jerk_ticks = 16 * used_jerk(axis.reg);
+    ++gen.rate_part;
+    if (gen.rate_part >= jerk_ticks) {
+        gen.rate_part = 0;
+        if (gen.phase == Phase::increasing) {
+            ++gen.rate;
+            if (gen.rate >= limit) gen.phase = Phase::constant;
+        } else if (gen.phase == Phase::decreasing && gen.rate > 1) {
+            --gen.rate;
+        }
+    }
+    gen.speed_part += gen.rate;
+    if (gen.speed_part < speed_carry) return;
+    gen.speed_part -= speed_carry;
+    gen.speed += gen.ramp;
+    if (gen.phase == Phase::increasing) ++gen.speed_steps;
+    if (gen.speed == gen.aim) {
+        set_ramp(a, 0);
+        gen.speed_part = gen.rate_part = 0;
+    } else if (gen.phase != Phase::decreasing && std::abs(gen.aim - gen.speed) <= gen.speed_steps) {
+        gen.rate_part = jerk_ticks - gen.rate_part;
+        gen.phase = Phase::decreasing;
+    }
+}
+
+}  // namespace motionrack::mcx314::twin
