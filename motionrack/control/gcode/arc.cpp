@@ -1,18 +1,23 @@
 // Centres and extreme points of arcs.
-#include <motionrack/control/gcode/arc.hpp>
-
 #include <cmath>
+#include <motionrack/control/gcode/arc.hpp>
 
 namespace motionrack::control::gcode {
 
 namespace {
 
-double cross(Planar a, Planar b) { return a.first * b.second - a.second * b.first; }
-double dot(Planar a, Planar b) { return a.first * b.first + a.second * b.second; }
+double cross(Planar a, Planar b) {
+    return a.first * b.second - a.second * b.first;
+}
+double dot(Planar a, Planar b) {
+    return a.first * b.first + a.second * b.second;
+}
 
 /// Whether `v` comes before `w` when turning counter-clockwise from `from`; a `v` along `from` comes first of all.
 bool comes_before(Planar from, Planar v, Planar w) {
-    const auto second_half = [&](Planar p) { return !(cross(from, p) > 0 || (cross(from, p) == 0 && dot(from, p) > 0)); };
+    const auto second_half = [&](Planar p) {
+        return !(cross(from, p) > 0 || (cross(from, p) == 0 && dot(from, p) > 0));
+    };
     const bool v_second = second_half(v);
     const bool w_second = second_half(w);
     if (v_second != w_second) return w_second;
@@ -21,7 +26,9 @@ bool comes_before(Planar from, Planar v, Planar w) {
 
 }  // namespace
 
-double length(Planar v) { return std::sqrt(dot(v, v)); }
+double length(Planar v) {
+    return std::sqrt(dot(v, v));
+}
 
 bool centre_from_radius(Planar start, Planar end, double radius, bool counter_clockwise, Planar& centre) {
     const Planar chord = {end.first - start.first, end.second - start.second};

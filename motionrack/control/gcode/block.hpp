@@ -14,18 +14,18 @@ inline constexpr std::size_t longest_line = 1024;
 
 /// G codes are kept in tenths: G1 = 10, G38.2 = 382. M codes as they are.
 enum GroupG : std::uint8_t {
-    g_nonmodal = 0,   ///< G4 G10 G28 G28.1 G30 G30.1 G53 G92 G92.1 G92.2 G92.3
-    g_motion,         ///< G0 G1 G2 G3 G80 G81 G82 G83
-    g_plane,          ///< G17 G18 G19
-    g_distance,       ///< G90 G91
-    g_arc_distance,   ///< G90.1 G91.1
-    g_feed_mode,      ///< G93 G94
-    g_units,          ///< G20 G21
-    g_cutter,         ///< G40
-    g_tool_length,    ///< G43.1 G49
-    g_retract,        ///< G98 G99
-    g_system,         ///< G54 .. G59
-    g_path,           ///< G61 G61.1 G64
+    g_nonmodal = 0,  ///< G4 G10 G28 G28.1 G30 G30.1 G53 G92 G92.1 G92.2 G92.3
+    g_motion,        ///< G0 G1 G2 G3 G80 G81 G82 G83
+    g_plane,         ///< G17 G18 G19
+    g_distance,      ///< G90 G91
+    g_arc_distance,  ///< G90.1 G91.1
+    g_feed_mode,     ///< G93 G94
+    g_units,         ///< G20 G21
+    g_cutter,        ///< G40
+    g_tool_length,   ///< G43.1 G49
+    g_retract,       ///< G98 G99
+    g_system,        ///< G54 .. G59
+    g_path,          ///< G61 G61.1 G64
     g_group_count,
     g_refused = 254,  ///< known, but not for this machine
     g_unknown = 255
@@ -42,8 +42,12 @@ enum GroupM : std::uint8_t {
     m_unknown = 255
 };
 
-constexpr std::uint32_t letter_bit(char letter) { return std::uint32_t{1} << (letter - 'A'); }
-constexpr int letter_index(char letter) { return letter - 'A'; }
+constexpr std::uint32_t letter_bit(char letter) {
+    return std::uint32_t{1} << (letter - 'A');
+}
+constexpr int letter_index(char letter) {
+    return letter - 'A';
+}
 
 inline constexpr std::uint32_t linear_words = letter_bit('X') | letter_bit('Y') | letter_bit('Z');
 inline constexpr std::uint32_t rotary_words = letter_bit('A') | letter_bit('B') | letter_bit('C');
@@ -51,19 +55,19 @@ inline constexpr std::uint32_t axis_words = linear_words | rotary_words;
 inline constexpr std::uint32_t offset_words = letter_bit('I') | letter_bit('J') | letter_bit('K');
 
 struct Comment {
-    std::string_view text;  ///< without its marks
-    bool message = false;   ///< (MSG,text): `text` is what follows the comma
+    std::string_view text;      ///< without its marks
+    bool message = false;       ///< (MSG,text): `text` is what follows the comma
     bool rest_of_line = false;  ///< written with ';'
 };
 
 struct Block {
-    std::string_view text;         ///< the line
-    std::uint32_t words = 0;       ///< which of the letters but G and M are there; A = bit 0
-    std::uint32_t g_groups = 0;    ///< which groups have a code
+    std::string_view text;       ///< the line
+    std::uint32_t words = 0;     ///< which of the letters but G and M are there; A = bit 0
+    std::uint32_t g_groups = 0;  ///< which groups have a code
     std::uint32_t m_groups = 0;
-    bool percent = false;          ///< the line is a lone %
-    bool deleted = false;          ///< a line with '/' that was left out
-    std::array<double, 26> value;  ///< valid where `words` says so
+    bool percent = false;                  ///< the line is a lone %
+    bool deleted = false;                  ///< a line with '/' that was left out
+    std::array<double, 26> value;          ///< valid where `words` says so
     std::array<std::uint16_t, 26> column;  ///< from 0
     std::array<std::int16_t, g_group_count> g;
     std::array<std::uint16_t, g_group_count> g_column;

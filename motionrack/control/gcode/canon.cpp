@@ -1,15 +1,17 @@
 // Canonical calls as text.
-#include <motionrack/control/gcode/canon.hpp>
+#include <fmt/format.h>
 
 #include <cmath>
-#include <fmt/format.h>
+#include <motionrack/control/gcode/canon.hpp>
 
 namespace motionrack::control::gcode {
 
 namespace {
 
 /// Four decimals hide it: print 0.0000 and not -0.0000.
-double tidy(double value) { return std::fabs(value) < 0.00005 ? 0.0 : value; }
+double tidy(double value) {
+    return std::fabs(value) < 0.00005 ? 0.0 : value;
+}
 
 std::string six(const std::array<double, axis_count>& v) {
     return fmt::format("{:.4f}, {:.4f}, {:.4f}, {:.4f}, {:.4f}, {:.4f}", tidy(v[0]), tidy(v[1]), tidy(v[2]), tidy(v[3]),
@@ -77,7 +79,8 @@ void CanonPrinter::line(Interpreter& interpreter) {
     }
     before(StepKind::move, false);
     position_ = interpreter.position();
-    if (path_ != interpreter.modes().path) path(interpreter.modes().path, interpreter.modes().tolerance_mm, interpreter);
+    if (path_ != interpreter.modes().path)
+        path(interpreter.modes().path, interpreter.modes().tolerance_mm, interpreter);
 }
 
 void CanonPrinter::feed(const Interpreter& interpreter) {
@@ -101,7 +104,8 @@ void CanonPrinter::modes(const Interpreter& interpreter) {
     }
     if (block.has_g(g_tool_length)) {
         const double length = interpreter.frame().tool_length / (now.inch ? 25.4 : 1.0);
-        call(fmt::format("USE_TOOL_LENGTH_OFFSET(0.0000 0.0000 {:.4f}, 0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000)", tidy(length)));
+        call(fmt::format("USE_TOOL_LENGTH_OFFSET(0.0000 0.0000 {:.4f}, 0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000)",
+                         tidy(length)));
     }
     const std::int16_t once = block.has_g(g_nonmodal) ? block.g[g_nonmodal] : no_motion;
     if (block.has_g(g_system) || once == 100 || once >= 920) offsets(interpreter);
@@ -116,23 +120,28 @@ void CanonPrinter::offsets(const Interpreter& interpreter) {
     if (!shift || block.has_g(g_system)) {
         call(fmt::format("SET_G5X_OFFSET({}, {})", now.system + 1, six(in_units(frame.work[now.system], now.inch))));
     }
-    if (shift || block.has_g(g_system) || count_ < 3) call(fmt::format("SET_G92_OFFSET({})", six(in_units(frame.g92, now.inch))));
+    if (shift || block.has_g(g_system) || count_ < 3)
+        call(fmt::format("SET_G92_OFFSET({})", six(in_units(frame.g92, now.inch))));
     if (!shift) call("SET_XY_ROTATION(0.0000)");
 }
 
 void CanonPrinter::path(PathControl path, double tolerance_mm, const Interpreter& interpreter) {
     path_ = path;
     const double tolerance = tolerance_mm / (interpreter.modes().inch ? 25.4 : 1.0);
-    call(path == PathControl::exact_path   ? "SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)"
-         : path == PathControl::exact_stop ? "SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)"
-                                           : fmt::format("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {:.6f})", tolerance));
+    call(path == PathControl::exact_path ? "SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)"
+         : path == PathControl::exact_stop
+             ? "SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)"
+             : fmt::format("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {:.6f})", tolerance));
 }
 
 void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
     switch (step.kind) {
-        case StepKind::comment: return call(fmt::format("COMMENT(\"{}\")", step.text));
-        case StepKind::message: return call(fmt::format("MESSAGE(\"{}\")", step.text));
-        case StepKind::spindle_speed: return call(fmt::format("SET_SPINDLE_SPEED(0, {:.4f})", step.speed_rpm));
+        case StepKind::comment:
+            return call(fmt::format("COMMENT(\"{}\")", step.text));
+        case StepKind::message:
+            return call(fmt::format("MESSAGE(\"{}\")", step.text));
+        case StepKind::spindle_speed:
+            return call(fmt::format("SET_SPINDLE_SPEED(0, {:.4f})", step.speed_rpm));
         case StepKind::spindle:
             return call(step.spindle == Spindle::clockwise           ? "START_SPINDLE_CLOCKWISE(0)"
                         : step.spindle == Spindle::counter_clockwise ? "START_SPINDLE_COUNTERCLOCKWISE(0)"
@@ -143,20 +152,25 @@ void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
             if (!interpreter.block().has_m(m_coolant_off)) return;
             call("MIST_OFF()");
             return call("FLOOD_OFF()");
-        case StepKind::tool_select: return call(fmt::format("SELECT_TOOL({})", step.tool));
+        case StepKind::tool_select:
+            return call(fmt::format("SELECT_TOOL({})", step.tool));
         case StepKind::tool_change:
             call("START_CHANGE()");
             return call(fmt::format("CHANGE_TOOL({})", step.tool));
-        case StepKind::pause: return call("PROGRAM_STOP()");
-        case StepKind::optional_pause: return call("OPTIONAL_PROGRAM_STOP()");
+        case StepKind::pause:
+            return call("PROGRAM_STOP()");
+        case StepKind::optional_pause:
+            return call("OPTIONAL_PROGRAM_STOP()");
         case StepKind::end:
-            call(fmt::format("SET_G5X_OFFSET(1, {})", six(in_units(interpreter.frame().work[0], interpreter.modes().inch))));
+            call(fmt::format("SET_G5X_OFFSET(1, {})",
+                             six(in_units(interpreter.frame().work[0], interpreter.modes().inch))));
             call("SET_XY_ROTATION(0.0000)");
             call("SET_FEED_MODE(0, 0)");
             call("SET_FEED_RATE(0.0000)");
             call("STOP_SPINDLE_TURNING(0)");
             return call("PROGRAM_END()");
-        case StepKind::move: return;
+        case StepKind::move:
+            return;
     }
 }
 
@@ -179,17 +193,19 @@ void CanonPrinter::move(const Move& move, const Interpreter& interpreter) {
     Point end = {};
     for (int axis = 0; axis < axis_count; ++axis) end[axis] = shown(interpreter, axis, move.end[axis]);
     if (move.kind != MoveKind::arc) {
-        return call(fmt::format("{}({})", move.kind == MoveKind::traverse ? "STRAIGHT_TRAVERSE" : "STRAIGHT_FEED", six(end)));
+        return call(
+            fmt::format("{}({})", move.kind == MoveKind::traverse ? "STRAIGHT_TRAVERSE" : "STRAIGHT_FEED", six(end)));
     }
     const int third = 3 - move.first - move.second;
-    call(fmt::format("ARC_FEED({:.4f}, {:.4f}, {:.4f}, {:.4f}, {}, {:.4f}, {:.4f}, {:.4f}, {:.4f})", tidy(end[move.first]),
-                     tidy(end[move.second]), tidy(shown(interpreter, move.first, move.centre_first)),
-                     tidy(shown(interpreter, move.second, move.centre_second)), move.turns, tidy(end[third]), tidy(end[3]),
-                     tidy(end[4]), tidy(end[5])));
+    call(fmt::format("ARC_FEED({:.4f}, {:.4f}, {:.4f}, {:.4f}, {}, {:.4f}, {:.4f}, {:.4f}, {:.4f})",
+                     tidy(end[move.first]), tidy(end[move.second]),
+                     tidy(shown(interpreter, move.first, move.centre_first)),
+                     tidy(shown(interpreter, move.second, move.centre_second)), move.turns, tidy(end[third]),
+                     tidy(end[3]), tidy(end[4]), tidy(end[5])));
 }
 
-Outcome<void> print_canon(std::string_view text, const Settings& settings, CanonOptions options, const CanonPrinter::Put& put,
-                          const std::string& file) {
+Outcome<void> print_canon(std::string_view text, const Settings& settings, CanonOptions options,
+                          const CanonPrinter::Put& put, const std::string& file) {
     Lines lines(text);
     Interpreter interpreter(settings);
     CanonPrinter printer(options, put);

@@ -1,8 +1,10 @@
-// Prints what a program does as canonical calls, in the format of LinuxCNC's `rs274 -g`, so that the two can be compared.
+// Prints what a program does as canonical calls, in the format of LinuxCNC's `rs274 -g`, so that the two can be
+// compared.
 //
-// The motion lines (STRAIGHT_TRAVERSE, STRAIGHT_FEED, ARC_FEED, DWELL) are those of rs274 for the same program, to the last digit,
-// where both take it. The other lines have rs274's format, but: modal changes are not told in COMMENT lines, no
-// SET_NAIVECAM_TOLERANCE, and no calls for what this reader does not have (ON_RESET, SET_FEED_REFERENCE, SET_SPINDLE_MODE).
+// The motion lines (STRAIGHT_TRAVERSE, STRAIGHT_FEED, ARC_FEED, DWELL) are those of rs274 for the same program, to the
+// last digit, where both take it. The other lines have rs274's format, but: modal changes are not told in COMMENT
+// lines, no SET_NAIVECAM_TOLERANCE, and no calls for what this reader does not have (ON_RESET, SET_FEED_REFERENCE,
+// SET_SPINDLE_MODE).
 #pragma once
 
 #include <functional>
@@ -24,7 +26,7 @@ struct CanonOptions {
 
 /// Prints line by line. For each line: `interpreter.line(...)`, then `line(interpreter)`, which pulls the steps.
 class CanonPrinter {
-public:
+  public:
     using Put = std::function<void(std::string_view line)>;  ///< gets each line with its '\n'
 
     CanonPrinter(CanonOptions options, Put put) : options_(options), put_(std::move(put)) {}
@@ -32,7 +34,7 @@ public:
     void begin(const Interpreter& interpreter);
     void line(Interpreter& interpreter);
 
-private:
+  private:
     void call(std::string_view text);
     void event(const Step& step, const Interpreter& interpreter);
     void move(const Move& move, const Interpreter& interpreter);
@@ -52,7 +54,7 @@ private:
 };
 
 /// Prints a whole program; stops at the first problem.
-Outcome<void> print_canon(std::string_view text, const Settings& settings, CanonOptions options, const CanonPrinter::Put& put,
-                          const std::string& file = {});
+Outcome<void> print_canon(std::string_view text, const Settings& settings, CanonOptions options,
+                          const CanonPrinter::Put& put, const std::string& file = {});
 
 }  // namespace motionrack::control::gcode

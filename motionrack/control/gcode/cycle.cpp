@@ -1,7 +1,6 @@
 // The moves of a drilling cycle.
-#include <motionrack/control/gcode/cycle.hpp>
-
 #include <algorithm>
+#include <motionrack/control/gcode/cycle.hpp>
 
 namespace motionrack::control::gcode {
 

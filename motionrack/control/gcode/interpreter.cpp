@@ -1,10 +1,10 @@
 // One line of G-code from words to steps: modal state, the order in which things take effect, and what is left to pull.
-#include <motionrack/control/gcode/interpreter.hpp>
+#include <fmt/format.h>
 
 #include <bit>
 #include <cmath>
-#include <fmt/format.h>
 #include <motionrack/control/gcode/codes.hpp>
+#include <motionrack/control/gcode/interpreter.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -54,7 +54,8 @@ bool Interpreter::evaluate() {
     if (!check_values()) return false;
     if ((block_.g_groups & ~(1u << g_motion)) != 0 && !apply_modes()) return false;
     if (block_.has('F')) apply_feed();
-    if ((block_.m_groups | (block_.words & (letter_bit('S') | letter_bit('T')))) != 0 && !apply_machine_words()) return false;
+    if ((block_.m_groups | (block_.words & (letter_bit('S') | letter_bit('T')))) != 0 && !apply_machine_words())
+        return false;
     if (block_.has_g(g_nonmodal) && !nonmodal()) return false;
     if (!motion()) return false;
     if ((block_.words & ~used_) != 0) return unused();
@@ -74,21 +75,23 @@ bool Interpreter::check_values() {
         if (block_.value[index] >= 0) continue;
         const char letter = static_cast<char>('A' + index);
         return fail_word(letter, GrblStatus::negative_value,
-                       fmt::format("{} is negative; {} must be 0 or more", written(letter), letter));
+                         fmt::format("{} is negative; {} must be 0 or more", written(letter), letter));
     }
     if (const std::uint32_t absent = block_.words & axis_words & ~present_words_; absent != 0) {
         const char letter = static_cast<char>('A' + std::countr_zero(absent));
         std::string present;
         for (const char axis : axis_letters) {
-            if ((present_words_ & letter_bit(axis)) != 0) present += present.empty() ? std::string(1, axis) : fmt::format(" {}", axis);
+            if ((present_words_ & letter_bit(axis)) != 0)
+                present += present.empty() ? std::string(1, axis) : fmt::format(" {}", axis);
         }
-        return fail_word(letter, GrblStatus::unsupported,
-                       fmt::format("{}: this machine has no {} axis (it has {}); take the word out or set the axis up",
-                                   written(letter), letter, present.empty() ? "none" : present));
+        return fail_word(
+            letter, GrblStatus::unsupported,
+            fmt::format("{}: this machine has no {} axis (it has {}); take the word out or set the axis up",
+                        written(letter), letter, present.empty() ? "none" : present));
     }
     if (block_.has('N') && (block_['N'] > largest_line_number || block_['N'] != std::floor(block_['N']))) {
         return fail_word('N', GrblStatus::bad_line_number,
-                       fmt::format("{}: line numbers are integers from N0 to N9999999", written('N')));
+                         fmt::format("{}: line numbers are integers from N0 to N9999999", written('N')));
     }
     if (block_.has('T')) {
         if (!need_integer('T', 0, 1e9, "a tool number")) return false;
@@ -173,8 +176,8 @@ bool Interpreter::apply_machine_words() {
     return true;
 }
 
-/// What M2 and M30 leave behind: the state that both Grbl and LinuxCNC put back. Done when the end is pulled, so that the moves
-/// before it on the line still show the frame they were written in.
+/// What M2 and M30 leave behind: the state that both Grbl and LinuxCNC put back. Done when the end is pulled, so that
+/// the moves before it on the line still show the frame they were written in.
 void Interpreter::apply_end() {
     end_pending_ = false;
     next_ = modes_;
@@ -210,10 +213,18 @@ const Step* Interpreter::pull_next() {
     event_.mist = modes_.mist;
     event_.flood = modes_.flood;
     switch (what) {
-        case todo_speed: event_.kind = StepKind::spindle_speed; break;
-        case todo_tool_select: event_.kind = StepKind::tool_select; break;
-        case todo_tool_change: event_.kind = StepKind::tool_change; break;
-        case todo_coolant: event_.kind = StepKind::coolant; break;
+        case todo_speed:
+            event_.kind = StepKind::spindle_speed;
+            break;
+        case todo_tool_select:
+            event_.kind = StepKind::tool_select;
+            break;
+        case todo_tool_change:
+            event_.kind = StepKind::tool_change;
+            break;
+        case todo_coolant:
+            event_.kind = StepKind::coolant;
+            break;
         case todo_spindle:
             event_.kind = StepKind::spindle;
             event_.spindle = block_.m[m_spindle] == 3   ? Spindle::clockwise
@@ -230,7 +241,9 @@ const Step* Interpreter::pull_next() {
             break;
         default:
             if (end_pending_) apply_end();
-            event_.kind = stop_code_ == 0 ? StepKind::pause : stop_code_ == 1 ? StepKind::optional_pause : StepKind::end;
+            event_.kind = stop_code_ == 0   ? StepKind::pause
+                          : stop_code_ == 1 ? StepKind::optional_pause
+                                            : StepKind::end;
             break;
     }
     return &event_;
@@ -289,12 +302,13 @@ std::string_view Interpreter::written(char letter) const {
 bool Interpreter::need_integer(char letter, double low, double high, const char* use) {
     const double value = block_[letter];
     if (value != std::floor(value)) {
-        return fail_word(letter, GrblStatus::not_an_integer,
-                       fmt::format("{}: {} is {}, an integer; write e.g. {}{}", written(letter), letter, use, letter, low));
+        return fail_word(
+            letter, GrblStatus::not_an_integer,
+            fmt::format("{}: {} is {}, an integer; write e.g. {}{}", written(letter), letter, use, letter, low));
     }
     if (value < low || value > high) {
         return fail_word(letter, GrblStatus::value_too_large,
-                       fmt::format("{}: {} is {}, from {} to {}", written(letter), letter, use, low, high));
+                         fmt::format("{}: {} is {}, from {} to {}", written(letter), letter, use, low, high));
     }
     return true;
 }
@@ -314,8 +328,9 @@ bool Interpreter::unused() {
     const std::int16_t code = next_.motion;
     const char* use = "";
     if (letter == 'I' || letter == 'J' || letter == 'K') {
-        use = code == 20 || code == 30 ? "; the offsets of an arc are I J in G17, I K in G18, J K in G19, and none beside R"
-                                       : "; it is the centre of an arc (G2, G3)";
+        use = code == 20 || code == 30
+                  ? "; the offsets of an arc are I J in G17, I K in G18, J K in G19, and none beside R"
+                  : "; it is the centre of an arc (G2, G3)";
     } else if (letter == 'R') {
         use = "; it is the radius of an arc (G2, G3) or the retract height of a drilling cycle (G81 G82 G83)";
     } else if (letter == 'P') {
@@ -326,7 +341,7 @@ bool Interpreter::unused() {
         use = "; it is the peck depth of G83";
     }
     return fail_word(letter, GrblStatus::unused_word,
-                   fmt::format("{}: nothing on this line uses the {} word{}", written(letter), letter, use));
+                     fmt::format("{}: nothing on this line uses the {} word{}", written(letter), letter, use));
 }
 
 }  // namespace motionrack::control::gcode

@@ -1,22 +1,28 @@
 // The meaning of G-code, line by line: words and modal state become moves in machine coordinates and events.
 //
-// The dialect is Grbl 1.1's, with what LinuxCNC adds for paths and drilling. Where the two differ, or neither is followed:
+// The dialect is Grbl 1.1's, with what LinuxCNC adds for paths and drilling. Where the two differ, or neither is
+// followed:
 // - At the start no motion mode is active (LinuxCNC); Grbl starts in G0: Settings::start_in_g0.
-// - F0 or no F on a feed is an error (both); in G93 every feed line needs its F (both); G93 <-> G94 forgets the feed (both).
+// - F0 or no F on a feed is an error (both); in G93 every feed line needs its F (both); G93 <-> G94 forgets the feed
+// (both).
 // - Arcs: offsets without axis words make full turns, P turns them several times, a third-axis word alone makes a helix
-//   (LinuxCNC; Grbl's errors 26 and 32). Offset words outside the plane, and R beside I J K, are errors (LinuxCNC; Grbl leaves
-//   them out silently). R arcs may be 0.005 mm too short for half a turn (LinuxCNC).
+//   (LinuxCNC; Grbl's errors 26 and 32). Offset words outside the plane, and R beside I J K, are errors (LinuxCNC; Grbl
+//   leaves them out silently). R arcs may be 0.005 mm too short for half a turn (LinuxCNC).
 // - M7 and M8 may stand on one line (Grbl); LinuxCNC refuses it.
 // - G53 reaches machine coordinates without the tool length (both). G43.1 takes Z alone (Grbl).
-// - G61 is exact path, G61.1 exact stop, G64 P blends (LinuxCNC); G64 without P takes the settings' tolerance, where LinuxCNC
+// - G61 is exact path, G61.1 exact stop, G64 P blends (LinuxCNC); G64 without P takes the settings' tolerance, where
+// LinuxCNC
 //   takes any. G64's Q (naive cam) is refused.
-// - G80 may stand beside another motion word, which then counts (LinuxCNC; CAM programs begin with G0 G40 G80); Grbl refuses it.
+// - G80 may stand beside another motion word, which then counts (LinuxCNC; CAM programs begin with G0 G40 G80); Grbl
+// refuses it.
 // - G53 ignores G91 (Grbl); LinuxCNC refuses the two together.
-// - Cycles begin with G98 (LinuxCNC's interpreter begins with G99). In G91, R counts from the level before the first hole
-//   (LinuxCNC). Between holes the drill stays at the height where it left the last one, after rising to R where that is higher;
-//   after a change from G99 to G98, LinuxCNC rises to the first level on the slant. A peck thinner than the clearance never
-//   rapids above R.
-// - G38.x, G41, G42, G43, M56, O words, variables and expressions are refused with a sentence. M0, M1, M2 and M30 are events.
+// - Cycles begin with G98 (LinuxCNC's interpreter begins with G99). In G91, R counts from the level before the first
+// hole
+//   (LinuxCNC). Between holes the drill stays at the height where it left the last one, after rising to R where that is
+//   higher; after a change from G99 to G98, LinuxCNC rises to the first level on the slant. A peck thinner than the
+//   clearance never rapids above R.
+// - G38.x, G41, G42, G43, M56, O words, variables and expressions are refused with a sentence. M0, M1, M2 and M30 are
+// events.
 // - A program may end without M2 (Grbl); LinuxCNC wants M2 or %.
 // - Ends and bulges past the axis limits are errors of the line (Grbl raises alarm 2).
 #pragma once
@@ -51,15 +57,15 @@ struct Modes {
     bool ended = false;               ///< after M2, M30
     std::int32_t tool_selected = -1;  ///< by T; -1: none yet
     double tolerance_mm = 0;
-    double feed = 0;                  ///< G94: mm/s, G93: 1/s; 0: none yet
-    double feed_rotary = 0;           ///< G94: degrees/s, where no linear axis moves
+    double feed = 0;         ///< G94: mm/s, G93: 1/s; 0: none yet
+    double feed_rotary = 0;  ///< G94: degrees/s, where no linear axis moves
     double speed_rpm = 0;
-    std::uint32_t cycle_words = 0;    ///< which of the next four the current cycle has had
-    double cycle_r = 0;               ///< as written, mm
-    double cycle_z = 0;               ///< the drilling axis' word, as written, mm
-    double cycle_q = 0;               ///< mm
-    double cycle_p = 0;               ///< seconds
-    double cycle_level = 0;           ///< G98: machine coordinate of the drilling axis before the first hole
+    std::uint32_t cycle_words = 0;  ///< which of the next four the current cycle has had
+    double cycle_r = 0;             ///< as written, mm
+    double cycle_z = 0;             ///< the drilling axis' word, as written, mm
+    double cycle_q = 0;             ///< mm
+    double cycle_p = 0;             ///< seconds
+    double cycle_level = 0;         ///< G98: machine coordinate of the drilling axis before the first hole
 };
 
 /// Where program coordinates lie: machine = program + offset.
@@ -70,17 +76,18 @@ struct Frame {
     double tool_length = 0;  ///< G43.1, mm along Z
     Point g28 = {};
     Point g30 = {};
-    Point offset = {};       ///< sum of the active ones
+    Point offset = {};  ///< sum of the active ones
 };
 
-/// Give it lines, take the steps of each: `if (auto done = interpreter.line(text, 7); done) while (auto* step = interpreter.pull()) ...`
+/// Give it lines, take the steps of each: `if (auto done = interpreter.line(text, 7); done) while (auto* step =
+/// interpreter.pull()) ...`
 class Interpreter {
-public:
+  public:
     /// `settings` must pass check_settings.
     explicit Interpreter(const Settings& settings);
 
-    /// Reads and checks one line (without its line end) and prepares its steps; steps of the line before that were not pulled are
-    /// dropped. After a problem nothing of the line has taken effect. Steps' texts point into `text`.
+    /// Reads and checks one line (without its line end) and prepares its steps; steps of the line before that were not
+    /// pulled are dropped. After a problem nothing of the line has taken effect. Steps' texts point into `text`.
     Outcome<void> line(std::string_view text, std::int32_t number);
 
     /// The next step of the last line, valid until the next call; null: no more.
@@ -92,9 +99,9 @@ public:
     const Point& position() const { return position_; }  ///< machine coordinates after the last line
     const Modes& modes() const { return modes_; }
     const Frame& frame() const { return frame_; }
-    const Block& block() const { return block_; }        ///< the words of the last line
+    const Block& block() const { return block_; }  ///< the words of the last line
 
-private:
+  private:
     enum Todo : std::uint32_t {
         todo_comments = 1,
         todo_speed = 2,
@@ -127,6 +134,9 @@ private:
     bool straight(std::int16_t code);
     bool arc(std::int16_t code);
     bool arc_centre(bool counter_clockwise, Planar& centre);
+    bool arc_centre_of_radius(Planar start, Planar end, bool closed, bool counter_clockwise, Planar& centre);
+    bool arc_centre_of_offsets(Planar start, Planar& centre);
+    bool arc_radii_agree(Planar start, Planar end, Planar centre);
     bool arc_within_limits(Planar centre, double radius);
     bool cycle(std::int16_t code);
     bool cycle_words(std::int16_t code);
@@ -146,7 +156,7 @@ private:
     bool fail_at(std::size_t column, GrblStatus status, std::string message, Trouble trouble = Trouble::bad_input);
     bool fail_word(char letter, GrblStatus status, std::string message);
     bool need_integer(char letter, double low, double high, const char* use);
-    std::size_t blame() const;            ///< column of the motion word, or of the first axis or offset word
+    std::size_t blame() const;  ///< column of the motion word, or of the first axis or offset word
     std::string_view written(char letter) const;
     double scale_of(int axis) const { return axis < 3 && next_.inch ? 25.4 : 1.0; }
     double scaled(char letter) const { return next_.inch ? block_[letter] * 25.4 : block_[letter]; }

@@ -1,6 +1,7 @@
 // What axis words mean: which motion they belong to, where it ends, whether the machine reaches it, and at which feed.
-#include <bit>
 #include <fmt/format.h>
+
+#include <bit>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
 
@@ -8,8 +9,12 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-bool is_arc(std::int16_t code) { return code == 20 || code == 30; }
-bool is_cycle(std::int16_t code) { return code >= 810; }
+bool is_arc(std::int16_t code) {
+    return code == 20 || code == 30;
+}
+bool is_cycle(std::int16_t code) {
+    return code >= 810;
+}
 
 }  // namespace
 
@@ -42,26 +47,28 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
     if (block_.has_g(g_nonmodal) && block_.g[g_nonmodal] == 530) {
         const std::size_t column = block_.g_column[g_nonmodal];
         if (code != 0 && code != 10) {
-            return fail_at(column, GrblStatus::g53_without_line,
-                           fmt::format("G53 (machine coordinates) goes with G0 or G1 only, and {} is active; write e.g. G53 G0 Z0",
-                                       code == no_motion ? "no motion" : name_of_g(code)));
+            return fail_at(
+                column, GrblStatus::g53_without_line,
+                fmt::format("G53 (machine coordinates) goes with G0 or G1 only, and {} is active; write e.g. G53 G0 Z0",
+                            code == no_motion ? "no motion" : name_of_g(code)));
         }
         if (!wants_motion) {
-            return fail_at(column, GrblStatus::no_axis_words, "axis words missing: G53 needs a target; write e.g. G53 G0 Z0");
+            return fail_at(column, GrblStatus::no_axis_words,
+                           "axis words missing: G53 needs a target; write e.g. G53 G0 Z0");
         }
     }
     if (code == no_motion && wants_motion) {
         const char letter = static_cast<char>('A' + std::countr_zero(block_.words & axis_words));
         return fail_word(letter, GrblStatus::axis_words_unused,
-                       fmt::format("{}: no motion is active {}; write G0 (rapid) or G1 (feed) before it", written(letter),
-                                   is_explicit ? "after G80" : "here"));
+                         fmt::format("{}: no motion is active {}; write G0 (rapid) or G1 (feed) before it",
+                                     written(letter), is_explicit ? "after G80" : "here"));
     }
     if (is_explicit && !wants_motion && !axis_words_taken_ && (is_arc(code) || is_cycle(code))) {
         return fail_at(block_.g_column[g_motion], GrblStatus::no_axis_words,
-                       is_arc(code) ? fmt::format("{} needs an end and a centre; write e.g. {} X10 Y0 I5 J0", name_of_g(code),
-                                                  name_of_g(code))
-                                    : fmt::format("{} needs a place and a depth; write e.g. {} X10 Y10 Z-5 R2", name_of_g(code),
-                                                  name_of_g(code)));
+                       is_arc(code) ? fmt::format("{} needs an end and a centre; write e.g. {} X10 Y0 I5 J0",
+                                                  name_of_g(code), name_of_g(code))
+                                    : fmt::format("{} needs a place and a depth; write e.g. {} X10 Y10 Z-5 R2",
+                                                  name_of_g(code), name_of_g(code)));
     }
     return true;
 }
@@ -73,7 +80,9 @@ bool Interpreter::targets(bool machine_coordinates) {
         const std::size_t index = axis_letter(axis);
         if ((block_.words >> index & 1) == 0) continue;
         const double value = block_.value[index] * scale_of(axis);
-        const double target = machine_coordinates ? value : next_.incremental ? position_[axis] + value : value + offset[axis];
+        const double target = machine_coordinates ? value
+                              : next_.incremental ? position_[axis] + value
+                                                  : value + offset[axis];
         if (!reach(axis, target, block_.column[index])) return false;
         end_[axis] = target;
     }
@@ -116,30 +125,31 @@ bool Interpreter::no_feed() {
     const std::string code = name_of_g(next_.motion);
     if (block_.has('F')) {
         return fail_word('F', GrblStatus::no_feed,
-                       fmt::format("{}: {} cannot move at feed 0; write e.g. F600", written('F'), code));
+                         fmt::format("{}: {} cannot move at feed 0; write e.g. F600", written('F'), code));
     }
     if (next_.inverse_time) {
-        return fail_at(blame(), GrblStatus::no_feed,
-                       fmt::format("F word missing: in G93 every {} line needs its own; write e.g. F2 (the move takes 1/2 minute)",
-                                   code));
+        return fail_at(
+            blame(), GrblStatus::no_feed,
+            fmt::format("F word missing: in G93 every {} line needs its own; write e.g. F2 (the move takes 1/2 minute)",
+                        code));
     }
     return fail_at(blame(), GrblStatus::no_feed,
-                   fmt::format("F word missing: {} needs a feed; write e.g. F600 ({}/min) on this line or before it", code,
-                               next_.inch ? "inch" : "mm"));
+                   fmt::format("F word missing: {} needs a feed; write e.g. F600 ({}/min) on this line or before it",
+                               code, next_.inch ? "inch" : "mm"));
 }
 
 bool Interpreter::beyond(int axis, double value, std::size_t column) {
     const AxisLimits& limits = settings_.limits[axis];
     const char* unit = axis < 3 ? "mm" : "degrees";
     const double offset = frame_now().offset[axis];
-    const std::string shift =
-        offset == 0 ? std::string() : fmt::format(" (the work offset is {:.6g})", offset);
-    return fail_at(column, GrblStatus::travel_exceeded,
-                   fmt::format("{} leads to {} = {:.6g} {} in machine coordinates{}, but the axis goes from {:.6g} to {:.6g}; "
-                               "nothing of this line was done; move the work or change its offset",
-                               word_at(block_.text, column), axis_letters[axis], value, unit, shift, limits.min_position,
-                               limits.max_position),
-                   Trouble::refused);
+    const std::string shift = offset == 0 ? std::string() : fmt::format(" (the work offset is {:.6g})", offset);
+    return fail_at(
+        column, GrblStatus::travel_exceeded,
+        fmt::format("{} leads to {} = {:.6g} {} in machine coordinates{}, but the axis goes from {:.6g} to {:.6g}; "
+                    "nothing of this line was done; move the work or change its offset",
+                    word_at(block_.text, column), axis_letters[axis], value, unit, shift, limits.min_position,
+                    limits.max_position),
+        Trouble::refused);
 }
 
 }  // namespace motionrack::control::gcode

@@ -1,7 +1,8 @@
 // G2 and G3: centre, turns, and whether the machine reaches every point of the arc.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <motionrack/control/gcode/arc.hpp>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
@@ -10,7 +11,8 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-/// Start and end may differ in radius by this much (mm), or by 0.1 % of the radius up to the second number; as Grbl, LinuxCNC.
+/// Start and end may differ in radius by this much (mm), or by 0.1 % of the radius up to the second number; as Grbl,
+/// LinuxCNC.
 constexpr double radius_difference_mm = 0.005;
 constexpr double radius_difference_relative = 0.001;
 constexpr double radius_difference_most_mm = 0.5;
@@ -60,40 +62,56 @@ bool Interpreter::arc(std::int16_t code) {
     return true;
 }
 
-/// Finds the centre from R or from I J K, and brings an end that is the start but for rounding onto it.
+/// Finds the centre from R or from I J K.
 bool Interpreter::arc_centre(bool counter_clockwise, Planar& centre) {
     const auto& axes = plane_axes[next_.plane];
     const Planar start = {position_[axes[0]], position_[axes[1]]};
-    Planar end = {end_[axes[0]], end_[axes[1]]};
+    const Planar end = {end_[axes[0]], end_[axes[1]]};
     const bool closed =
         std::fabs(end.first - start.first) <= same_point_mm && std::fabs(end.second - start.second) <= same_point_mm;
-    const std::string code = name_of_g(next_.motion);
-    if (block_.has('R')) {
-        used_ |= letter_bit('R');
-        const std::uint32_t plane_words = letter_bit(axis_letters[axes[0]]) | letter_bit(axis_letters[axes[1]]);
-        if ((block_.words & plane_words) == 0) {
-            return fail_at(blame(), GrblStatus::no_plane_axis,
-                           fmt::format("an arc with R needs an end in its plane, {} ({} or {})", plane_names[next_.plane],
-                                       axis_letters[std::min(axes[0], axes[1])], axis_letters[std::max(axes[0], axes[1])]));
-        }
-        if (block_['R'] == 0) return fail_word('R', GrblStatus::bad_target, "R0: an arc cannot have radius 0; use G1 for a line");
-        if (closed) {
-            return fail_word('R', GrblStatus::bad_target,
-                           fmt::format("{}: an arc with R cannot end where it starts; write a full turn with offsets, e.g. {} I10 J0",
-                                       written('R'), code));
-        }
-        const double radius = scaled('R');
-        if (centre_from_radius(start, end, radius, counter_clockwise, centre)) return true;
-        const double chord = length({end.first - start.first, end.second - start.second});
-        return fail_word('R', GrblStatus::bad_radius,
-                       fmt::format("{}: the radius is {:.6g} mm but the end is {:.6g} mm away; it must be at least {:.6g} mm",
-                                   written('R'), std::fabs(radius), chord, chord / 2));
+    if (block_.has('R')) return arc_centre_of_radius(start, end, closed, counter_clockwise, centre);
+    if (!arc_centre_of_offsets(start, centre)) return false;
+    if (closed) {
+        end_[axes[0]] = start.first;
+        end_[axes[1]] = start.second;
     }
+    return arc_radii_agree(start, closed ? start : end, centre);
+}
+
+bool Interpreter::arc_centre_of_radius(Planar start, Planar end, bool closed, bool counter_clockwise, Planar& centre) {
+    const auto& axes = plane_axes[next_.plane];
+    used_ |= letter_bit('R');
+    const std::uint32_t plane_words = letter_bit(axis_letters[axes[0]]) | letter_bit(axis_letters[axes[1]]);
+    if ((block_.words & plane_words) == 0) {
+        return fail_at(blame(), GrblStatus::no_plane_axis,
+                       fmt::format("an arc with R needs an end in its plane, {} ({} or {})", plane_names[next_.plane],
+                                   axis_letters[std::min(axes[0], axes[1])], axis_letters[std::max(axes[0], axes[1])]));
+    }
+    if (block_['R'] == 0)
+        return fail_word('R', GrblStatus::bad_target, "R0: an arc cannot have radius 0; use G1 for a line");
+    if (closed) {
+        return fail_word(
+            'R', GrblStatus::bad_target,
+            fmt::format("{}: an arc with R cannot end where it starts; write a full turn with offsets, e.g. {} I10",
+                        written('R'), name_of_g(next_.motion)));
+    }
+    const double radius = scaled('R');
+    if (centre_from_radius(start, end, radius, counter_clockwise, centre)) return true;
+    const double chord = length({end.first - start.first, end.second - start.second});
+    return fail_word(
+        'R', GrblStatus::bad_radius,
+        fmt::format("{}: the radius is {:.6g} mm but the end is {:.6g} mm away; it must be at least {:.6g} mm",
+                    written('R'), std::fabs(radius), chord, chord / 2));
+}
+
+bool Interpreter::arc_centre_of_offsets(Planar start, Planar& centre) {
+    const auto& axes = plane_axes[next_.plane];
     const std::array<char, 2> letters = {offset_letters[axes[0]], offset_letters[axes[1]]};
     if (!block_.has(letters[0]) && !block_.has(letters[1])) {
-        return fail_at(blame(), GrblStatus::no_offsets,
-                       fmt::format("{} needs the centre ({} {} in {}) or the radius (R)", code, std::min(letters[0], letters[1]),
-                                   std::max(letters[0], letters[1]), plane_names[next_.plane]));
+        return fail_at(
+            blame(), GrblStatus::no_offsets,
+            fmt::format("{} needs the centre ({} {} in {}) or the radius (R)", name_of_g(next_.motion),
+                        std::min(letters[0], letters[1]), std::max(letters[0], letters[1]), plane_names[next_.plane]));
     }
     std::array<double, 2> middle = {start.first, start.second};
     for (int i = 0; i < 2; ++i) {
@@ -102,33 +120,34 @@ bool Interpreter::arc_centre(bool counter_clockwise, Planar& centre) {
             middle[i] = scaled(letters[i]) + (next_.arc_absolute ? frame_now().offset[axes[i]] : middle[i]);
         } else if (next_.arc_absolute) {
             return fail_at(blame(), GrblStatus::no_offsets,
-                           fmt::format("{} word missing: in G90.1 (absolute centres) {} needs both {} and {}", letters[i], code,
-                                       letters[0], letters[1]));
+                           fmt::format("{} word missing: in G90.1 (absolute centres) {} needs both {} and {}",
+                                       letters[i], name_of_g(next_.motion), std::min(letters[0], letters[1]),
+                                       std::max(letters[0], letters[1])));
         }
     }
     centre = {middle[0], middle[1]};
-    if (closed) {
-        end_[axes[0]] = start.first;
-        end_[axes[1]] = start.second;
-        end = start;
-    }
+    return true;
+}
+
+bool Interpreter::arc_radii_agree(Planar start, Planar end, Planar centre) {
+    const auto& axes = plane_axes[next_.plane];
+    const char letter = block_.has(offset_letters[axes[0]]) ? offset_letters[axes[0]] : offset_letters[axes[1]];
     const double radius = length({start.first - centre.first, start.second - centre.second});
     const double end_radius = length({end.first - centre.first, end.second - centre.second});
-    const char offset_letter = block_.has(letters[0]) ? letters[0] : letters[1];
     if (radius == 0 || end_radius == 0) {
-        return fail_word(offset_letter, GrblStatus::bad_target,
-                       fmt::format("{}: the radius of this arc is 0; its {} lies on the centre", written(offset_letter),
-                                   radius == 0 ? "start" : "end"));
+        return fail_word(letter, GrblStatus::bad_target,
+                         fmt::format("{}: the radius of this arc is 0; its {} lies on the centre", written(letter),
+                                     radius == 0 ? "start" : "end"));
     }
     const double difference = std::fabs(radius - end_radius);
-    if (difference > radius_difference_mm &&
-        (difference > radius_difference_most_mm || difference > radius_difference_relative * std::max(radius, end_radius))) {
-        return fail_word(offset_letter, GrblStatus::bad_target,
-                       fmt::format("{}: the arc starts {:.6g} mm from its centre but ends {:.6g} mm from it; they may differ by "
-                                   "0.005 mm or 0.1 %; correct {} or the end",
-                                   written(offset_letter), radius, end_radius, block_.has(letters[0]) && block_.has(letters[1]) ? "the offsets" : "the offset"));
-    }
-    return true;
+    const double allowed =
+        std::min(radius_difference_relative * std::max(radius, end_radius), radius_difference_most_mm);
+    if (difference <= radius_difference_mm || difference <= allowed) return true;
+    return fail_word(
+        letter, GrblStatus::bad_target,
+        fmt::format("{}: the arc starts {:.6g} mm from its centre but ends {:.6g} mm from it; they may differ by "
+                    "0.005 mm or 0.1 %; correct the centre or the end",
+                    written(letter), radius, end_radius));
 }
 
 bool Interpreter::arc_within_limits(Planar centre, double radius) {
@@ -142,8 +161,8 @@ bool Interpreter::arc_within_limits(Planar centre, double radius) {
     const Planar from = {position_[axes[0]] - centre.first, position_[axes[1]] - centre.second};
     const Planar to = {end_[axes[0]] - centre.first, end_[axes[1]] - centre.second};
     const bool full = std::abs(moving_.move.turns) > 1 || (from.first == to.first && from.second == to.second);
-    const auto passed = full ? std::array<bool, 4>{true, true, true, true}
-                             : extremes_passed(from, to, moving_.move.turns > 0);
+    const auto passed =
+        full ? std::array<bool, 4>{true, true, true, true} : extremes_passed(from, to, moving_.move.turns > 0);
     for (int i = 0; i < 4; ++i) {
         if (passed[i] && !reach(axis[i], extremes[i], blame())) {
             problem_.message = "on its way this arc goes too far: " + problem_.message;

@@ -1,7 +1,8 @@
 // G81, G82, G83: from words to a checked plan of the holes.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
-#include <fmt/format.h>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
 
@@ -33,13 +34,13 @@ bool Interpreter::cycle_words(std::int16_t code) {
     if (block_.has(depth)) keep(depth, depth_word, next_.cycle_z, scaled(depth));
     if (code == 820 && block_.has('P')) keep('P', letter_bit('P'), next_.cycle_p, block_['P']);
     if (code == 830 && block_.has('Q')) keep('Q', letter_bit('Q'), next_.cycle_q, scaled('Q'));
-    const std::uint32_t needed = letter_bit('R') | depth_word | (code == 820 ? letter_bit('P') : 0) |
-                                 (code == 830 ? letter_bit('Q') : 0);
+    const std::uint32_t needed =
+        letter_bit('R') | depth_word | (code == 820 ? letter_bit('P') : 0) | (code == 830 ? letter_bit('Q') : 0);
     const std::uint32_t missing = needed & ~next_.cycle_words;
     if (missing == 0) return true;
     const bool no_depth = (missing & depth_word) != 0;
     const char letter = no_depth ? depth : static_cast<char>('A' + std::countr_zero(missing));
-    const char* what = no_depth          ? "the depth of the hole"
+    const char* what = no_depth        ? "the depth of the hole"
                        : letter == 'R' ? "the height to which to rapid, e.g. R2"
                        : letter == 'P' ? "the wait at the bottom in seconds, e.g. P0.5"
                                        : "the depth of a peck, e.g. Q1.5";
@@ -50,12 +51,14 @@ bool Interpreter::cycle_words(std::int16_t code) {
 bool Interpreter::cycle(std::int16_t code) {
     if ((block_.words & rotary_words) != 0) {
         const char letter = static_cast<char>('A' + std::countr_zero(block_.words & rotary_words));
-        return fail_word(letter, GrblStatus::unused_word,
-                       fmt::format("{}: a drilling cycle does not turn axes; put the turn on a line before it", written(letter)));
+        return fail_word(
+            letter, GrblStatus::unused_word,
+            fmt::format("{}: a drilling cycle does not turn axes; put the turn on a line before it", written(letter)));
     }
     if (next_.inverse_time) {
-        return fail_at(blame(), GrblStatus::no_feed,
-                       fmt::format("{} cannot be done in G93 (inverse time); write G94 and a feed before it", name_of_g(code)));
+        return fail_at(
+            blame(), GrblStatus::no_feed,
+            fmt::format("{} cannot be done in G93 (inverse time); write G94 and a feed before it", name_of_g(code)));
     }
     const auto& axes = plane_axes[next_.plane];
     const int third = axes[2];
@@ -79,19 +82,22 @@ bool Interpreter::cycle(std::int16_t code) {
     plan.r = next_.incremental ? next_.cycle_level + next_.cycle_r : next_.cycle_r + offset;
     plan.bottom = next_.incremental ? plan.r + next_.cycle_z : next_.cycle_z + offset;
     if (plan.r < plan.bottom) {
-        return fail_at(block_.has('R') ? block_.column[letter_index('R')] : blame(), GrblStatus::bad_target,
-                       fmt::format("R is at {} = {:.6g} mm, below the bottom of the hole at {:.6g} mm; R must be above it",
-                                   depth_letter, plan.r - offset, plan.bottom - offset));
+        return fail_at(
+            block_.has('R') ? block_.column[letter_index('R')] : blame(), GrblStatus::bad_target,
+            fmt::format("R is at {} = {:.6g} mm, below the bottom of the hole at {:.6g} mm; R must be above it",
+                        depth_letter, plan.r - offset, plan.bottom - offset));
     }
     plan.clear = next_.retract_to_r ? plan.r : std::max(plan.r, next_.cycle_level);
     plan.peck = next_.cycle_q;
     plan.clearance = settings_.peck_clearance_mm;
     plan.seconds = next_.cycle_p;
     if (code == 830 && !(plan.peck * most_pecks >= plan.r - plan.bottom && plan.peck > 0)) {
-        return fail_at(block_.has('Q') ? block_.column[letter_index('Q')] : blame(), GrblStatus::bad_target,
-                       fmt::format("the peck depth Q is {:.6g} mm for a hole of {:.6g} mm; it must be above 0 and make at most 100000 "
-                                   "pecks",
-                                   plan.peck, plan.r - plan.bottom));
+        return fail_at(
+            block_.has('Q') ? block_.column[letter_index('Q')] : blame(), GrblStatus::bad_target,
+            fmt::format(
+                "the peck depth Q is {:.6g} mm for a hole of {:.6g} mm; it must be above 0 and make at most 100000 "
+                "pecks",
+                plan.peck, plan.r - plan.bottom));
     }
     plan.pattern.path = PathControl::exact_path;
     plan.pattern.line = line_;
@@ -106,7 +112,8 @@ bool Interpreter::cycle(std::int16_t code) {
     return true;
 }
 
-/// The holes lie on a straight line, so the first and the last decide. Fills the plan's steps and first hole, and the end.
+/// The holes lie on a straight line, so the first and the last decide. Fills the plan's steps and first hole, and the
+/// end.
 bool Interpreter::cycle_within_limits(CyclePlan& plan) {
     plan.pattern.end = position_;
     for (const int axis : {static_cast<int>(plan.first), static_cast<int>(plan.second)}) {
@@ -115,8 +122,10 @@ bool Interpreter::cycle_within_limits(CyclePlan& plan) {
         const double value = scaled(letter);
         double& step = axis == plan.first ? plan.step_first : plan.step_second;
         const std::size_t column = block_.column[letter_index(letter)];
-        if (next_.incremental) step = value;
-        else plan.pattern.end[axis] = value + frame_now().offset[axis];
+        if (next_.incremental)
+            step = value;
+        else
+            plan.pattern.end[axis] = value + frame_now().offset[axis];
         end_[axis] = plan.pattern.end[axis] + plan.repeats * step;
         if (!reach(axis, plan.pattern.end[axis] + step, column) || !reach(axis, end_[axis], column)) return false;
     }

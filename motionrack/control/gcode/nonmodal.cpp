@@ -1,6 +1,7 @@
 // G codes that act once: dwell, offsets (G10, G92, G43.1) and reference points (G28, G30).
-#include <bit>
 #include <fmt/format.h>
+
+#include <bit>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
 
@@ -9,13 +10,21 @@ namespace motionrack::control::gcode {
 bool Interpreter::nonmodal() {
     const std::int16_t code = block_.g[g_nonmodal];
     switch (code) {
-        case 40: return dwell();
-        case 100: return set_offsets();
+        case 40:
+            return dwell();
+        case 100:
+            return set_offsets();
         case 280:
-        case 300: return reference();
-        case 281: edit_frame().g28 = position_; break;
-        case 301: edit_frame().g30 = position_; break;
-        case 920: return shift();
+        case 300:
+            return reference();
+        case 281:
+            edit_frame().g28 = position_;
+            break;
+        case 301:
+            edit_frame().g30 = position_;
+            break;
+        case 920:
+            return shift();
         case 921: {
             Frame& frame = edit_frame();
             frame.g92 = frame.g92_kept = Point{};
@@ -34,13 +43,14 @@ bool Interpreter::nonmodal() {
             sum_offsets(frame);
             break;
         }
-        default: return true;  // G53, a matter of the motion
+        default:
+            return true;  // G53, a matter of the motion
     }
     if ((block_.words & axis_words) != 0 && !block_.has_g(g_motion)) {
         const char letter = static_cast<char>('A' + std::countr_zero(block_.words & axis_words));
         return fail_word(letter, GrblStatus::axis_words_unused,
-                       fmt::format("{}: {} takes no axis words; put the move on a line of its own", written(letter),
-                                   name_of_g(code)));
+                         fmt::format("{}: {} takes no axis words; put the move on a line of its own", written(letter),
+                                     name_of_g(code)));
     }
     return true;
 }
@@ -60,7 +70,8 @@ bool Interpreter::set_offsets() {
     const std::size_t column = block_.g_column[g_nonmodal];
     if (!block_.has('L')) {
         return fail_at(column, GrblStatus::word_missing,
-                       "L word missing: write G10 L2 P1 X.. to set G54's offset, G10 L20 P1 X.. to say where the machine is in G54");
+                       "L word missing: write G10 L2 P1 X.. to set G54's offset, G10 L20 P1 X.. to say where the "
+                       "machine is in G54");
     }
     if (!block_.has('P')) {
         return fail_at(column, GrblStatus::word_missing,
@@ -68,14 +79,16 @@ bool Interpreter::set_offsets() {
     }
     if (block_['L'] != 2 && block_['L'] != 20) {
         if (!need_integer('L', 0, 1e9, "what G10 sets")) return false;
-        return fail_word('L', GrblStatus::unsupported,
-                       fmt::format("G10 {} is not supported; G10 L2 sets an offset, G10 L20 sets the position in a system",
-                                   written('L')));
+        return fail_word(
+            'L', GrblStatus::unsupported,
+            fmt::format("G10 {} is not supported; G10 L2 sets an offset, G10 L20 sets the position in a system",
+                        written('L')));
     }
     if (!need_integer('P', 0, 1e9, "a work system (0 the active one, 1 G54 .. 6 G59)")) return false;
     if (block_['P'] > work_system_count) {
         return fail_word('P', GrblStatus::no_such_system,
-                       fmt::format("{}: there are six work systems, P1 (G54) to P6 (G59), and P0 for the active one", written('P')));
+                         fmt::format("{}: there are six work systems, P1 (G54) to P6 (G59), and P0 for the active one",
+                                     written('P')));
     }
     used_ |= letter_bit('L') | letter_bit('P');
     const int number = static_cast<int>(block_['P']);
@@ -110,8 +123,10 @@ bool Interpreter::tool_length() {
     const std::uint32_t others = block_.words & axis_words & ~letter_bit('Z');
     if (others != 0) {
         const char letter = static_cast<char>('A' + std::countr_zero(others));
-        return fail_word(letter, GrblStatus::tool_length_axis,
-                       fmt::format("{}: the tool length goes along Z only; write e.g. G43.1 Z12.5 on a line of its own", written(letter)));
+        return fail_word(
+            letter, GrblStatus::tool_length_axis,
+            fmt::format("{}: the tool length goes along Z only; write e.g. G43.1 Z12.5 on a line of its own",
+                        written(letter)));
     }
     if (!block_.has('Z')) {
         return fail_at(block_.g_column[g_tool_length], GrblStatus::no_axis_words,
@@ -126,8 +141,9 @@ bool Interpreter::tool_length() {
 
 bool Interpreter::shift() {
     if (axis_words_taken_ || (block_.words & axis_words) == 0) {
-        return fail_at(block_.g_column[g_nonmodal], GrblStatus::no_axis_words,
-                       "axis words missing: G92 needs at least one of its own; write e.g. G92 X0 Y0 (G92.1 ends the shift)");
+        return fail_at(
+            block_.g_column[g_nonmodal], GrblStatus::no_axis_words,
+            "axis words missing: G92 needs at least one of its own; write e.g. G92 X0 Y0 (G92.1 ends the shift)");
     }
     Frame& frame = edit_frame();
     for (int axis = 0; axis < axis_count; ++axis) {

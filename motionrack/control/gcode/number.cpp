@@ -1,8 +1,8 @@
 // The hard cases of a G-code number: blanks inside, more digits than a double holds, and what is no number.
-#include <motionrack/control/gcode/number.hpp>
+#include <fast_float/fast_float.h>
 
 #include <cmath>
-#include <fast_float/fast_float.h>
+#include <motionrack/control/gcode/number.hpp>
 #include <string>
 
 namespace motionrack::control::gcode {

@@ -12,18 +12,22 @@ inline constexpr double largest_number = 1e9;
 enum class NumberFault : std::uint8_t { none, no_digits, two_points, too_large };
 
 struct Number {
-    double value = 0;            ///< the correctly rounded double
-    std::int64_t mantissa = 0;   ///< value = mantissa / 10^decimals where `exact`
+    double value = 0;           ///< the correctly rounded double
+    std::int64_t mantissa = 0;  ///< value = mantissa / 10^decimals where `exact`
     std::int32_t decimals = 0;
-    bool exact = true;           ///< false: more digits than 18, mantissa does not hold them
+    bool exact = true;  ///< false: more digits than 18, mantissa does not hold them
     NumberFault fault = NumberFault::none;
 };
 
 inline constexpr std::array<double, 19> powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,
                                                          1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};
 
-inline bool is_digit(char c) { return static_cast<unsigned char>(c - '0') < 10; }
-inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
+inline bool is_digit(char c) {
+    return static_cast<unsigned char>(c - '0') < 10;
+}
+inline bool is_blank(char c) {
+    return c == ' ' || c == '\t';
+}
 
 /// The same as scan_number for the hard cases: blanks inside, long numbers, faults.
 Number scan_number_slow(const char*& at, const char* end);

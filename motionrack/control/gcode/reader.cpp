@@ -1,16 +1,16 @@
 // Walking through the lines of a program.
-#include <motionrack/control/gcode/reader.hpp>
-
 #include <algorithm>
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <motionrack/control/gcode/reader.hpp>
 
 namespace motionrack::control::gcode {
 
 namespace {
 
-/// A byte of `word` is zero where the highest bit of that byte of the result is set (and none below the first such byte is wrong).
+/// A byte of `word` is zero where the highest bit of that byte of the result is set (and none below the first such byte
+/// is wrong).
 constexpr std::uint64_t zero_bytes(std::uint64_t word) {
     return (word - 0x0101010101010101u) & ~word & 0x8080808080808080u;
 }
@@ -52,8 +52,10 @@ bool Lines::next(std::string_view& line) {
     const char* begin = at_;
     at_ = find_line_end(begin, end_ - begin > most ? begin + most : end_);
     line = std::string_view(begin, static_cast<std::size_t>(at_ - begin));
-    if (line.size() == static_cast<std::size_t>(most)) skip_ = true;
-    else pass_end();
+    if (line.size() == static_cast<std::size_t>(most))
+        skip_ = true;
+    else
+        pass_end();
     if (number_ < std::numeric_limits<std::int32_t>::max()) ++number_;
     return true;
 }
@@ -82,7 +84,8 @@ Outcome<const Step*> Reader::next_from_lines() {
     return nullptr;
 }
 
-Check check_program(std::string_view text, const Settings& settings, std::size_t most_problems, const std::string& file) {
+Check check_program(std::string_view text, const Settings& settings, std::size_t most_problems,
+                    const std::string& file) {
     Check check;
     check.least = check.greatest = settings.start;
     Reader reader(text, settings, file);

@@ -10,7 +10,7 @@ namespace motionrack::control::gcode {
 
 /// Cuts a text into lines at LF, CR LF or CR, and leaves out a byte order mark at the beginning.
 class Lines {
-public:
+  public:
     explicit Lines(std::string_view text);
 
     /// The next line, without its end; false: there is none. Of a line longer than `longest_line` only the first
@@ -20,7 +20,7 @@ public:
     std::int32_t number() const { return number_; }  ///< of the line that next() gave, from 1
     bool at_end() const { return at_ == end_ && !skip_; }
 
-private:
+  private:
     const char* at_;
     const char* end_;
     std::int32_t number_ = 0;
@@ -37,10 +37,10 @@ private:
 ///         if ((*step)->kind == StepKind::move) planner.push((*step)->move);
 ///     }
 ///
-/// After a problem the line has had no effect, and next() goes on with the line after it. The program is over after M2 or M30,
-/// at the end of the text, or at a lone '%' that is not its first line with anything on it.
+/// After a problem the line has had no effect, and next() goes on with the line after it. The program is over after M2
+/// or M30, at the end of the text, or at a lone '%' that is not its first line with anything on it.
 class Reader {
-public:
+  public:
     /// `text` must stay where it is as long as the Reader and the texts of its steps are used.
     Reader(std::string_view text, const Settings& settings, std::string file = {});
 
@@ -53,7 +53,7 @@ public:
     const Interpreter& interpreter() const { return interpreter_; }
     std::int32_t line() const { return lines_.number(); }  ///< the line that the last step or problem is from
 
-private:
+  private:
     Outcome<const Step*> next_from_lines();
 
     Lines lines_;
@@ -70,13 +70,14 @@ struct Check {
     std::int64_t lines = 0;         ///< read
     std::int64_t moves = 0;         ///< traverses, feeds and arcs
     std::int64_t dwells = 0;
-    bool ended = false;             ///< by M2 or M30
-    Point least = {};               ///< of all ends, machine coordinates; the start counts
+    bool ended = false;  ///< by M2 or M30
+    Point least = {};    ///< of all ends, machine coordinates; the start counts
     Point greatest = {};
     double seconds_of_dwells = 0;
 };
 
 /// Reads a program to its end without keeping it, and collects up to `most_problems` (>= 1).
-Check check_program(std::string_view text, const Settings& settings, std::size_t most_problems, const std::string& file = {});
+Check check_program(std::string_view text, const Settings& settings, std::size_t most_problems,
+                    const std::string& file = {});
 
 }  // namespace motionrack::control::gcode

@@ -1,7 +1,7 @@
 // Taking a line of G-code apart: one pass over its characters, no allocation unless there is a comment or a fault.
-#include <motionrack/control/gcode/block.hpp>
-
 #include <fmt/format.h>
+
+#include <motionrack/control/gcode/block.hpp>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/number.hpp>
 
@@ -9,23 +9,27 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-constexpr std::uint32_t value_letters = axis_words | offset_words | letter_bit('F') | letter_bit('L') | letter_bit('N') |
-                                        letter_bit('P') | letter_bit('Q') | letter_bit('R') | letter_bit('S') |
-                                        letter_bit('T');
+constexpr std::uint32_t value_letters = axis_words | offset_words | letter_bit('F') | letter_bit('L') |
+                                        letter_bit('N') | letter_bit('P') | letter_bit('Q') | letter_bit('R') |
+                                        letter_bit('S') | letter_bit('T');
 
-bool is_letter(char c) { return static_cast<unsigned char>((c | 0x20) - 'a') < 26; }
+bool is_letter(char c) {
+    return static_cast<unsigned char>((c | 0x20) - 'a') < 26;
+}
 
-char upper(char c) { return static_cast<char>(c & ~0x20); }
+char upper(char c) {
+    return static_cast<char>(c & ~0x20);
+}
 
 /// A line being taken apart; every method returns false after it has filled the problem.
 class Scanner {
-public:
+  public:
     Scanner(std::string_view text, Block& block, Problem& problem)
         : text_(text), at_(text.data()), end_(text.data() + text.size()), block_(block), problem_(problem) {}
 
     bool scan(bool block_delete);
 
-private:
+  private:
     bool word();
     bool code_g(const Number& number, std::size_t column);
     bool code_m(const Number& number, std::size_t column);
@@ -101,13 +105,16 @@ bool Scanner::code_g(const Number& number, std::size_t column) {
     if (group >= g_group_count) {
         const bool named = tenths >= 0 && tenths < 1000;
         const GrblStatus status = tenths >= 591 && tenths <= 593 ? GrblStatus::no_such_system : GrblStatus::unsupported;
-        return fail_at(column, status,
-                       named ? why_not_g(tenths)
-                             : fmt::format("{} is not a known command; nothing of this line was done", word_at(text_, column)));
+        return fail_at(
+            column, status,
+            named ? why_not_g(tenths)
+                  : fmt::format("{} is not a known command; nothing of this line was done", word_at(text_, column)));
     }
     constexpr std::int16_t end_of_cycle = 800;
-    if (group == g_motion && block_.has_g(group) && tenths == end_of_cycle && block_.g[group] != end_of_cycle) return true;
-    const bool replaces = group == g_motion && block_.has_g(group) && block_.g[group] == end_of_cycle && tenths != end_of_cycle;
+    if (group == g_motion && block_.has_g(group) && tenths == end_of_cycle && block_.g[group] != end_of_cycle)
+        return true;
+    const bool replaces =
+        group == g_motion && block_.has_g(group) && block_.g[group] == end_of_cycle && tenths != end_of_cycle;
     if (block_.has_g(group) && !replaces) {
         return fail_at(column, GrblStatus::modal_group,
                        fmt::format("{} and {} exclude each other: a line takes one of {}; put them on two lines",
@@ -134,10 +141,11 @@ bool Scanner::code_m(const Number& number, std::size_t column) {
                        ((group == m_mist || group == m_flood) && block_.has_m(m_coolant_off));
     if (block_.has_m(group) || clash) {
         const int first = block_.has_m(group) ? block_.m[group] : group == m_coolant_off ? 8 : 9;
-        return fail_at(column, GrblStatus::modal_group,
-                       clash ? fmt::format("M{} with M7 or M8 on one line: coolant cannot go on and off at once", code)
-                             : fmt::format("M{} and M{} exclude each other: a line takes one of {}; put them on two lines",
-                                           first, code, members_of_m(group)));
+        return fail_at(
+            column, GrblStatus::modal_group,
+            clash ? fmt::format("M{} with M7 or M8 on one line: coolant cannot go on and off at once", code)
+                  : fmt::format("M{} and M{} exclude each other: a line takes one of {}; put them on two lines", first,
+                                code, members_of_m(group)));
     }
     block_.m_groups |= 1u << group;
     block_.m[group] = static_cast<std::int16_t>(code);
@@ -148,8 +156,10 @@ bool Scanner::code_m(const Number& number, std::size_t column) {
 bool Scanner::other(bool block_delete) {
     switch (*at_) {
         case '(':
-        case ';': return comment();
-        case '/': return slash(block_delete);
+        case ';':
+            return comment();
+        case '/':
+            return slash(block_delete);
         case '%':
             if (text_.find_first_not_of(" \t", here() + 1) != std::string_view::npos || !nothing_yet()) {
                 return fail_at(here(), GrblStatus::unsupported,
@@ -158,7 +168,8 @@ bool Scanner::other(bool block_delete) {
             block_.percent = true;
             ++at_;
             return true;
-        default: return bad_character();
+        default:
+            return bad_character();
     }
 }
 
@@ -210,10 +221,10 @@ bool Scanner::comment() {
 }
 
 bool Scanner::repeated(char letter, std::size_t column) {
-    return fail_at(column, GrblStatus::word_repeated,
-                   fmt::format("{} is the second {} word on this line (the first is {}); a line takes one, leave one out",
-                               word_at(text_, column), letter,
-                               word_at(text_, block_.column[letter_index(letter)])));
+    return fail_at(
+        column, GrblStatus::word_repeated,
+        fmt::format("{} is the second {} word on this line (the first is {}); a line takes one, leave one out",
+                    word_at(text_, column), letter, word_at(text_, block_.column[letter_index(letter)])));
 }
 
 bool Scanner::bad_number(const Number& number, char letter, std::size_t column) {
@@ -232,8 +243,9 @@ bool Scanner::bad_number(const Number& number, char letter, std::size_t column) 
                                    "write the number out, e.g. {}12.5",
                                    letter, *at_, letter));
     }
-    return fail_at(column, GrblStatus::bad_number,
-                   fmt::format("{} has no number (digits with at most one decimal point); write e.g. {}12.5", written, letter));
+    return fail_at(
+        column, GrblStatus::bad_number,
+        fmt::format("{} has no number (digits with at most one decimal point); write e.g. {}12.5", written, letter));
 }
 
 bool Scanner::bad_letter(char letter, std::size_t column) {
@@ -250,8 +262,8 @@ bool Scanner::bad_letter(char letter, std::size_t column) {
                        "O words (program numbers, subprograms, loops) are not supported; write the lines out, and a "
                        "program's name as a comment");
     }
-    const char* hint = letter == 'D' || letter == 'H' ? "; there is no tool table"
-                       : letter == 'E'                ? "; there is no extruder"
+    const char* hint = letter == 'D' || letter == 'H'                    ? "; there is no tool table"
+                       : letter == 'E'                                   ? "; there is no extruder"
                        : letter == 'U' || letter == 'V' || letter == 'W' ? "; axes are X Y Z A B C"
                                                                          : "";
     return fail_at(column, GrblStatus::unsupported,
@@ -262,16 +274,18 @@ bool Scanner::bad_character() {
     const auto c = static_cast<unsigned char>(*at_);
     const std::size_t column = here();
     if (c == '#' || c == '[' || c == ']' || c == '=' || c == '<' || c == '>') {
-        return fail_at(column, GrblStatus::unsupported,
-                       fmt::format("'{}': variables and expressions are not supported; let the CAM program or LinuxCNC write "
-                                   "the numbers out",
-                                   static_cast<char>(c)));
+        return fail_at(
+            column, GrblStatus::unsupported,
+            fmt::format("'{}': variables and expressions are not supported; let the CAM program or LinuxCNC write "
+                        "the numbers out",
+                        static_cast<char>(c)));
     }
     if (c == '$') {
         return fail_at(column, GrblStatus::system_command,
                        "'$' begins a system command of Grbl, which is no part of a program; leave the line out");
     }
-    if (c == '*') return fail_at(column, GrblStatus::expected_letter, "'*': checksums are not supported; leave them out");
+    if (c == '*')
+        return fail_at(column, GrblStatus::expected_letter, "'*': checksums are not supported; leave them out");
     if (c == ')') return fail_at(column, GrblStatus::expected_letter, "')' without '(' before it; take it out");
     if (is_digit(static_cast<char>(c)) || c == '.' || c == '-' || c == '+') {
         std::size_t stop = column;
@@ -281,13 +295,15 @@ bool Scanner::bad_character() {
                                    text_.substr(column, stop - column)));
     }
     if (c < 0x20 || c >= 0x7f) {
-        return fail_at(column, GrblStatus::expected_letter,
-                       fmt::format("byte 0x{:02X} is not a character of G-code (ASCII only, UTF-8 in comments); is this a text "
-                                   "file?",
-                                   c));
+        return fail_at(
+            column, GrblStatus::expected_letter,
+            fmt::format("byte 0x{:02X} is not a character of G-code (ASCII only, UTF-8 in comments); is this a text "
+                        "file?",
+                        c));
     }
-    return fail_at(column, GrblStatus::expected_letter,
-                   fmt::format("'{}' is not expected here; a word is a letter and a number, e.g. X12.5", static_cast<char>(c)));
+    return fail_at(
+        column, GrblStatus::expected_letter,
+        fmt::format("'{}' is not expected here; a word is a letter and a number, e.g. X12.5", static_cast<char>(c)));
 }
 
 }  // namespace
@@ -298,8 +314,9 @@ bool scan_line(std::string_view text, bool block_delete, Block& block, Problem& 
     block.percent = block.deleted = false;
     if (!block.comments.empty()) block.comments.clear();
     if (text.size() > longest_line) {
-        set_problem(problem, text, longest_line, GrblStatus::line_too_long,
-                    fmt::format("the line is longer than {} characters; break it up (is this a G-code file?)", longest_line));
+        set_problem(
+            problem, text, longest_line, GrblStatus::line_too_long,
+            fmt::format("the line is longer than {} characters; break it up (is this a G-code file?)", longest_line));
         problem.word.clear();
         return false;
     }

@@ -1,21 +1,23 @@
 // Refusing settings with which no program could be read sensibly.
-#include <motionrack/control/gcode/settings.hpp>
+#include <fmt/format.h>
 
 #include <cmath>
-#include <fmt/format.h>
 #include <motionrack/control/gcode/number.hpp>
+#include <motionrack/control/gcode/settings.hpp>
 
 namespace motionrack::control::gcode {
 
 namespace {
 
-bool sensible(double value) { return std::isfinite(value) && std::fabs(value) <= largest_number; }
+bool sensible(double value) {
+    return std::isfinite(value) && std::fabs(value) <= largest_number;
+}
 
 Result<void> check_point(const Point& point, const char* what) {
     for (int axis = 0; axis < axis_count; ++axis) {
         if (!sensible(point[axis])) {
-            return fail(Trouble::bad_input, fmt::format("{} of axis {} is {}; it must be a number from -1e9 to 1e9", what,
-                                                        axis_letters[axis], point[axis]));
+            return fail(Trouble::bad_input, fmt::format("{} of axis {} is {}; it must be a number from -1e9 to 1e9",
+                                                        what, axis_letters[axis], point[axis]));
         }
     }
     return {};
@@ -27,11 +29,13 @@ Result<void> check_settings(const Settings& settings) {
     for (int axis = 0; axis < axis_count; ++axis) {
         const AxisLimits& limits = settings.limits[axis];
         if (!limits.present) continue;
-        if (!sensible(limits.min_position) || !sensible(limits.max_position) || limits.min_position > limits.max_position) {
-            return fail(Trouble::bad_input,
-                        fmt::format("axis {} goes from {} to {}; the limits must be numbers from -1e9 to 1e9, the first not "
-                                    "greater than the second",
-                                    axis_letters[axis], limits.min_position, limits.max_position));
+        if (!sensible(limits.min_position) || !sensible(limits.max_position) ||
+            limits.min_position > limits.max_position) {
+            return fail(
+                Trouble::bad_input,
+                fmt::format("axis {} goes from {} to {}; the limits must be numbers from -1e9 to 1e9, the first not "
+                            "greater than the second",
+                            axis_letters[axis], limits.min_position, limits.max_position));
         }
     }
     if (!sensible(settings.path_tolerance_mm) || settings.path_tolerance_mm < 0) {

@@ -28,10 +28,10 @@ struct Step {
     Spindle spindle = Spindle::off;
     bool mist = false;
     bool flood = false;
-    std::int32_t line = 0;   ///< line of the source, from 1
+    std::int32_t line = 0;  ///< line of the source, from 1
     std::int32_t tool = 0;
     double speed_rpm = 0;
-    std::string_view text;   ///< into the program's text
+    std::string_view text;  ///< into the program's text
     Move move;
 };
 

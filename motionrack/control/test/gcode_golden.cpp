@@ -1,6 +1,7 @@
 // Our canonical motion lines against those that LinuxCNC's rs274 printed for the same programs (tests/golden/canon).
-#include <fstream>
 #include <gtest/gtest.h>
+
+#include <fstream>
 #include <motionrack/control/gcode/canon.hpp>
 #include <sstream>
 
@@ -36,8 +37,8 @@ std::string motion_lines(const std::string& canon) {
 
 std::string printed(const std::string& program, CanonOptions options = {}) {
     std::string out;
-    const auto done = print_canon(program, testing::machine("XYZABC", 1e5), options,
-                                  [&](std::string_view line) { out += line; });
+    const auto done =
+        print_canon(program, testing::machine("XYZABC", 1e5), options, [&](std::string_view line) { out += line; });
     EXPECT_TRUE(done) << done.error().text();
     return out;
 }
@@ -54,12 +55,14 @@ TEST_P(GcodeGolden, MovesAreThoseOfRs274) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, GcodeGolden,
-                         ::testing::Values("lines", "planes", "helices", "radius", "inches", "offsets", "shifts", "references",
-                                           "drilling", "drilling_planes", "drilling_series", "modes", "marks"),
+                         ::testing::Values("lines", "planes", "helices", "radius", "inches", "offsets", "shifts",
+                                           "references", "drilling", "drilling_planes", "drilling_series", "modes",
+                                           "marks"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
 TEST(GcodeCanon, PrintsEventsAndColumnsAsRs274Does) {
-    const std::string out = printed("N10 T2 M6\nS900 M3 M8 (MSG,go)\nN5 G20 G18\nG55\nG61\nM1\nG4 P.5\nM5 M9\nM0\nM2\n");
+    const std::string out =
+        printed("N10 T2 M6\nS900 M3 M8 (MSG,go)\nN5 G20 G18\nG55\nG61\nM1\nG4 P.5\nM5 M9\nM0\nM2\n");
     const char* expected =
         "    1 N..... USE_LENGTH_UNITS(CANON_UNITS_MM)\n"
         "    2 N..... SET_G5X_OFFSET(1, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"
@@ -96,7 +99,8 @@ TEST(GcodeCanon, PrintsEventsAndColumnsAsRs274Does) {
 TEST(GcodeCanon, PrintsMachineCoordinatesWhenAsked) {
     const CanonOptions options = {Coordinates::machine, false};
     const std::string out = printed("G10 L2 P1 X10\nG20 G0 X1\n", options);
-    EXPECT_NE(out.find("STRAIGHT_TRAVERSE(35.4000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"), std::string::npos) << out;
+    EXPECT_NE(out.find("STRAIGHT_TRAVERSE(35.4000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)\n"), std::string::npos)
+        << out;
 }
 
 }  // namespace motionrack::control::gcode

@@ -1,5 +1,6 @@
 // What programs mean: moves with all their fields, events in their order, marks of the text.
 #include <gtest/gtest.h>
+
 #include <motionrack/control/gcode/arc.hpp>
 #include <motionrack/control/gcode/number.hpp>
 
@@ -76,9 +77,10 @@ TEST(GcodeReader, PathControlGoesWithEachMove) {
 
 TEST(GcodeReader, TellsEventsInTheOrderInWhichTheyTakeEffect) {
     const auto program = read("G0 X1 M0 T4 M6 S500 M3 M7 M8 (hello) (MSG,look) G4 P2\nM9 M5\nM1\nM30\nG0 X9");
-    const StepKind kinds[] = {StepKind::comment, StepKind::message, StepKind::spindle_speed, StepKind::tool_select,
-                              StepKind::tool_change, StepKind::spindle, StepKind::coolant, StepKind::move, StepKind::move,
-                              StepKind::pause, StepKind::spindle, StepKind::coolant, StepKind::optional_pause, StepKind::end};
+    const StepKind kinds[] = {
+        StepKind::comment, StepKind::message, StepKind::spindle_speed,  StepKind::tool_select, StepKind::tool_change,
+        StepKind::spindle, StepKind::coolant, StepKind::move,           StepKind::move,        StepKind::pause,
+        StepKind::spindle, StepKind::coolant, StepKind::optional_pause, StepKind::end};
     ASSERT_TRUE(program.problems.empty());
     ASSERT_EQ(program.steps.size(), std::size(kinds));
     for (std::size_t i = 0; i < std::size(kinds); ++i) EXPECT_EQ(program.steps[i].kind, kinds[i]) << i;
@@ -152,10 +154,10 @@ TEST(GcodeReader, M2PutsTheStateBackOnceItsMovesAreDone) {
 }
 
 TEST(GcodeReader, ArcsMayTouchTheLimitsAndPassNoFurtherThanTheyMust) {
-    EXPECT_TRUE(read("G0 X490 Y-10\nG3 X490 Y10 J10 F9").problems.empty());     // touches X500
-    EXPECT_FALSE(read("G0 X490.001 Y-10\nG3 Y10 J10 F9").problems.empty());     // X500.001
-    EXPECT_TRUE(read("G0 X490.001 Y-10\nG2 Y10 J10 F9").problems.empty());      // the other way round
-    EXPECT_TRUE(read("G0 X499 Y0\nG3 X489 Y10 I-10 F9").problems.empty());      // starts at its extreme
+    EXPECT_TRUE(read("G0 X490 Y-10\nG3 X490 Y10 J10 F9").problems.empty());  // touches X500
+    EXPECT_FALSE(read("G0 X490.001 Y-10\nG3 Y10 J10 F9").problems.empty());  // X500.001
+    EXPECT_TRUE(read("G0 X490.001 Y-10\nG2 Y10 J10 F9").problems.empty());   // the other way round
+    EXPECT_TRUE(read("G0 X499 Y0\nG3 X489 Y10 I-10 F9").problems.empty());   // starts at its extreme
     EXPECT_FALSE(read("G0 X499 Y0\nG3 X489 Y10 Z1 I-10 J-1.1 F9").problems.empty());
 }
 

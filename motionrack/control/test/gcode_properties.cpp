@@ -1,7 +1,8 @@
 // Properties: the same program written in other ways means the same; rapidcheck prints the seed of a failure.
-#include <cmath>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+
+#include <cmath>
 
 #include "gcode_support.hpp"
 
@@ -57,7 +58,9 @@ std::string plain(const std::vector<Line>& program) {
 std::string disguised(const std::vector<Line>& program) {
     const std::string line_end = *rc::gen::element<std::string>("\n", "\r\n", "\r");
     std::string text = *rc::gen::element<std::string>("", "\xEF\xBB\xBF");
-    const auto blanks = [] { return std::string(static_cast<std::size_t>(*rc::gen::inRange(0, 3)), *rc::gen::element(' ', '\t')); };
+    const auto blanks = [] {
+        return std::string(static_cast<std::size_t>(*rc::gen::inRange(0, 3)), *rc::gen::element(' ', '\t'));
+    };
     int number = 0;
     for (const Line& line : program) {
         if (*rc::gen::arbitrary<bool>()) text += blanks() + 'n' + std::to_string(++number);
@@ -164,9 +167,10 @@ RC_GTEST_PROP(GcodeProperties, ArcsWithRadiusHaveTheCentreOfArcsWithOffsets, ())
 }
 
 RC_GTEST_PROP(GcodeProperties, AnyBytesAreReadOrRefusedWithAPlaceInTheText, ()) {
-    const std::string text = *rc::gen::container<std::string>(rc::gen::oneOf(
-        rc::gen::element('G', 'X', 'Y', 'I', 'R', 'F', '0', '1', '2', '3', '8', '.', '-', ' ', '\n', '(', ')', '/', '%'),
-        rc::gen::arbitrary<char>()));
+    const std::string text = *rc::gen::container<std::string>(
+        rc::gen::oneOf(rc::gen::element('G', 'X', 'Y', 'I', 'R', 'F', '0', '1', '2', '3', '8', '.', '-', ' ', '\n', '(',
+                                        ')', '/', '%'),
+                       rc::gen::arbitrary<char>()));
     const auto program = read(text);
     for (const Problem& problem : program.problems) {
         RC_ASSERT(problem.place.line >= 1);

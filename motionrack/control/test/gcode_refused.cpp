@@ -1,7 +1,8 @@
 // Lines that are refused: where the error points, the word it names, Grbl's number and the words of the sentence.
-#include <algorithm>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "gcode_support.hpp"
 
@@ -189,7 +190,8 @@ TEST(GcodeReader, ErrorTextNamesFileLineColumnAndTheCure) {
 TEST(GcodeReader, RefusesAxesThatTheMachineDoesNotHave) {
     const auto program = testing::read("G0 X1 A5\nG92 B0\n", testing::machine("XYZ"));
     ASSERT_EQ(program.problems.size(), 2u);
-    EXPECT_EQ(program.problems[0].message, "A5: this machine has no A axis (it has X Y Z); take the word out or set the axis up");
+    EXPECT_EQ(program.problems[0].message,
+              "A5: this machine has no A axis (it has X Y Z); take the word out or set the axis up");
     EXPECT_EQ(program.problems[1].word, "B0");
 }
 
@@ -208,8 +210,17 @@ TEST(GcodeReader, RefusesALineOfMoreThan1024CharactersAndGoesOnAfterIt) {
 TEST(GcodeReader, AfterAProblemNothingOfTheLineHasTakenEffect) {
     Interpreter interpreter(testing::machine());
     ASSERT_TRUE(interpreter.line("G1 X1 F60 G64 P.5 S100", 1));
-    const char* bad[] = {"G20 G91 G18 G55 G93 F5 S7 T3 G0 X1 I1", "G92 X5 I1", "G10 L2 P1 X5 I3", "G43.1 Z5 K1", "G28 X5 R1",
-                         "G61 M3 M8 X1000", "G28.1 G0 X2000", "M2 X900", "G82 X1 R1 Z0", "G2 X9 I1", "T7 M6 X1 X1"};
+    const char* bad[] = {"G20 G91 G18 G55 G93 F5 S7 T3 G0 X1 I1",
+                         "G92 X5 I1",
+                         "G10 L2 P1 X5 I3",
+                         "G43.1 Z5 K1",
+                         "G28 X5 R1",
+                         "G61 M3 M8 X1000",
+                         "G28.1 G0 X2000",
+                         "M2 X900",
+                         "G82 X1 R1 Z0",
+                         "G2 X9 I1",
+                         "T7 M6 X1 X1"};
     for (const char* line : bad) {
         SCOPED_TRACE(line);
         ASSERT_FALSE(interpreter.line(line, 2));

@@ -51,14 +51,15 @@ inline Program read(std::string_view text, const Settings& settings = machine())
 
 /// Everything that counts of a move, for comparing two programs exactly but for their line numbers.
 inline std::string describe(const Move& move) {
-    std::string out = std::to_string(static_cast<int>(move.kind)) + ' ' + std::to_string(static_cast<int>(move.path)) + ' ' +
-                      std::to_string(static_cast<int>(move.feed_mode)) + ' ' + std::to_string(move.turns);
+    std::string out = std::to_string(static_cast<int>(move.kind)) + ' ' + std::to_string(static_cast<int>(move.path)) +
+                      ' ' + std::to_string(static_cast<int>(move.feed_mode)) + ' ' + std::to_string(move.turns);
     char number[40];
     const auto add = [&](double value) {
         std::snprintf(number, sizeof number, " %.17g", value);
         out += number;
     };
-    for (const double value : {move.feed, move.tolerance_mm, move.centre_first, move.centre_second, move.seconds}) add(value);
+    for (const double value : {move.feed, move.tolerance_mm, move.centre_first, move.centre_second, move.seconds})
+        add(value);
     for (const double value : move.end) add(value);
     return out;
 }

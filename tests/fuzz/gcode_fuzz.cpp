@@ -1,0 +1,89 @@
+// libFuzzer: any bytes as a G-code program; the reader refuses with a place in the text or gives moves within the
+// limits.
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <motionrack/control/gcode/canon.hpp>
+#include <string_view>
+
+namespace {
+
+using namespace motionrack::control;
+using namespace motionrack::control::gcode;
+
+void require(bool holds) {
+    if (!holds) std::abort();
+}
+
+Settings machine(std::uint8_t choice) {
+    Settings settings;
+    for (int axis = 0; axis < axis_count; ++axis) {
+        settings.limits[axis].present = axis < 3 || (choice & 1) != 0;
+        settings.limits[axis].min_position = -400;
+        settings.limits[axis].max_position = 600;
+        settings.work_offsets[1][axis] = 12.5;
+        settings.g30[axis] = -7;
+    }
+    settings.block_delete = (choice & 2) != 0;
+    settings.start_in_g0 = (choice & 4) != 0;
+    return settings;
+}
+
+void check_point(const Point& point) {
+    for (const double value : point) require(value >= -400 - limit_slack && value <= 600 + limit_slack);
+}
+
+void check_move(const Move& move, std::int32_t line) {
+    require(move.line == line && line >= 1);
+    check_point(move.end);
+    require(std::isfinite(move.feed) && move.feed >= 0 && std::isfinite(move.tolerance_mm) && move.tolerance_mm >= 0);
+    require(std::isfinite(move.seconds) && move.seconds >= 0);
+    if (move.kind == MoveKind::feed || move.kind == MoveKind::arc) require(move.feed > 0);
+    if (move.kind != MoveKind::arc) return;
+    require(move.turns != 0 && move.first < 3 && move.second < 3 && move.first != move.second);
+    const double radius =
+        std::hypot(move.end[move.first] - move.centre_first, move.end[move.second] - move.centre_second);
+    require(std::isfinite(radius) && radius > 0);
+}
+
+void check_problem(const Problem& problem, std::string_view text) {
+    require(!problem.message.empty() && problem.status != GrblStatus::none);
+    require(problem.place.line >= 1 && problem.place.column >= 1);
+    Lines lines(text);
+    std::string_view line;
+    while (lines.number() < problem.place.line) require(lines.next(line));
+    require(static_cast<std::size_t>(problem.place.column) <= line.size() + 1);
+    require(problem.word.empty() ||
+            line.substr(static_cast<std::size_t>(problem.place.column - 1)).starts_with(problem.word));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    if (size == 0) return 0;
+    const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+    Reader reader(text, machine(data[0]), "f");
+    Point before = {};
+    int steps = 0;
+    int problems = 0;
+    while (++steps < 20'000 && problems < 50) {
+        const auto step = reader.next();
+        if (!step) {
+            ++problems;
+            check_problem(step.error(), text);
+            continue;
+        }
+        if (*step == nullptr) break;
+        if ((*step)->kind == StepKind::move) {
+            check_move((*step)->move, (*step)->line);
+            before = (*step)->move.end;
+        }
+    }
+    check_point(reader.interpreter().position());
+    if (steps < 20'000 && problems == 0) {
+        require(before == reader.interpreter().position());
+        const auto printed = print_canon(text, machine(data[0]), {}, [](std::string_view) {});
+        require(printed.has_value());
+    }
+    return 0;
+}
