@@ -5,9 +5,11 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/control/path.hpp>
+#include <motionrack/control/profile.hpp>
 #include <random>
 #include <vector>
 
@@ -254,6 +256,37 @@ TEST(PlannerLaws, AWindowLongerThanTheWayToStopIsAsGoodAsTheWholeProgram) {
         fastest = std::max(fastest, out[i].cruise);
     }
     EXPECT_GT(fastest, 85);
+}
+
+/// Folds the bits of speeds, lengths and times; the number was the same with g++ and clang++ at -O0, -O2 and -O3.
+TEST(PlannerLaws, BitsAreTheSameOnEveryCompilerAndCpu) {
+    MachineLimits limits;
+    for (AxisLimits& axis : limits) axis = {true, -1e9, 1e9, 100, 1000, 30'000, 1, 1000};
+    auto moves = curve(3000, 0.37);
+    for (std::size_t i = 5; i < moves.size(); i += 10) {
+        Move& move = moves[i];
+        move.kind = MoveKind::arc;
+        move.turns = i % 20 == 5 ? 1 : -1;
+        move.centre_first = 0.5 * (moves[i - 1].end[0] + move.end[0]);
+        move.centre_second = 0.5 * (moves[i - 1].end[1] + move.end[1]);
+        move.end[2] += 0.1;
+        moves[i - 2].path = PathControl::exact_stop;
+    }
+    std::uint64_t fold = 0;
+    const auto mix = [&fold](double value) {
+        fold = (fold ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15u;
+    };
+    for (const PlannedMove& planned : plan(limits, moves, 100)) {
+        for (const double value :
+             {planned.length, planned.entry, planned.cruise, planned.exit, planned.accel, planned.jerk}) {
+            mix(value);
+        }
+        mix(seconds_of(planned));
+        for (const double value : position_at(geometry_of(planned.move, planned.start), planned.length * 0.3))
+            mix(value);
+        mix(SCurve(planned.length, planned.cruise, planned.accel, 1e4).sample(0.01).position);
+    }
+    EXPECT_EQ(fold, 3516908192308749591u);
 }
 
 }  // namespace

@@ -165,6 +165,35 @@ TEST(Planner, ALineIntoATangentArcKeepsThePullOfTheArc) {
     EXPECT_NEAR(plan(machine(), {line_to(20, 0), arc})[0].exit, std::sqrt(0.866 * 600 * 0.5), 1e-9);
 }
 
+TEST(Planner, ASteepHelixIsPulledLessThanItsCircle) {
+    Move helix = line_to(0.1, 0, 0.2 * 3.14159265358979323846);
+    helix.kind = MoveKind::arc;
+    helix.turns = 1;
+    MachineLimits limits = machine();
+    limits[2] = limits[0];
+    // as high as it is round: half of v^2 / r points to the axis; the way along the arc is sqrt 1/2 of the path
+    const Geometry path = geometry_of(helix, {0.1, 0, 0, 0, 0, 0});
+    const AlongPath along = PathLimits(limits).along(path, helix);
+    EXPECT_NEAR(along.speed, std::sqrt(0.866 * 600 * 0.1 / 0.5), 1e-9);
+    EXPECT_NEAR(along.accel, 0.5 * 600 / std::sqrt(0.5), 1e-9);
+}
+
+TEST(Planner, ACurveOfShortLinesIsNotFasterThanTheArcItStandsFor) {
+    MachineLimits limits = machine();
+    for (AxisLimits& axis : limits) {
+        axis.start_speed = 1000;
+        axis.max_accel = 1000;
+    }
+    Move first = line_to(0.1, 0, 0, 50, PathControl::continuous);
+    first.tolerance_mm = 100;
+    const Geometry before = geometry_of(first, Point{});
+    const Move second = line_to(0.1 + 0.08, 0.06);
+    const Geometry after = geometry_of(second, first.end);
+    // Y gains 0.6 of the speed within 0.1 mm: v * 0.6 v / 0.1 <= 1000
+    const double squared = PathLimits(limits).joint_squared(before, 50, after, 50, PathControl::continuous, 100);
+    EXPECT_NEAR(squared, 1000 * 0.1 / 0.6, 1e-9);
+}
+
 TEST(Planner, TwoThousandShortCollinearLinesReachTheFullFeed) {
     std::vector<Move> moves;
     for (int i = 1; i <= 2000; ++i) moves.push_back(line_to(0.01 * i, 0, 0, 100));

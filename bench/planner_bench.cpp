@@ -1,0 +1,304 @@
+// Speed of profiles and look-ahead, each beside the plain way of doing the same thing.
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/control/path.hpp>
+#include <motionrack/control/profile.hpp>
+#include <random>
+#include <vector>
+
+namespace motionrack::control {
+namespace {
+
+struct Task {
+    double distance, speed, accel, jerk, entry, exit;
+};
+
+/// So many that the branch predictor cannot learn them.
+constexpr std::size_t task_count = 1 << 14;
+
+/// Moves of all cases: some reach speed and acceleration, some neither.
+std::vector<Task> tasks() {
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<double> part(0, 1);
+    std::vector<Task> out(task_count);
+    for (Task& task : out) {
+        task.speed = 20 + 180 * part(random);
+        task.accel = 200 + 2000 * part(random);
+        task.jerk = 5'000 + 50'000 * part(random);
+        task.distance = 100 * part(random) * part(random) * part(random);
+        task.entry = task.speed * part(random) * 0.2;
+        task.exit = task.speed * part(random) * 0.2;
+    }
+    return out;
+}
+
+void trapezoid_plan(benchmark::State& state) {
+    const auto work = tasks();
+    std::size_t i = 0;
+    for (auto _ : state) {
+        const Task& t = work[i++ & (task_count - 1)];
+        const Trapezoid p(t.distance, t.speed, t.accel);
+        benchmark::DoNotOptimize(p);
+    }
+}
+BENCHMARK(trapezoid_plan);
+
+void trapezoid_plan_between_speeds(benchmark::State& state) {
+    const auto work = tasks();
+    std::size_t i = 0;
+    for (auto _ : state) {
+        const Task& t = work[i++ & (task_count - 1)];
+        const Trapezoid p(t.distance, t.entry, t.exit, t.speed, t.accel);
+        benchmark::DoNotOptimize(p);
+    }
+}
+BENCHMARK(trapezoid_plan_between_speeds);
+
+/// The plain way: step through the motion at 1 kHz, braking when the way left asks for it.
+void trapezoid_plan_by_steps_of_1_ms(benchmark::State& state) {
+    const auto work = tasks();
+    std::size_t i = 0;
+    for (auto _ : state) {
+        const Task& t = work[i++ & (task_count - 1)];
+        double position = 0;
+        double speed = 0;
+        int steps = 0;
+        while (position < t.distance && steps < 1'000'000) {
+            const bool brake = speed * speed >= 2 * t.accel * (t.distance - position);
+            speed = std::clamp(speed + (brake ? -t.accel : t.accel) * 1e-3, t.accel * 1e-4, t.speed);
+            position += speed * 1e-3;
+            ++steps;
+        }
+        benchmark::DoNotOptimize(steps);
+    }
+}
+BENCHMARK(trapezoid_plan_by_steps_of_1_ms);
+
+void s_curve_plan(benchmark::State& state) {
+    const auto work = tasks();
+    std::size_t i = 0;
+    for (auto _ : state) {
+        const Task& t = work[i++ & (task_count - 1)];
+        const SCurve p(t.distance, t.speed, t.accel, t.jerk);
+        benchmark::DoNotOptimize(p);
+    }
+}
+BENCHMARK(s_curve_plan);
+
+/// The plain way: bisection for the peak speed.
+void s_curve_plan_by_bisection(benchmark::State& state) {
+    const auto work = tasks();
+    std::size_t i = 0;
+    for (auto _ : state) {
+        const Task& t = work[i++ & (task_count - 1)];
+        const auto speed_up = [&t](double v) {
+            return v * t.jerk >= t.accel * t.accel ? v / t.accel + t.accel / t.jerk : 2 * std::sqrt(v / t.jerk);
+        };
+        double low = 0;
+        double high = t.speed;
+        for (int k = 0; k < 52; ++k) {
+            const double v = 0.5 * (low + high);
+            (v * speed_up(v) <= t.distance ? low : high) = v;
+        }
+        benchmark::DoNotOptimize(speed_up(low) + t.distance / low);
+    }
+}
+BENCHMARK(s_curve_plan_by_bisection);
+
+template <class Profile>
+void sample_four_axes(benchmark::State& state, const std::array<Profile, 4>& axes) {
+    double t = 0;
+    for (auto _ : state) {
+        double sum = 0;
+        for (const Profile& axis : axes) {
+            const ProfileSample s = axis.sample(t);
+            sum += s.position + s.speed + s.accel;
+        }
+        benchmark::DoNotOptimize(sum);
+        t += 1e-4;
+        if (t > axes[0].duration()) t = 0;
+    }
+    state.counters["per_axis"] = benchmark::Counter(4 * static_cast<double>(state.iterations()),
+                                                    benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void sample_s_curve(benchmark::State& state) {
+    sample_four_axes<SCurve>(state, {SCurve(20, 100, 1000, 2e4), SCurve(15, 80, 800, 2e4), SCurve(12, 90, 900, 1e4),
+                                     SCurve(30, 120, 1500, 3e4)});
+}
+BENCHMARK(sample_s_curve);
+
+void sample_trapezoid(benchmark::State& state) {
+    sample_four_axes<Trapezoid>(
+        state, {Trapezoid(20, 100, 1000), Trapezoid(15, 80, 800), Trapezoid(12, 90, 900), Trapezoid(30, 120, 1500)});
+}
+BENCHMARK(sample_trapezoid);
+
+/// The plain way: run through the phases from the start at every sample.
+void sample_s_curve_through_all_phases(benchmark::State& state) {
+    const SCurve p(20, 100, 1000, 2e4);
+    const auto ends = p.phase_ends();
+    const double jerks[7] = {2e4, 0, -2e4, 0, -2e4, 0, 2e4};
+    double t = 0;
+    for (auto _ : state) {
+        double position = 0, speed = 0, accel = 0, begin = 0;
+        for (int k = 0; k < 7 && begin < t; ++k) {
+            const double dt = std::min(t, ends[static_cast<std::size_t>(k)]) - begin;
+            position += dt * (speed + dt * (0.5 * accel + dt * jerks[k] / 6));
+            speed += dt * (accel + 0.5 * jerks[k] * dt);
+            accel += jerks[k] * dt;
+            begin += dt;
+        }
+        benchmark::DoNotOptimize(position + speed + accel);
+        t += 1e-4;
+        if (t > p.duration()) t = 0;
+    }
+}
+BENCHMARK(sample_s_curve_through_all_phases);
+
+MachineLimits machine() {
+    MachineLimits limits;
+    for (AxisLimits& axis : limits) axis = {true, -1e9, 1e9, 200, 2000, 0, 2, 1000};
+    return limits;
+}
+
+/// A smooth curve of short lines, as a CAM system writes it.
+std::vector<Move> curve(int count, double step) {
+    std::vector<Move> moves;
+    Point at{};
+    double heading = 0;
+    for (int i = 0; i < count; ++i) {
+        heading += 0.1 * step * sin_cos(i * step * 0.05).sin;
+        const SinCos along = sin_cos(heading);
+        at[0] += step * along.cos;
+        at[1] += step * along.sin;
+        Move move;
+        move.kind = MoveKind::feed;
+        move.path = PathControl::continuous;
+        move.tolerance_mm = 0.02;
+        move.feed = 100;
+        move.end = at;
+        moves.push_back(move);
+    }
+    return moves;
+}
+
+void look_ahead(benchmark::State& state, double step) {
+    const auto moves = curve(100'000, step);
+    Planner planner(machine(), Point{}, {1024});
+    PlannedMove planned;
+    std::size_t i = 0;
+    double top = 0;
+    for (auto _ : state) {
+        while (!planner.has_room() && planner.pull(planned)) top = std::max(top, planned.cruise);
+        if (!planner.push(moves[i])) state.SkipWithError("refused");
+        if (++i == moves.size()) {
+            planner.flush();
+            while (planner.pull(planned)) top = std::max(top, planned.cruise);
+            planner = Planner(machine(), Point{}, {1024});
+            i = 0;
+        }
+    }
+    benchmark::DoNotOptimize(top);
+    state.SetItemsProcessed(state.iterations());
+}
+void look_ahead_0_1_mm(benchmark::State& state) {
+    look_ahead(state, 0.1);
+}
+BENCHMARK(look_ahead_0_1_mm);
+/// Stopping takes more moves than the window holds, so that every pass runs over the whole window.
+void look_ahead_2_um(benchmark::State& state) {
+    look_ahead(state, 0.002);
+}
+BENCHMARK(look_ahead_2_um);
+
+/// The plain way: both passes over the whole window at every push.
+void look_ahead_with_full_passes(benchmark::State& state) {
+    const auto moves = curve(20'000, 0.1);
+    const PathLimits limits(machine());
+    struct Node {
+        double joint, reach, cruise, entry;
+    };
+    std::vector<Node> window;
+    Geometry last;
+    AlongPath last_along;
+    Point at{};
+    std::size_t i = 0;
+    double committed = 0;
+    for (auto _ : state) {
+        const Move& move = moves[i];
+        const Geometry path = geometry_of(move, at);
+        const AlongPath along = limits.along(path, move);
+        const double joint = window.empty() ? 0
+                                            : limits.joint_squared(last, last_along.speed, path, along.speed, move.path,
+                                                                   move.tolerance_mm);
+        if (window.size() == 1024) {
+            committed = window[1].entry;
+            window.erase(window.begin());
+        }
+        window.push_back({joint, 2 * along.accel * path.length, along.speed * along.speed, 0});
+        double entry = 0;
+        for (std::size_t k = window.size(); k-- > 0;) {
+            entry = std::min(window[k].joint, entry + window[k].reach);
+            window[k].entry = entry;
+        }
+        entry = committed;
+        for (Node& node : window) {
+            node.entry = std::min(node.entry, entry);
+            entry = node.entry + node.reach;
+        }
+        benchmark::DoNotOptimize(window.data());
+        last = path;
+        last_along = along;
+        at = move.end;
+        if (++i == moves.size()) {
+            i = 0;
+            at = {};
+            window.clear();
+            committed = 0;
+        }
+    }
+    state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(look_ahead_with_full_passes);
+
+void geometry_of_a_line(benchmark::State& state) {
+    const auto moves = curve(1024, 0.1);
+    std::size_t i = 0;
+    for (auto _ : state) {
+        const Geometry path = geometry_of(moves[i & 1023], moves[(i + 1) & 1023].end);
+        benchmark::DoNotOptimize(path);
+        ++i;
+    }
+}
+BENCHMARK(geometry_of_a_line);
+
+void sine_and_cosine(benchmark::State& state) {
+    double x = 0.1;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(sin_cos(x));
+        x = x > 100 ? 0.1 : x + 0.37;
+    }
+}
+BENCHMARK(sine_and_cosine);
+
+void sine_and_cosine_of_the_c_library(benchmark::State& state) {
+    double x = 0.1;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(std::sin(x));
+        benchmark::DoNotOptimize(std::cos(x));
+        x = x > 100 ? 0.1 : x + 0.37;
+    }
+}
+BENCHMARK(sine_and_cosine_of_the_c_library);
+
+}  // namespace
+}  // namespace motionrack::control
+
+BENCHMARK_MAIN();
