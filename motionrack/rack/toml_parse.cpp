@@ -1,35 +1,64 @@
-// From TOML text to the tree of nodes: toml++ does the syntax; depth and size are checked before it sees the text,
-// because a very long dotted key would nest its tables until their destruction overruns the stack.
+// From TOML text to the tree of nodes: toml++ does the syntax; a scanner before it keeps from it what version 3.3
+// cannot stand:
+//   - very long dotted keys, which nest tables until their destruction overruns the stack;
+//   - a header without a key ("[{"), where it asserts, or tells the optimiser, that there is one;
+//   - brackets that do not match ("[}"), another assumption of the same kind;
+//   - quotes within a number or word ("1\"a"), which end it for the scanner but not for the parser;
+//   - characters beyond ASCII where it asks whether they are blanks (its table of blanks runs into "unreachable").
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <motionrack/rack/toml_reader.hpp>
+#include <optional>
 
 namespace motionrack::rack {
 namespace {
 
 /// Reads strings, comments, brackets and dots of a TOML text as its grammar does, and nothing else.
-class DepthScanner {
+class Scanner {
   public:
-    explicit DepthScanner(std::string_view text) : text_(text) {}
+    explicit Scanner(std::string_view text) : text_(text) {
+        if (text_.starts_with("\xEF\xBB\xBF")) at_ = line_start_ = 3;  // a byte order mark
+    }
 
-    /// The place where the nesting becomes too deep, or line 0.
-    Place too_deep() {
+    /// What the parser must not see, or nothing.
+    std::optional<Error> find() {
         while (at_ < text_.size()) {
             const char c = text_[at_];
             if (c == '"' || c == '\'') {
-                skip_string(c);
+                if (!text_may_begin()) {
+                    return error("This is not TOML: a quote in the middle of a word. Nothing was read.");
+                }
+                if (auto bad = skip_string(c)) return bad;
                 continue;
+            }
+            if (not_ascii(at_)) {
+                return error("Letters other than a-z and A-Z may stand only in quotes and comments. Nothing was read.");
             }
             if (c == '#') {
                 at_ = std::min(text_.find('\n', at_), text_.size());
                 continue;
             }
-            if (c == '.' && ++dots_ > max_toml_depth) return here();
-            if ((c == '[' || c == '{') && ++brackets_ > max_toml_depth) return here();
-            if (c == ']' || c == '}') brackets_ = std::max(0, brackets_ - 1);
+            if (c == '[' && open_.empty() && !value_ && !key_follows()) {
+                return error("This is not TOML: after '[' a section needs a name, such as [axis.X]. Nothing was read.");
+            }
+            if (c == '[' || c == '{') open_ += c;
+            if ((c == '.' && ++dots_ > max_toml_depth) || open_.size() > max_toml_depth) {
+                return error(fmt::format(
+                    "More than {} levels of dotted keys or brackets; a rack file needs 3. Nothing was read.",
+                    max_toml_depth));
+            }
+            if (c == ']' || c == '}') {
+                if (open_.empty() || open_.back() != (c == ']' ? '[' : '{')) {
+                    return error(fmt::format(
+                        "This is not TOML: '{}' closes a bracket that was not opened. Nothing was read.", c));
+                }
+                open_.pop_back();
+            }
             if (c == '=' || c == ',' || c == '\n' || c == '[' || c == '{') dots_ = 0;
+            if (c == '=' || c == '}') value_ = true;
+            if (c == '{' || (c == ',' && !open_.empty() && open_.back() == '{')) value_ = false;
             if (c == '\n') next_line();
             ++at_;
         }
@@ -40,35 +69,82 @@ class DepthScanner {
     void next_line() {
         ++line_;
         line_start_ = at_ + 1;
+        if (open_.empty()) value_ = false;
     }
 
-    Place here() const { return {line_, static_cast<int>(at_ - line_start_) + 1}; }
+    Error error(std::string what) const {
+        const std::string_view before = text_.substr(line_start_, at_ - line_start_);
+        const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+        const auto bytes_more = std::count_if(before.begin(), before.end(), continues);
+        const int column = static_cast<int>(before.size()) - static_cast<int>(bytes_more) + 1;
+        return {Trouble::bad_input, std::move(what), {}, {line_, column}};
+    }
+
+    /// At a quote: does a text or a quoted key begin here?
+    bool text_may_begin() const {
+        const char before = at_ > line_start_ ? text_[at_ - 1] : '\n';
+        return std::string_view("\n\t =,[{").find(before) != std::string_view::npos || (before == '.' && !value_);
+    }
+
+    /// After a header's '[' or '[[' and blanks: does a key (or the closing bracket, which the parser refuses itself)
+    /// come?
+    bool key_follows() const {
+        const auto past_blanks = [&](std::size_t from) {
+            return std::min(text_.find_first_not_of(" \t", from), text_.size());
+        };
+        std::size_t next = past_blanks(at_ + 1);
+        if (next < text_.size() && text_[next] == '[') next = past_blanks(next + 1);
+        if (next == text_.size()) return true;
+        const char c = text_[next];
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               std::string_view("_-\"']").find(c) != std::string_view::npos;
+    }
 
     bool triple(char quote) const {
         return at_ + 2 < text_.size() && text_[at_] == quote && text_[at_ + 1] == quote && text_[at_ + 2] == quote;
     }
 
-    void skip_string(char quote) {
+    bool not_ascii(std::size_t at) const { return at < text_.size() && static_cast<unsigned char>(text_[at]) >= 0x80; }
+
+    std::optional<Error> skip_string(char quote) {
         const bool many_lines = triple(quote);
         at_ += many_lines ? 3 : 1;
         while (at_ < text_.size()) {
             const char c = text_[at_];
             if (c == '\n') {
-                if (!many_lines) return;  // a syntax error; toml++ tells it
+                if (!many_lines) return {};  // a syntax error; the parser tells it
                 next_line();
             }
-            if (c == '\\' && quote == '"' && at_ + 1 < text_.size() && text_[at_ + 1] != '\n') {
-                at_ += 2;
+            if (c == '\\' && quote == '"') {
+                if (auto bad = skip_escape(many_lines)) return bad;
                 continue;
             }
             if (c == quote && (!many_lines || triple(quote))) {
                 at_ += many_lines ? 3 : 1;
                 // Up to two quotes may stand before the closing three.
                 for (int more = 0; many_lines && more < 2 && at_ < text_.size() && text_[at_] == quote; ++more) ++at_;
-                return;
+                return {};
             }
             ++at_;
         }
+        return {};
+    }
+
+    /// A backslash and what it escapes: one character, or blanks and line ends up to the text's next character.
+    std::optional<Error> skip_escape(bool many_lines) {
+        const auto blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
+        ++at_;
+        if (many_lines && at_ < text_.size() && blank(text_[at_])) {
+            for (; at_ < text_.size() && blank(text_[at_]); ++at_) {
+                if (text_[at_] == '\n') next_line();
+            }
+        } else if (at_ < text_.size() && text_[at_] != '\n' && !not_ascii(at_)) {
+            ++at_;
+            return {};
+        }
+        if (!not_ascii(at_)) return {};
+        return error(
+            "After a backslash only letters a-z and A-Z can be read; write this text on one line. Nothing was read.");
     }
 
     std::string_view text_;
@@ -76,7 +152,8 @@ class DepthScanner {
     std::size_t line_start_ = 0;
     int line_ = 1;
     int dots_ = 0;
-    int brackets_ = 0;
+    bool value_ = false;  ///< after '=', up to the end of the line or of the entry
+    std::string open_;    ///< the brackets that are open, outermost first
 };
 
 Place to_place(const toml::source_position& position) {
@@ -129,12 +206,9 @@ Result<TomlNode> parse_toml(std::string_view text, std::string_view file) {
                                 max_toml_bytes),
                     {}, std::string(file));
     }
-    if (const Place deep = DepthScanner(text).too_deep(); deep.line > 0) {
-        return fail(
-            Trouble::bad_input,
-            fmt::format("More than {} levels of dotted keys or brackets; a rack file needs 3. Nothing was read.",
-                        max_toml_depth),
-            deep, std::string(file));
+    if (auto error = Scanner(text).find()) {
+        error->file = file;
+        return tl::unexpected<Error>(std::move(*error));
     }
     try {
         const toml::table table = toml::parse(text);

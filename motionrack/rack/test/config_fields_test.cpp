@@ -1,0 +1,248 @@
+// The table of keys: every key's range, the templates and the reference page that are written from it.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/template.hpp>
+#include <motionrack/rack/test/config_helpers.hpp>
+#include <set>
+
+namespace motionrack::rack {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// ---- Every key's range ------------------------------------------------------------------------------------------
+
+struct FieldCase {
+    const Field* field;
+    std::string header;  ///< the section's header, without brackets
+    char axis;
+    std::string unit;
+};
+
+std::vector<FieldCase> all_fields() {
+    std::vector<FieldCase> out;
+    const auto add = [&](std::span<const Field> fields, const std::string& header, char axis, const std::string& unit) {
+        for (const Field& field : fields) {
+            if (field.only.empty() || field.only == unit) out.push_back({&field, header, axis, unit});
+        }
+    };
+    add(rack_fields(), "rack", 'X', "");
+    add(controller_fields(), "controller", 'X', "");
+    add(card_fields(), "card.m", 'X', "");
+    for (const CardType& type : card_types()) add(type.settings, "card.m", 'X', "");
+    for (const auto& [letter, unit] : {std::pair{'X', "mm"}, std::pair{'A', "deg"}}) {
+        add(axis_fields(), fmt::format("axis.{}", letter), letter, unit);
+        add(motor_fields(), fmt::format("axis.{}.motor", letter), letter, unit);
+        add(switch_fields(), fmt::format("axis.{}.switches", letter), letter, unit);
+    }
+    return out;
+}
+
+/// A rack in which only that field is given besides what must be; the field stands in line 3.
+std::string rack_with_field(const FieldCase& c, const std::string& value) {
+    std::string out = fmt::format("\n[{}]\n{} = {}\n", c.header, with_unit(c.field->key, c.unit), value);
+    const auto needs = [&](std::string_view header, std::string_view key, std::string_view text) {
+        const bool same_section = c.header == header;
+        if (same_section && c.field->key == key) return std::string();
+        return fmt::format("{} = {}\n", key, text);
+    };
+    const std::string axis = fmt::format("axis.{}", c.axis);
+    const std::string card_keys = needs("card.m", "type", "\"mcx314\"");
+    const std::string axis_keys = needs(axis, "card", "\"m\"") + needs(axis, "channel", "\"x\"");
+    if (c.header == "card.m") return out + card_keys + "[" + axis + "]\n" + axis_keys;
+    if (c.header == axis) return out + axis_keys + "[card.m]\n" + card_keys;
+    return out + "[card.m]\n" + card_keys + "[" + axis + "]\n" + axis_keys;
+}
+
+void expect_refused(const FieldCase& c, const std::string& value) {
+    const std::string text = rack_with_field(c, value);
+    const RackReading reading = read_rack_text(text);
+    ASSERT_EQ(reading.errors.size(), 1U) << all_texts(reading.errors) << text;
+    EXPECT_EQ(reading.errors[0].place.line, 3) << all_texts(reading.errors) << text;
+    EXPECT_THAT(reading.errors[0].message, HasSubstr(with_unit(c.field->key, c.unit)));
+    EXPECT_THAT(reading.errors[0].message, HasSubstr(range_text(*c.field, c.unit)));
+}
+
+TEST(RackKeys, RefusesEveryKeyOutsideItsRangeAndOfTheWrongType) {
+    for (const FieldCase& c : all_fields()) {
+        std::vector<std::string> bad = {"1979-05-27", "[1, 2]"};
+        switch (c.field->type) {
+            case FieldType::flag:
+                bad.insert(bad.end(), {"1", "\"true\""});
+                break;
+            case FieldType::choice:
+                bad.insert(bad.end(), {"1", "\"zzz\"", "\"\""});
+                break;
+            case FieldType::text:
+                bad.insert(bad.end(), {"1", '"' + std::string(500, 'a') + '"', "\"\""});
+                break;
+            case FieldType::integer:
+                bad.insert(bad.end(), {toml_text(static_cast<std::int64_t>(c.field->min) - 1),
+                                       toml_text(static_cast<std::int64_t>(c.field->max) + 1), "9223372036854775807",
+                                       "-9223372036854775808", toml_text(c.field->min + 0.5)});
+                [[fallthrough]];
+            case FieldType::number:
+                bad.insert(bad.end(),
+                           {"nan", "inf", "-inf", "1e300", "-1e300", "true", "\"1\"",
+                            fmt::format("{}", std::nextafter(c.field->max, std::numeric_limits<double>::infinity())),
+                            fmt::format("{}", std::nextafter(c.field->min, -std::numeric_limits<double>::infinity()))});
+                break;
+        }
+        for (const std::string& value : bad) expect_refused(c, value);
+    }
+}
+
+TEST(RackKeys, RefusesRandomNumbersOutsideTheRange) {
+    const std::vector<FieldCase> cases = all_fields();
+    EXPECT_TRUE(rc::check("a number outside its range is refused with its name and the range", [&] {
+        const FieldCase& c = cases[*rc::gen::inRange<std::size_t>(0, cases.size())];
+        RC_PRE(c.field->type == FieldType::number || c.field->type == FieldType::integer);
+        const double scale = *rc::gen::positive<double>();
+        const bool above = *rc::gen::arbitrary<bool>();
+        const double value = above ? c.field->max * 1.000001 + scale : c.field->min - scale;
+        RC_PRE(value < c.field->min || value > c.field->max);
+        const RackReading reading = read_rack_text(rack_with_field(c, fmt::format("{:.17g}", value)));
+        RC_ASSERT(reading.errors.size() == 1U);
+        RC_ASSERT(reading.errors[0].message.find(range_text(*c.field, c.unit)) != std::string::npos);
+        RC_ASSERT(reading.errors[0].message.find(with_unit(c.field->key, c.unit)) != std::string::npos);
+    }));
+}
+
+TEST(RackKeys, KeepsNumbersBitForBit) {
+    EXPECT_TRUE(rc::check("what the file says is what the config has", [] {
+        const double lead = *rc::gen::inRange(1, 1'000'000) / 7000.0 + 1;
+        const double travel = *rc::gen::inRange(1, 1'000'000) / 3000.0;
+        const RackReading reading =
+            read_rack_text(rack_with(fmt::format("lead_mm = {}\nmax_mm = {}\nmax_speed_mm_s = 2\n", lead, travel)));
+        RC_ASSERT(reading.config.has_value());
+        RC_ASSERT(reading.config->axes[0].lead_mm == lead);
+        RC_ASSERT(reading.config->axes[0].max_position == travel);
+        RC_ASSERT(reading.config->axes[0].pulses_per_unit() == 3200 / lead);
+    }));
+}
+
+TEST(RackKeys, TakesWholeNumbersWrittenWithAnExponentOrAPoint) {
+    const RackConfig config =
+        good(rack_with("microsteps = 8.0\nlead_mm = 10\n") + "[card.n]\ntype = \"mcx314\"\nclock_hz = 8e6\n");
+    EXPECT_EQ(config.axes[0].microsteps, 8);
+    EXPECT_EQ(config.axes[0].lead_mm, 10.0);
+    EXPECT_EQ(config.cards[1].mcx314.clock_hz, 8'000'000);
+}
+
+// ---- Templates and the reference page ---------------------------------------------------------------------------
+
+TEST(RackTemplate, EveryVariantReadsWithoutErrorsOrWarnings) {
+    for (const TemplateVariant& variant : template_variants()) {
+        const Result<std::string> text = rack_template(variant.name);
+        ASSERT_TRUE(text.has_value());
+        const RackReading reading = read_rack(*text);
+        EXPECT_TRUE(reading.config.has_value()) << all_texts(reading.errors);
+        EXPECT_THAT(reading.warnings, IsEmpty()) << all_texts(reading.warnings);
+    }
+    EXPECT_EQ(good(*rack_template("router")).axes.size(), 4U);
+    EXPECT_EQ(good(*rack_template("router")).axis('A')->channel, "u");
+    EXPECT_EQ(good(*rack_template("stage")).axes.size(), 2U);
+    EXPECT_EQ(good(*rack_template("single")).axes.size(), 1U);
+}
+
+TEST(RackTemplate, NamesTheTemplatesIfThereIsNoSuchOne) {
+    const Result<std::string> text = rack_template("routr");
+    ASSERT_FALSE(text.has_value());
+    EXPECT_THAT(text.error().message, HasSubstr("router, stage, single; did you mean 'router'?"));
+}
+
+TEST(RackTemplate, SaysOfEveryKeyItsRangeAndDefault) {
+    const std::string text = *rack_template("router");
+    for (const FieldCase& c : all_fields()) {
+        const std::string key = with_unit(c.field->key, c.unit);
+        std::size_t at = text.find('\n' + key + " = ");
+        if (at == std::string::npos) at = text.find("\n# " + key + " =");
+        ASSERT_NE(at, std::string::npos) << key;
+        const std::string line = text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+        EXPECT_THAT(
+            line, HasSubstr("; " + range_text(*c.field, c.unit) + "; " + (c.field->required ? "required" : "default ")))
+            << key;
+    }
+}
+
+TEST(RackTemplate, ItsCommentedDefaultsAreThoseOfAnEmptySection) {
+    const RackConfig config = good(rack_with(""));
+    for (const FieldCase& c : all_fields()) {
+        if (c.header != "axis.X" || !c.field->default_doc.empty()) continue;
+        const RackAxis defaults = default_axis('X');
+        EXPECT_EQ(c.field->get(&config.axes[0], *c.field), c.field->get(&defaults, *c.field)) << c.field->key;
+    }
+}
+
+TEST(RackTemplate, TheExamplesAreItsOutput) {
+    for (const TemplateVariant& variant : template_variants()) {
+        const std::filesystem::path path =
+            std::filesystem::path(MOTIONRACK_SOURCE_DIR) / "examples/racks" / (std::string(variant.name) + ".toml");
+        std::ifstream in(path, std::ios::binary);
+        const std::string text{std::istreambuf_iterator<char>(in), {}};
+        EXPECT_EQ(text, *rack_template(variant.name)) << path << " is not what 'motionrack new' writes; write it anew";
+        EXPECT_TRUE(read_rack(path.string()).config.has_value());
+    }
+}
+
+TEST(RackReference, HasEveryKeyPinAndEnd) {
+    const std::string page = rack_file_reference();
+    for (const FieldCase& c : all_fields()) {
+        EXPECT_THAT(page, HasSubstr('`' + with_unit(c.field->key, c.unit) + '`'));
+        EXPECT_THAT(page, HasSubstr(std::string(c.field->doc)));
+    }
+    for (const CardType& type : card_types()) {
+        for (const PinType& pin : type.channel_pins) EXPECT_THAT(page, HasSubstr(fmt::format("`x{}`", pin.name)));
+        for (const PinType& pin : type.chip_pins) EXPECT_THAT(page, HasSubstr(fmt::format("`{}`", pin.name)));
+    }
+    for (const AxisEnd& end : axis_ends()) EXPECT_THAT(page, HasSubstr(fmt::format("`X.{}`", end.name)));
+}
+
+TEST(CardTypes, HaveUniquePinsAndChoicesThatTheReaderKnows) {
+    for (const CardType& type : card_types()) {
+        std::set<std::string> names;
+        for (const Pin& pin : pins_of(type)) EXPECT_TRUE(names.insert(pin.name).second) << pin.name;
+        EXPECT_EQ(find_card_type(type.name), &type);
+        for (const DefaultWire& wire : type.default_wires) {
+            EXPECT_NE(find_axis_end(wire.end), nullptr);
+            EXPECT_EQ(names.count(type.channels[0] + std::string(wire.pin)), 1U);
+        }
+        const auto& choices = card_fields()[0].choices;
+        EXPECT_NE(std::find(choices.begin(), choices.end(), type.name), choices.end());
+    }
+    EXPECT_EQ(pins_of(card_types()[0]).size(), 4U * 22 + 3);
+}
+
+TEST(DidYouMean, FindsTheNearestNameOnly) {
+    const std::vector<std::string_view> names = {"max_mm", "min_mm", "lead_mm"};
+    EXPECT_EQ(did_you_mean("mxa_mm", names), "; did you mean 'max_mm'?");
+    EXPECT_EQ(did_you_mean("LEAD_MM", names), "; did you mean 'lead_mm'?");
+    EXPECT_EQ(did_you_mean("colour", names), "");
+    EXPECT_EQ(did_you_mean(std::string(1000, 'm'), names), "");
+}
+
+TEST(NumberText, IsShortAndReadsBackToTheSameNumber) {
+    EXPECT_EQ(number_text(0.1), "0.1");
+    EXPECT_EQ(number_text(1e-6), "0.000001");
+    EXPECT_EQ(number_text(16e6), "16000000");
+    EXPECT_EQ(number_text(-0.0), "0");
+    EXPECT_TRUE(rc::check("what is written reads back", [](double value) {
+        RC_PRE(std::isfinite(value));
+        RC_ASSERT(std::strtod(number_text(value).c_str(), nullptr) == value);
+    }));
+}
+
+}  // namespace
+}  // namespace motionrack::rack
