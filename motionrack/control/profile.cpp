@@ -117,11 +117,11 @@ SCurve::SCurve(double distance, double speed, double accel, double jerk) : dista
 
     const double speed_0 = 0.5 * peak_accel_ * rise;  // at the end of phase 0
     ends_ = {rise, speed_up - rise, speed_up};
-    phases_[0] = {0, 0, 0, 0, jerk};
-    phases_[1] = {rise, speed_0 * rise * (1.0 / 3), speed_0, peak_accel_, 0};
+    const double sixth = jerk * (1.0 / 6);
+    phases_[0] = {0, 0, 0, 0, sixth, jerk};
+    phases_[1] = {rise, speed_0 * rise * (1.0 / 3), speed_0, 0.5 * peak_accel_, 0, 0};
     // phase 2 is told backwards from its end, where the acceleration is 0
-    phases_[2] = {speed_up, 0.5 * peak_ * speed_up, peak_, 0, -jerk};
-    phases_[3] = {0.5 * duration_, 0.5 * distance, peak_, 0, 0};
+    phases_[2] = {speed_up, 0.5 * peak_ * speed_up, peak_, 0, -sixth, -jerk};
 }
 
 std::array<double, 7> SCurve::phase_ends() const {

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace motionrack::control {
 
@@ -87,7 +88,8 @@ class SCurve {
         double zero = 0;
         double position = 0;
         double speed = 0;
-        double accel = 0;
+        double half_accel = 0;
+        double sixth_jerk = 0;
         double jerk = 0;
     };
 
@@ -96,7 +98,7 @@ class SCurve {
     double peak_ = 0;
     double peak_accel_ = 0;
     std::array<double, 3> ends_ = {};  ///< of phases 0, 1, 2
-    std::array<Phase, 4> phases_ = {};
+    std::array<Phase, 3> phases_ = {};
 };
 
 /// The cube root of x >= 0 to 7e-16 of its value, with the same bits everywhere.
@@ -121,12 +123,12 @@ inline ProfileSample SCurve::sample(double t) const {
     if (t < 0) t = 0;
     const bool first_half = t <= left;
     const double u = first_half ? t : left;
-    const int phase = (u >= ends_[0]) + (u >= ends_[1]) + (u >= ends_[2]);
-    const Phase& p = phases_[static_cast<std::size_t>(phase)];
+    if (u >= ends_[2]) return {0.5 * distance_ + peak_ * (t - 0.5 * duration_), peak_, 0, 0};
+    const Phase& p = phases_[static_cast<std::size_t>((u >= ends_[0]) + (u >= ends_[1]))];
     const double s = u - p.zero;
-    const double position = p.position + s * (p.speed + s * (0.5 * p.accel + s * (1.0 / 6 * p.jerk)));
-    const double speed = p.speed + s * (p.accel + 0.5 * p.jerk * s);
-    const double accel = p.accel + p.jerk * s;
+    const double position = p.position + s * (p.speed + s * (p.half_accel + s * p.sixth_jerk));
+    const double speed = p.speed + s * (2 * p.half_accel + 3 * p.sixth_jerk * s);
+    const double accel = 2 * p.half_accel + p.jerk * s;
     return {first_half ? position : distance_ - position, speed, first_half ? accel : -accel, p.jerk};
 }
 
