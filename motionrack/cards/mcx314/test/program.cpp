@@ -1,0 +1,345 @@
+// Makes random register programs.
+#include <motionrack/cards/mcx314/test/program.hpp>
+
+#include <algorithm>
+
+namespace motionrack::mcx314::twin {
+
+std::uint64_t Random::next() {
+    std::uint64_t v = state_ += 0x9E3779B97F4A7C15ull;
+    v = (v ^ v >> 30) * 0xBF58476D1CE4E5B9ull;
+    v = (v ^ v >> 27) * 0x94D049BB133111EBull;
+    return v ^ v >> 31;
+}
+
+std::int64_t Random::between(std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(next() % static_cast<std::uint64_t>(high - low + 1));
+}
+
+namespace {
+
+class Maker {
+  public:
+    Maker(std::uint64_t seed, std::uint64_t number) : random_(seed * 0x2545F4914F6CDD1Dull + number) {
+        program_.seed = seed;
+        program_.number = number;
+    }
+
+    Program make() {
+        static constexpr std::int64_t lengths[] = {2'000, 2'000, 2'000, 2'000, 4'000, 4'000, 8'000, 8'000};
+        program_.ticks = random_.one_in(40) ? 200'000 : random_.of(lengths);
+        long_ = program_.ticks > 100'000;
+        static constexpr std::int64_t busyness[] = {300, 30, 6};
+        busy_ = random_.of(busyness);
+        s_curve_ = random_.one_in(3);
+        if (s_curve_ && !long_) program_.ticks *= random_.between(1, 3);
+        nasty_ = random_.one_in(4);
+        const std::int64_t theme = random_.between(0, 3);  // single axes, interpolation, both, everything
+        initial();
+        while (now_ < program_.ticks) {
+            action(theme);
+            gap();
+        }
+        now_ = program_.ticks;
+        read_everything();
+        std::stable_sort(program_.ops.begin(), program_.ops.end(), [](const Op& a, const Op& b) { return a.order() < b.order(); });
+        return std::move(program_);
+    }
+
+  private:
+    // ---- accesses -----------------------------------------------------------------------------------------------------------
+    void write(int offset, std::int64_t value) {
+        Op op;
+        op.tick = now_, op.between = between_, op.kind = Op::Kind::write;
+        op.offset = static_cast<std::uint8_t>(offset);
+        op.value = static_cast<std::uint16_t>(value);
+        program_.ops.push_back(op);
+        if (random_.one_in(60)) gap();
+    }
+    void read(int offset) {
+        Op op;
+        op.tick = now_, op.between = between_, op.kind = Op::Kind::read, op.offset = static_cast<std::uint8_t>(offset);
+        program_.ops.push_back(op);
+    }
+    void input(int axis, Pin pin, bool level) {
+        Op op;
+        op.tick = now_, op.between = between_, op.kind = Op::Kind::input, op.value = level;
+        op.axis = static_cast<std::int8_t>(axis), op.pin = pin;
+        program_.ops.push_back(op);
+    }
+    void command(unsigned axes, int code) { write(0, static_cast<std::int64_t>(axes << 8 | static_cast<unsigned>(code))); }
+    void data(unsigned axes, int code, std::int64_t value) {
+        write(14, value >> 16);
+        write(12, value);
+        command(axes, code);
+    }
+    void mode(unsigned axes, int number, std::int64_t value) {
+        command(axes, 0x0F);
+        write(2 * number, value);
+    }
+    void gap() {
+        const std::int64_t most = random_.one_in(busy_ < 10 ? 8 : 3) ? 4 : random_.one_in(6) ? program_.ticks / 6 : program_.ticks / busy_;
+        now_ += random_.between(0, std::max<std::int64_t>(most, 4));
+        between_ = random_.one_in(2);
+    }
+    unsigned axes() { return random_.one_in(2) ? 1u << random_.between(0, 3) : static_cast<unsigned>(random_.between(1, 15)); }
+
+    // ---- parameters ---------------------------------------------------------------------------------------------------------
+    std::int64_t range() {
+        static constexpr std::int64_t usual[] = {16'000, 16'000, 20'000, 32'000, 50'000, 80'000, 160'000};
+        if (nasty_ && random_.one_in(8)) return random_.between(0, 0x1FF'FFFF);
+        return random_.one_in(3) ? random_.between(16'000, long_ ? 800'000 : 60'000) : random_.of(usual);
+    }
+    std::int64_t accel() {
+        if (nasty_ && random_.one_in(10)) return random_.between(0, 65'535);
+        if (s_curve_ && random_.one_in(2)) return random_.between(1, long_ ? 2000 : 300);
+        return random_.between(1, 80) * 100;
+    }
+    std::int64_t jerk() {
+        if (nasty_ && random_.one_in(10)) return random_.between(0, 65'535);
+        return random_.between(1, long_ ? 20 : random_.one_in(2) ? 1 : 3);
+    }
+    std::int64_t start_speed() {
+        if (nasty_ && random_.one_in(10)) return random_.between(0, 65'535);
+        return random_.one_in(3) ? random_.between(1, 8000) : random_.between(2000, 7900);
+    }
+    std::int64_t speed(std::int64_t start) {
+        if (nasty_ && random_.one_in(8)) return random_.between(0, 65'535);
+        if (random_.one_in(8)) return random_.between(1, 8000);
+        // What a ramp can do within the program, so that it also ends.
+        const std::int64_t most = s_curve_ ? program_.ticks * program_.ticks / 4'000'000 + 2 : program_.ticks / 12;
+        return std::max<std::int64_t>(1, start + random_.between(-most / 8 - 2, std::min<std::int64_t>(most, 2000)));
+    }
+    std::int64_t pulses() {
+        if (nasty_ && random_.one_in(12)) return random_.between(0, 0xFFFF'FFFF);
+        if (random_.one_in(3)) return random_.between(0, 40);
+        return random_.between(0, program_.ticks / random_.between(4, 40));
+    }
+    std::int64_t coordinate() {
+        if (nasty_ && random_.one_in(20)) return random_.between(0, 0xFFFF'FFFF);
+        const std::int64_t most = random_.one_in(3) ? 6 : std::max<std::int64_t>(3, program_.ticks / random_.between(20, 400));
+        return random_.between(-most, most);
+    }
+    std::int64_t position() {
+        static constexpr std::int64_t ends[] = {0x7FFF'FFFF, -0x7FFF'FFFF - 1, 0x7FFF'FFF0, -0x7FFF'FFF0};
+        if (nasty_ && random_.one_in(5)) return random_.of(ends);
+        return random_.between(-program_.ticks / 30, program_.ticks / 30);
+    }
+    void speeds(unsigned some) {
+        const std::int64_t start = start_speed();
+        data(some, 0x00, range());
+        data(some, 0x04, start);
+        data(some, 0x05, speed(start));
+        data(some, 0x02, accel());
+        data(some, 0x03, accel());
+        data(some, 0x01, jerk());
+        data(some, 0x0D, random_.one_in(3) ? 0 : random_.between(0, random_.one_in(10) ? 65'535 : 30));
+        data(some, 0x07, pulses());
+    }
+    void initial() {
+        now_ = random_.between(0, 3);
+        if (random_.one_in(4)) {
+            for (unsigned a = 0; a < 4; ++a) speeds(1u << a);
+        } else {
+            speeds(15);
+        }
+        for (unsigned a = 0; a < 4; ++a) {
+            if (s_curve_ || random_.one_in(3)) mode(1u << a, 3, drive_mode());
+            if (random_.one_in(4)) mode(1u << a, 1, random_.between(0, 255) << 8);
+            data(1u << a, 0x0B, position() + program_.ticks / 20);
+            data(1u << a, 0x0C, position() - program_.ticks / 20);
+        }
+        data(15, 0x06, pulses());
+    }
+    std::int64_t drive_mode() {
+        return (random_.one_in(4) ? 1 : 0) | (random_.one_in(3) ? 2 : 0) | (s_curve_ && !random_.one_in(4) ? 4 : 0);
+    }
+
+    // ---- actions ------------------------------------------------------------------------------------------------------------
+    void action(std::int64_t theme) {
+        const bool calm = busy_ < 10;  // drives are mostly left to run
+        const std::int64_t roll = random_.between(0, calm && !random_.one_in(4) ? 67 : 99);
+        const bool path = theme == 1 || (theme >= 2 && random_.one_in(2));
+        if (roll < 26) {
+            if (path)
+                random_.one_in(3) ? chain() : segment();
+            else
+                drive();
+        } else if (roll < 38) {
+            rewrite();
+        } else if (roll < 68) {
+            look();
+        } else if (roll < 74) {
+            command(axes(), random_.one_in(3) ? 0x27 : 0x26);
+        } else if (roll < 84) {
+            wire();
+        } else if (roll < 90) {
+            modes();
+        } else if (roll < 93) {
+            command(axes(), random_.one_in(2) ? 0x24 : 0x25);
+        } else if (roll < 96) {
+            command(0, random_.one_in(3) ? 0x3C : random_.one_in(4) ? 0x3D : 0x3B);
+        } else if (roll < 99) {
+            data(axes(), static_cast<int>(random_.between(0x09, 0x0C)), position());
+        } else {
+            nasty();
+        }
+    }
+    void drive() {
+        const unsigned some = axes();
+        if (random_.one_in(8)) speeds(some);
+        if (random_.one_in(6)) mode(some, 3, drive_mode());
+        if (!random_.one_in(4)) data(some, 0x06, pulses());
+        if (random_.one_in(3)) data(some, 0x07, pulses());
+        command(some, static_cast<int>(random_.one_in(4) ? random_.between(0x22, 0x23) : random_.between(0x20, 0x21)));
+    }
+    void choose_axes() {
+        int order[4] = {0, 1, 2, 3};
+        for (int i = 3; i > 0; --i) std::swap(order[i], order[random_.between(0, i)]);
+        if (!random_.one_in(3)) std::sort(order, order + 4);
+        if (random_.one_in(30)) order[1] = order[0];
+        static constexpr int constant[] = {0, 0, 0, 1, 3, 3, 2};
+        wr5_ = order[0] | order[1] << 2 | order[2] << 4 | random_.of(constant) << 8 | (random_.one_in(2) ? 1 << 14 : 0);
+        write(10, wr5_);
+    }
+    void segment() {
+        if (wr5_ == 0 || random_.one_in(4)) choose_axes();
+        if (random_.one_in(8)) {
+            speeds(1u << (wr5_ & 3));
+            if (random_.one_in(2)) data(1u << (wr5_ >> 2 & 3), 0x00, range());
+        }
+        const int code = static_cast<int>(random_.between(0x30, 0x33));
+        if (code >= 0x32) {
+            arc_data();
+        } else {
+            for (int i = 0; i < 3; ++i) data(1u << (wr5_ >> (2 * i) & 3), 0x06, coordinate());
+        }
+        command(0, code);
+    }
+    void arc_data() {
+        const unsigned first = 1u << (wr5_ & 3), second = 1u << (wr5_ >> 2 & 3);
+        const std::int64_t cx = coordinate(), cy = coordinate();
+        data(first, 0x08, cx);
+        data(second, 0x08, cy);
+        std::int64_t px = 0, py = 0;
+        const std::int64_t turn = random_.between(0, 4);  // a full circle, quarters, or anything
+        if (turn == 1) px = cx - cy, py = cy + cx;
+        if (turn == 2) px = 2 * cx, py = 2 * cy;
+        if (turn == 3) px = cx + cy, py = cy - cx;
+        if (turn == 4) px = coordinate(), py = coordinate();
+        if (random_.one_in(4)) px += random_.between(-1, 1), py += random_.between(-1, 1);
+        data(first, 0x06, px);
+        data(second, 0x06, py);
+    }
+    void chain() {
+        if (random_.one_in(2)) command(0, random_.one_in(2) ? 0x3B : 0x3C);
+        for (std::int64_t n = random_.between(2, 6); n > 0; --n) {
+            segment();
+            if (random_.one_in(3)) data(1u << (wr5_ & 3), 0x05, speed(4000));
+            if (random_.one_in(2)) read(0);
+            if (random_.one_in(2)) now_ += random_.between(0, program_.ticks / 20);
+            if (n == 1 && random_.one_in(2)) command(0, 0x3B);
+        }
+    }
+    void rewrite() {
+        const unsigned some = axes();
+        switch (random_.between(0, 9)) {
+            case 0: data(some, 0x04, start_speed()); break;
+            case 1: data(some, 0x02, accel()); break;
+            case 2: data(some, 0x03, accel()); break;
+            case 3: data(some, 0x01, jerk()); break;
+            case 4: data(some, 0x0D, random_.between(0, 60)); break;
+            case 5: data(some, 0x07, pulses()); break;
+            case 6: data(some, 0x06, pulses()); break;
+            case 7: data(some, 0x00, range()); break;
+            default: data(some, 0x05, speed(start_speed())); break;
+        }
+    }
+    void wire() {
+        const int axis = static_cast<int>(random_.between(0, 3));
+        if (random_.one_in(25)) {
+            Op op;
+            op.tick = now_, op.between = between_, op.kind = Op::Kind::emergency, op.value = 0;
+            program_.ops.push_back(op);
+            op.tick += random_.between(1, program_.ticks / 20), op.value = 1;
+            program_.ops.push_back(op);
+            return;
+        }
+        const Pin pin = static_cast<Pin>(random_.between(0, pin_count - 1));
+        if (pin == Pin::exp_plus || pin == Pin::exp_minus) return;
+        input(axis, pin, false);
+        const std::int64_t back = now_;
+        now_ += random_.between(0, random_.one_in(3) ? program_.ticks / 8 : 20);
+        between_ = random_.one_in(2);
+        if (!random_.one_in(8)) input(axis, pin, true);
+        now_ = back;
+    }
+    void modes() {
+        const unsigned some = axes();
+        switch (random_.between(0, 3)) {
+            case 0: {
+                const std::int64_t enables = random_.between(0, 255) & random_.between(0, 255) & 0xAA;
+                mode(some, 1, random_.between(0, 255) << 8 | enables | (random_.one_in(8) ? random_.between(0, 255) & 0x55 : 0));
+                break;
+            }
+            case 1: {
+                std::int64_t bits = random_.between(0, 0xFFFF) & 0xE7E7 & ~0x5018;
+                if (random_.one_in(12)) bits |= random_.between(0, 0xFFFF) & 0x5018;
+                mode(some, 2, bits);
+                break;
+            }
+            default: mode(some, 3, drive_mode()); break;
+        }
+    }
+    void look() {
+        const unsigned axis = 1u << random_.between(0, 3);
+        switch (random_.between(0, 5)) {
+            case 0: read(0); break;
+            case 1:
+                command(axis, 0x0F);
+                read(2 * static_cast<int>(random_.between(1, 3)));
+                break;
+            case 2: read(random_.one_in(2) ? 8 : 10); break;
+            default:
+                command(axis, static_cast<int>(random_.between(0x10, 0x13)));
+                read(12);
+                read(14);
+                break;
+        }
+    }
+    void read_everything() {
+        read(0);
+        for (unsigned a = 0; a < 4; ++a) {
+            for (int code = 0x10; code <= 0x13; ++code) {
+                command(1u << a, code);
+                read(12);
+                read(14);
+            }
+            for (int offset = 2; offset <= 6; offset += 2) read(offset);
+        }
+        read(8);
+        read(10);
+        read(0);
+    }
+    void nasty() {
+        if (random_.one_in(6)) return write(0, 0x8000);
+        if (random_.one_in(3)) return command(static_cast<unsigned>(random_.between(0, 15)), static_cast<int>(random_.between(0x10, 0x13)));
+        static constexpr int strange[] = {0x0E, 0x14, 0x1F, 0x28, 0x2F, 0x3E, 0x40, 0x7F, 0xFF};
+        command(static_cast<unsigned>(random_.between(0, 15)), random_.of(strange));
+        read(2 * static_cast<int>(random_.between(0, 7)));
+    }
+
+    Random random_;
+    Program program_;
+    std::int64_t now_ = 0;
+    bool between_ = false;
+    bool long_ = false, s_curve_ = false, nasty_ = false;
+    std::int64_t busy_ = 30;
+    int wr5_ = 0;
+};
+
+}  // namespace
+
+Program make_program(std::uint64_t seed, std::uint64_t number) { return Maker(seed, number).make(); }
+
+}  // namespace motionrack::mcx314::twin

@@ -1,0 +1,57 @@
+// Random register programs for the oracle test: what a host does to the chip and when, sensible and nasty.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/cards/mcx314/test/twin.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::mcx314::twin {
+
+/// One thing that happens to the chip. An access with `between` = false is at the very instant of `tick` (and so comes after it), else
+/// half a tick later. A wire that changes at the very instant counts for that tick.
+struct Op {
+    enum class Kind : std::uint8_t { write, read, input, emergency };
+    std::int64_t tick = 0;
+    bool between = false;
+    Kind kind = Kind::read;
+    std::uint8_t offset = 0;   ///< register, for accesses
+    std::uint16_t value = 0;   ///< what is written, or the level of the input
+    std::int8_t axis = 0;      ///< of the input
+    Pin pin = Pin::in0;
+
+    /// Things in the order in which they happen: two halves a tick, wires first.
+    std::int64_t order() const { return tick * 4 + (between ? 2 : 0) + (kind == Kind::write || kind == Kind::read ? 1 : 0); }
+};
+
+struct Program {
+    std::uint64_t seed = 0;
+    std::uint64_t number = 0;
+    std::int64_t ticks = 0;  ///< runs to this tick after the last op
+    std::vector<Op> ops;
+};
+
+/// Program `number` of `seed`: always the same.
+Program make_program(std::uint64_t seed, std::uint64_t number);
+
+/// The register traffic as text, one line an op.
+std::string to_text(const Program& program);
+
+/// splitmix64: small, and the same everywhere.
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : state_(seed) {}
+    std::uint64_t next();
+    /// low .. high, both included.
+    std::int64_t between(std::int64_t low, std::int64_t high);
+    bool one_in(int n) { return between(1, n) == 1; }
+    template <class T, std::size_t N>
+    T of(const T (&list)[N]) {
+        return list[static_cast<std::size_t>(between(0, static_cast<std::int64_t>(N) - 1))];
+    }
+
+  private:
+    std::uint64_t state_;
+};
+
+}  // namespace motionrack::mcx314::twin
