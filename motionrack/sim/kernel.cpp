@@ -8,6 +8,7 @@ namespace motionrack::sim {
 
 namespace {
 constexpr std::size_t queue_capacity = 4096;
+constexpr std::size_t most_changes = 1'000'000;  // of wires at one event
 }
 
 DeviceId Kernel::add(Device& device, Phase phase, std::string name) {
@@ -108,7 +109,8 @@ void Kernel::change(WireId wire, int level) {
     WireState& w = wire_state_[index(wire)];
     if (w.level == level) return;
     w.level = level;
-    MOTIONRACK_ASSERT(queue_size_ - queue_head_ < queue_capacity);  // a loop of wires that never settles
+    if (!started_) return;  // how the world begins is no change
+    MOTIONRACK_ASSERT(queue_size_ - queue_head_ < queue_capacity && queue_size_ < most_changes);  // a loop that never settles
     queue_[queue_size_++ % queue_capacity] = {wire, level};
 }
 
@@ -140,7 +142,8 @@ void Kernel::want(WireId wire, DeviceId device, bool wanted) {
         if (w.listeners[i].device == device) s.wants = wanted ? s.wants | 1u << i : s.wants & ~(1u << i);
     if (w.lazy_pin < 0 || (before != 0) == (s.wants != 0)) return;
     Device& owner = *devices_[index(w.lazy_owner)].device;
-    if (s.wants && !s.forced) s.level = s.driven = owner.level_at(w.lazy_pin, state_.now);
+    if (s.wants) s.driven = owner.level_at(w.lazy_pin, state_.now);
+    if (s.wants && !s.forced) s.level = s.driven;
     owner.wanted_changed(w.lazy_pin, s.wants != 0, state_.now);
 }
 
@@ -148,6 +151,7 @@ bool Kernel::wanted(WireId wire) const { return wire_state_[index(wire)].wants !
 
 void Kernel::force(WireId wire, int level) {
     WireState& w = wire_state_[index(wire)];
+    w.level = this->level(wire);  // of a lazily driven wire
     w.forced = 1;
     change(wire, level);
 }
@@ -156,7 +160,7 @@ void Kernel::release(WireId wire) {
     WireState& w = wire_state_[index(wire)];
     if (!w.forced) return;
     w.forced = 0;
-    change(wire, wires_[index(wire)].lazy_pin >= 0 ? level(wire) : w.driven);
+    change(wire, lazy(wire) && !w.wants ? level(wire) : w.driven);
 }
 
 WireId Kernel::find_wire(std::string_view name) const {
@@ -227,6 +231,7 @@ void Kernel::restore(const Snapshot& snapshot) {
     const std::size_t kept = std::min<std::size_t>(state_.condition_count, condition_capacity);
     take(bytes_of_vector(conditions_).first(kept * sizeof(Condition)));
     MOTIONRACK_ASSERT(at == snapshot.bytes.size());
+    queue_head_ = queue_size_ = 0;
 }
 
 std::uint64_t Kernel::state_hash() {

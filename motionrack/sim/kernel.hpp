@@ -72,6 +72,8 @@ class Kernel {
     /// A listener begins or ceases to want changes (listeners want them from the start unless the wire is driven lazily).
     void want(WireId wire, DeviceId device, bool wanted);
     bool wanted(WireId wire) const;
+    /// Whether drive_lazily was called for it.
+    bool lazy(WireId wire) const { return wires_[index(wire)].lazy_pin >= 0; }
     void report(DeviceId device, std::uint16_t code, std::int64_t a = 0, std::int64_t b = 0);
 
     // ---- from outside, between runs -----------------------------------------------------------------------------------------
@@ -134,7 +136,7 @@ class Kernel {
         std::int32_t level = 0;
         std::int32_t driven = 0;  // what its driver says, while forced
         std::uint32_t wants = 0;  // bit i: listener i wants changes
-        std::uint8_t forced = 0;
+        std::uint32_t forced = 0;  // as wide as the others: padding would get into the state's hash
     };
     struct Due {
         Instant at = never;

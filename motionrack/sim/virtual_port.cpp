@@ -34,8 +34,8 @@ void VirtualPort::run_to(Instant until, bool until_interrupt) {
     while (true) {
         if (until_interrupt && (kernel_.level(interrupt_) == 0 || stop_requested())) return;
         const Instant stop = on_slice_ ? std::min(until, std::max(next_slice_, kernel_.now())) : until;
-        kernel_.run_until(stop);
-        if (on_slice_ && kernel_.now() >= next_slice_) {
+        const RunEnd end = kernel_.run_until(stop);
+        if (on_slice_ && (end == RunEnd::broken || kernel_.now() >= next_slice_)) {  // broken: perhaps a full buffer
             on_slice_();
             next_slice_ = kernel_.now() + slice_;
         }

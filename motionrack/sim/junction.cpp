@@ -1,0 +1,42 @@
+// Copying levels and wants from wire to wire.
+#include <motionrack/sim/junction.hpp>
+#include <utility>
+
+namespace motionrack::sim {
+
+Junctions::Junctions(Kernel& kernel, std::string name) : kernel_(kernel), id_(kernel.add(*this, Phase::wires, std::move(name))) {}
+
+void Junctions::join(WireId from, WireId to, bool inverted) {
+    MOTIONRACK_ASSERT(from != to);
+    const int pin = static_cast<int>(joints_.size());
+    joints_.push_back({from, to, inverted, kernel_.lazy(from)});
+    kernel_.listen(from, id_, pin);
+    if (joints_.back().lazy)
+        kernel_.drive_lazily(to, id_, pin);
+    else
+        kernel_.schedule(id_, Instant{0});
+}
+
+void Junctions::act(Instant) {
+    for (const Joint& joint : joints_)
+        if (!joint.lazy) kernel_.set_wire(joint.to, joint.level(kernel_.level(joint.from)));
+}
+
+void Junctions::on_wire(int pin, int level, Instant) {
+    const Joint& joint = joints_[static_cast<std::size_t>(pin)];
+    if (!joint.lazy || kernel_.wanted(joint.to)) kernel_.set_wire(joint.to, joint.level(level));
+}
+
+int Junctions::level_at(int pin, Instant) const {
+    const Joint& joint = joints_[static_cast<std::size_t>(pin)];
+    return joint.level(kernel_.level(joint.from));
+}
+
+void Junctions::wanted_changed(int pin, bool, Instant) {
+    const WireId from = joints_[static_cast<std::size_t>(pin)].from;
+    bool any = false;
+    for (const Joint& joint : joints_) any = any || (joint.from == from && kernel_.wanted(joint.to));
+    kernel_.want(from, id_, any);
+}
+
+}  // namespace motionrack::sim

@@ -1,0 +1,350 @@
+// The crossings, rates and faults of one axis.
+#include <motionrack/base/result.hpp>
+#include <motionrack/sim/parts/axis_machine.hpp>
+#include <motionrack/sim/parts/edge_maker.hpp>
+
+namespace motionrack::parts {
+
+namespace {
+
+constexpr int index_pin = 0;
+constexpr std::array<std::string_view, 3> switch_names = {"limit_minus", "limit_plus", "home"};
+constexpr std::array<std::string_view, 12> all_faults = {
+    "motor.stall",           "motor.lose_steps",      "motor.push",            "encoder.broken_a",
+    "encoder.broken_b",      "encoder.swapped",       "limit_minus.stuck_open", "limit_minus.stuck_closed",
+    "limit_plus.stuck_open", "limit_plus.stuck_closed", "home.stuck_open",       "home.stuck_closed"};
+
+std::int64_t whole(double value) { return static_cast<std::int64_t>(value + (value < 0 ? -0.5 : 0.5)); }
+
+}  // namespace
+
+AxisMachine::AxisMachine(sim::Kernel& kernel, const std::string& name, const AxisMachineSettings& settings)
+    : kernel_(kernel),
+      settings_(settings),
+      motor_(settings.motor, state_.motor),
+      axle_(settings.axle, settings.motor.pulses_per_rev(), state_.axle),
+      encoder_(settings.encoder, settings.motor.pulses_per_rev(), state_.encoder),
+      switches_{LimitSwitch(settings.limit_minus, axle_, state_.switches[0]),
+                LimitSwitch(settings.limit_plus, axle_, state_.switches[1]),
+                LimitSwitch(settings.home, axle_, state_.switches[2])},
+      faces_{FaceMotion(*this, rotor_face), FaceMotion(*this, encoder_face)},
+      maker_(std::make_unique<EdgeMaker>(state_.last_edge)) {
+    id_ = kernel_.add(*this, sim::Phase::parts, name);
+    for (std::size_t i = 0; i < switches_.size(); ++i)
+        if (switches_[i].present())
+            switch_wire_[i] = kernel_.add_wire(name + '.' + std::string(switch_names[i]), switches_[i].level());
+    if (!encoder_.present()) return;
+    index_wire_ = kernel_.add_wire(name + ".enc_z", encoder_.index(0));
+    kernel_.drive_lazily(index_wire_, id_, index_pin);
+}
+
+AxisMachine::~AxisMachine() = default;
+
+void AxisMachine::connect(sim::Motion& pulses) {
+    MOTIONRACK_ASSERT(pulses_ == nullptr);
+    pulses_ = &pulses;
+    slot_ = pulses.listen(*this);
+    aim(kernel_.now());
+}
+
+sim::Motion& AxisMachine::rotor() { return faces_[rotor_face]; }
+sim::Motion& AxisMachine::encoder() { return faces_[encoder_face]; }
+std::span<const std::string_view> AxisMachine::fault_names() { return all_faults; }
+
+std::int64_t AxisMachine::face_count_at(Face face, Instant t) const {
+    if (face == rotor_face) return rotor_at(t);
+    return encoder_.present() ? encoder_.count(rotor_at(t)) : 0;
+}
+
+double AxisMachine::face_rate(Face face, Instant t) const {
+    const double rotor = pulses_ ? motor_.rotor_rate(pulses_->rate(t)) : 0;
+    if (face == rotor_face) return rotor;
+    return encoder_.present() ? encoder_.rate(rotor) : 0;
+}
+
+int AxisMachine::listen(Face face, sim::MotionListener& listener) {
+    MOTIONRACK_ASSERT(listener_count_[face] < slots);
+    listeners_[face][static_cast<std::size_t>(listener_count_[face])] = &listener;
+    return listener_count_[face]++;
+}
+
+void AxisMachine::watch(Face face, int slot, Range counts) {
+    MOTIONRACK_ASSERT(slot >= 0 && slot < listener_count_[face]);
+    Watch& w = state_.watches[face][static_cast<std::size_t>(slot)];
+    const Instant now = kernel_.now();
+    w.counts = counts;
+    if (face == rotor_face)
+        w.rotor = counts;
+    else
+        w.rotor = encoder_.present() ? encoder_.rotor_range(counts, rotor_at(now)) : Range{};
+    aim(now);
+}
+
+// ---- What the pulses tell -----------------------------------------------------------------------------------------------------
+
+void AxisMachine::rate_changed(double rate, Instant now) {
+    if (!motor_.follows(rate)) {
+        change_motor(now, [&] { motor_.change_rate(rate, pulses_at(now)); });
+        return;
+    }
+    const double before = state_.motor.rate_hz;
+    if (axle_.play() != 0 && (rate > 0) - (rate < 0) != (before > 0) - (before < 0)) axle_.turn(rotor_at(now));
+    motor_.note_rate(rate);
+    const double speed = std::fabs(rate);
+    if (speed > state_.top_hz) state_.top_hz = speed;
+    tell_rate(now);
+}
+
+void AxisMachine::tell_rate(Instant now) {
+    const double rate = motor_.rotor_rate(state_.motor.rate_hz);
+    for (int i = 0; i < listener_count_[rotor_face]; ++i) listeners_[rotor_face][i]->rate_changed(rate, now);
+    if (listener_count_[encoder_face] == 0) return;
+    const double counts = encoder_.present() ? encoder_.rate(rate) : 0;
+    for (int i = 0; i < listener_count_[encoder_face]; ++i) listeners_[encoder_face][i]->rate_changed(counts, now);
+}
+
+void AxisMachine::crossed(Instant now) {
+    state_.aimed = {1, -1};  // a watch that was told of is no more
+    if (check_ends(now)) return;
+    check(now);
+}
+
+// ---- The motor ----------------------------------------------------------------------------------------------------------------
+
+template <class Change>
+void AxisMachine::change_motor(Instant now, Change change) {
+    const std::int64_t pulses = pulses_at(now);
+    const StepperState before = state_.motor;
+    const std::int64_t rotor_before = motor_.rotor(pulses);
+    axle_.turn(rotor_before);
+    change();
+    const std::int64_t rotor = motor_.rotor(pulses);
+    axle_.turn(rotor);
+    const bool jumped = rotor != rotor_before;
+    report_change(before, rotor_before, rotor);
+    if (jumped && (edge_listeners_[rotor_face] || edge_listeners_[encoder_face])) {
+        maker_->jump(encoder_, edge_listeners_, now, state_.edges_until, rotor);
+        state_.edges_until = rotor;
+    }
+    check(now);
+    if (motor_.rotor_rate(state_.motor.rate_hz) != (before.hold == RotorHold::in_step ? before.rate_hz : 0)) tell_rate(now);
+}
+
+void AxisMachine::report_change(const StepperState& before, std::int64_t rotor_before, std::int64_t rotor) {
+    const StepperState& after = state_.motor;
+    auto say = [&](AxisCondition code, std::int64_t a, std::int64_t b) {
+        kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
+    };
+    const bool new_rate = before.rate_hz != after.rate_hz;
+    if (after.jammed && !before.jammed) say(AxisCondition::axle_held, rotor_before, 0);
+    if (before.hold == RotorHold::in_step && new_rate && (!motor_.in_step() || rotor != rotor_before))
+        say(AxisCondition::fell_out_of_step, whole(before.rate_hz), whole(after.rate_hz));
+    if (motor_.in_step() && after.lost != before.lost) say(AxisCondition::lost_steps, after.lost - before.lost, after.lost);
+}
+
+bool AxisMachine::check_ends(Instant now) {
+    const std::int64_t rotor = rotor_at(now);
+    if (!axle_.travel().left(rotor)) return false;
+    const int direction = rotor >= axle_.travel().above ? 1 : -1;
+    const std::int64_t end = direction > 0 ? axle_.travel().above - 1 : axle_.travel().below + 1;
+    kernel_.report(id_, static_cast<std::uint16_t>(AxisCondition::end_of_travel), direction, end);
+    change_motor(now, [&] { motor_.block(direction, end, pulses_at(now)); });
+    return true;
+}
+
+// ---- Crossings ----------------------------------------------------------------------------------------------------------------
+
+void AxisMachine::check(Instant now) {
+    if (checking_) return;
+    checking_ = true;
+    const std::int64_t rotor = rotor_at(now);
+    check_switches(rotor, now);
+    if (state_.index_wanted && state_.index.left(rotor)) check_index(rotor);
+    check_faces(rotor, now);
+    checking_ = false;
+    aim(now);
+}
+
+void AxisMachine::check_switches(std::int64_t rotor, Instant now) {
+    const std::int64_t table = axle_.table(rotor);
+    for (std::size_t i = 0; i < switches_.size(); ++i) {
+        if (!switches_[i].range().left(table)) continue;
+        switches_[i].move(table, now);
+        kernel_.set_wire(switch_wire_[i], switches_[i].level());
+    }
+}
+
+void AxisMachine::check_index(std::int64_t rotor) {
+    // The index may be passed within one microstep: the wire shows it all the same.
+    const int level = encoder_.index(rotor);
+    if (state_.index_level == level) kernel_.set_wire(index_wire_, 1 - level);
+    kernel_.set_wire(index_wire_, level);
+    state_.index_level = level;
+    state_.index = encoder_.index_range(rotor);
+}
+
+void AxisMachine::check_faces(std::int64_t rotor, Instant now) {
+    for (int face = 0; face < face_count; ++face) {
+        for (int i = 0; i < listener_count_[face]; ++i) {
+            Watch& w = state_.watches[face][i];
+            if (!w.rotor.left(rotor)) continue;
+            const std::int64_t count = face == rotor_face ? rotor : encoder_.count(rotor);
+            if (w.counts.left(count)) {
+                w = {};
+                listeners_[face][i]->crossed(now);
+            } else {
+                w.rotor = encoder_.rotor_range(w.counts, rotor);
+            }
+        }
+    }
+}
+
+// Watches the nearest place of all where something happens.
+void AxisMachine::aim(Instant now) {
+    if (checking_) return;
+    const std::int64_t rotor = rotor_at(now);
+    Range all = axle_.travel();
+    bool left = all.left(rotor);
+    auto add = [&](const Range& range) {
+        if (range.left(rotor))
+            left = true;
+        else
+            all = all.within(range);
+    };
+    for (const LimitSwitch& s : switches_) add(axle_.rotor_range(s.range()));
+    if (state_.index_wanted) add(state_.index);
+    for (int face = 0; face < face_count; ++face)
+        for (int i = 0; i < listener_count_[face]; ++i) add(state_.watches[face][i].rotor);
+    state_.pending = left ? now + Duration{1} : never;
+    put_off();
+    all = motor_.in_step() ? all.moved(state_.motor.lost) : Range{};
+    if (!pulses_ || all == state_.aimed) return;
+    state_.aimed = all;
+    pulses_->watch(slot_, all.below, all.above);
+}
+
+// Asks for the next instant at which something happens without a pulse.
+void AxisMachine::put_off() {
+    Instant next = state_.pending;
+    for (const LimitSwitch& s : switches_) next = std::min(next, s.next());
+    kernel_.schedule(id_, next);
+}
+
+void AxisMachine::act(Instant now) {
+    for (std::size_t i = 0; i < switches_.size(); ++i) {
+        if (switches_[i].next() > now) continue;
+        switches_[i].act(now);
+        kernel_.set_wire(switch_wire_[i], switches_[i].level());
+    }
+    if (state_.pending <= now) {
+        state_.pending = never;
+        crossed(now);
+    }
+    put_off();
+}
+
+// ---- The index wire -----------------------------------------------------------------------------------------------------------
+
+int AxisMachine::level_at(int, Instant now) const { return encoder_.index(rotor_at(now)); }
+
+void AxisMachine::wanted_changed(int, bool wanted, Instant now) {
+    const std::int64_t rotor = rotor_at(now);
+    state_.index_wanted = wanted;
+    state_.index_level = encoder_.index(rotor);
+    state_.index = wanted ? encoder_.index_range(rotor) : Range{};
+    aim(now);
+}
+
+// ---- Faults -------------------------------------------------------------------------------------------------------------------
+
+bool AxisMachine::fault(std::string_view name, double value, Instant now) {
+    const std::size_t dot = name.find('.');
+    if (dot == std::string_view::npos) return motor_fault(name, value, now) || encoder_fault(name, value, now);
+    const std::string_view part = name.substr(0, dot);
+    const std::string_view what = name.substr(dot + 1);
+    if (part == "motor") return motor_fault(what, value, now);
+    if (part == "encoder") return encoder_fault(what, value, now);
+    for (std::size_t i = 0; i < switch_names.size(); ++i)
+        if (part == switch_names[i]) return switch_fault(static_cast<int>(i), what, value);
+    return false;
+}
+
+bool AxisMachine::motor_fault(std::string_view name, double value, Instant now) {
+    constexpr double most = 1e12;  // microsteps
+    if (!(std::fabs(value) <= most)) return false;
+    if (name == "stall") {
+        change_motor(now, [&] { motor_.jam(value != 0, pulses_at(now)); });
+    } else if (name == "lose_steps") {
+        const double back = state_.motor.rate_hz < 0 ? value : -value;
+        change_motor(now, [&] { motor_.push(whole(back), pulses_at(now)); });
+    } else if (name == "push") {
+        change_motor(now, [&] { motor_.push(whole(value), pulses_at(now)); });
+    } else {
+        return false;
+    }
+    check_ends(now);
+    return true;
+}
+
+bool AxisMachine::encoder_fault(std::string_view name, double value, Instant now) {
+    const LineFault fault = name == "broken_a"   ? LineFault::broken_a
+                            : name == "broken_b" ? LineFault::broken_b
+                            : name == "swapped"  ? LineFault::swapped
+                                                 : LineFault::none;
+    if (fault == LineFault::none || !encoder_.present()) return false;
+    if (value == 0 && encoder_.fault() != fault) return true;
+    const std::int64_t rotor = rotor_at(now);
+    const std::int64_t before = encoder_.count(rotor);
+    encoder_.set_fault(value != 0 ? fault : LineFault::none, rotor);
+    if (edge_listeners_[encoder_face]) maker_->count_jump(*edge_listeners_[encoder_face], now, before, encoder_.count(rotor));
+    for (int i = 0; i < listener_count_[encoder_face]; ++i) {
+        Watch& w = state_.watches[encoder_face][i];
+        w.rotor = encoder_.rotor_range(w.counts, rotor);
+    }
+    aim(now);
+    tell_rate(now);
+    return true;
+}
+
+bool AxisMachine::switch_fault(int i, std::string_view name, double value) {
+    const auto at = static_cast<std::size_t>(i);
+    const SwitchFault fault = name == "stuck_open"     ? SwitchFault::stuck_open
+                              : name == "stuck_closed" ? SwitchFault::stuck_closed
+                                                       : SwitchFault::none;
+    if (fault == SwitchFault::none || !switches_[at].present()) return false;
+    if (value == 0 && state_.switches[at].fault != fault) return true;
+    switches_[at].set_fault(value != 0 ? fault : SwitchFault::none);
+    kernel_.set_wire(switch_wire_[at], switches_[at].level());
+    return true;
+}
+
+// ---- Edges --------------------------------------------------------------------------------------------------------------------
+
+void AxisMachine::listen_edges(Face face, sim::EdgeListener* listener) {
+    MOTIONRACK_ASSERT(pulses_ != nullptr);
+    const bool before = edge_listeners_[rotor_face] || edge_listeners_[encoder_face];
+    edge_listeners_[face] = face == encoder_face && !encoder_.present() ? nullptr : listener;
+    const bool after = edge_listeners_[rotor_face] || edge_listeners_[encoder_face];
+    if (after && !before) state_.edges_until = rotor_at(kernel_.now());
+    pulses_->listen_edges(after || pulse_edges_ ? this : nullptr);
+}
+
+void AxisMachine::listen_pulse_edges(sim::EdgeListener* listener) {
+    MOTIONRACK_ASSERT(pulses_ != nullptr);
+    pulse_edges_ = listener;
+    pulses_->listen_edges(pulse_edges_ || edge_listeners_[rotor_face] || edge_listeners_[encoder_face] ? this : nullptr);
+}
+
+void AxisMachine::edges(const sim::EdgeBatch& batch) {
+    if (pulse_edges_) pulse_edges_->edges(batch);
+    if (!edge_listeners_[rotor_face] && !edge_listeners_[encoder_face]) return;
+    std::int64_t size = batch.size;
+    // A rotor that has just met its end of travel still owes the edges up to there; one that stands owes none.
+    if (!motor_.in_step()) size = std::clamp<std::int64_t>((state_.motor.stand - state_.edges_until) * batch.step, 0, size);
+    if (size == 0) return;
+    const std::int64_t first = motor_.in_step() ? batch.first_count - state_.motor.lost : state_.edges_until + batch.step;
+    state_.edges_until = first + batch.step * (size - 1);
+    maker_->pass(encoder_, edge_listeners_, batch, first, static_cast<std::uint32_t>(size));
+}
+
+}  // namespace motionrack::parts

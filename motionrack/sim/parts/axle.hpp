@@ -1,0 +1,78 @@
+// What the motor turns: a leadscrew or a rotary table, from microsteps of the rotor to millimetres or degrees.
+//
+//   rotor r --play--> table y --x travel / pulses--> position        y = r while moving to minus, r - play to plus
+//
+// The play (backlash) is an operator with one memory, the table's place at the last turn: y = clamp(memory, r - play, r).
+#pragma once
+
+#include <cstdint>
+#include <motionrack/sim/parts/range.hpp>
+#include <optional>
+
+namespace motionrack::parts {
+
+/// An exact ratio of whole numbers.
+struct Ratio {
+    std::int64_t num = 1;
+    std::int64_t den = 1;
+};
+
+/// The travel of one motor turn of a screw, to the nearest 1e-9 mm (`lead_mm`: > 0, at most 1e6).
+Ratio linear_travel(double lead_mm);
+/// The degrees of one motor turn of a rotary axis with `gear_ratio` motor turns a turn (> 0, at most 1e6, to 1e-9).
+Ratio rotary_travel(double gear_ratio);
+
+struct AxleSettings {
+    Ratio travel_per_rev{5, 1};       ///< mm or degrees for one turn of the motor
+    double start_position = 0;        ///< mm or degrees where it stands at the start
+    double backlash = 0;              ///< mm or degrees of play, >= 0; taken to the nearest microstep
+    std::optional<double> end_minus;  ///< mm or degrees: hard ends of travel; absent: it goes on for ever
+    std::optional<double> end_plus;
+};
+
+struct AxleState {
+    std::int64_t table = 0;  ///< the table at the last turn of the rotor, microsteps
+};
+
+class Axle {
+  public:
+    /// `pulses_per_rev`: microsteps of one turn of the rotor.
+    Axle(const AxleSettings& settings, std::int64_t pulses_per_rev, AxleState& state);
+
+    /// The table in microsteps when the rotor is at `rotor` and has not turned back since turn().
+    std::int64_t table(std::int64_t rotor) const {
+        return play_ == 0 ? rotor : std::max(rotor - play_, std::min(rotor, state_.table));
+    }
+    /// The rotor, now at `rotor`, turns back, stops or starts.
+    void turn(std::int64_t rotor) { state_.table = table(rotor); }
+    std::int64_t play() const { return play_; }
+
+    /// mm or degrees when the table is at `table` microsteps: two roundings, the same everywhere.
+    double position_of(std::int64_t table) const {
+        return settings_.start_position + static_cast<double>(table) * num_ / den_;
+    }
+    double position(std::int64_t rotor) const { return position_of(table(rotor)); }
+    double units_per_pulse() const { return num_ / den_; }
+
+    /// The first place of the table, in microsteps, whose position is at least `position`; and the last that is at most.
+    std::int64_t first_at_or_above(double position) const;
+    std::int64_t last_at_or_below(double position) const;
+    /// The rotor range for a range of the table.
+    Range rotor_range(const Range& table) const {
+        return {table.below, table.above == sim::unwatched_above ? table.above : table.above + play_};
+    }
+    /// How far the rotor can turn: left when it would go beyond an end of travel.
+    const Range& travel() const { return travel_; }
+
+    const AxleSettings& settings() const { return settings_; }
+
+  private:
+    AxleSettings settings_;
+    AxleState& state_;
+    double num_ = 1;  // units_per_pulse as two whole numbers
+    double den_ = 1;
+    std::int64_t play_ = 0;
+    Range travel_;
+};
+
+}  // namespace motionrack::parts

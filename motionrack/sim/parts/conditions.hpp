@@ -1,0 +1,21 @@
+// The conditions that a simulated axis reports to the kernel, and their sentences.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/sim/kernel.hpp>
+#include <string>
+#include <string_view>
+
+namespace motionrack::parts {
+
+enum class AxisCondition : std::uint16_t {
+    fell_out_of_step = 1,  ///< a: the pulse rate before, b: after, Hz to the nearest whole, signed
+    lost_steps = 2,        ///< a: pulses lost this time (signed: pulses - rotor), b: lost in all
+    end_of_travel = 3,     ///< a: +1 or -1, b: rotor in microsteps
+    axle_held = 4          ///< fault: a: rotor in microsteps
+};
+
+/// What happened, for a person: "axis X lost 64 pulses (64 in all) ...". `axis`: the machine's name.
+std::string describe(const sim::Condition& condition, std::string_view axis);
+
+}  // namespace motionrack::parts

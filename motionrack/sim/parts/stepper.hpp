@@ -1,0 +1,81 @@
+// A stepping motor: it follows the pulses or it does not.
+//
+//   pulses --> in step:  rotor = pulses - lost            (lost: a multiple of 4 full steps, one electrical cycle)
+//              stalled:  rotor stands, until the pulses are slow enough to lock again at the same electrical phase
+//
+//   rate jumps by more than start_stop_hz, or rate > pull_out_hz          in step -> stalled
+//   rate <= start_stop_hz                                                 stalled -> in step, steps lost
+//   rate jumps to <= start_stop_hz (an abrupt stop)                       the rotor runs on, one electrical cycle for each
+//                                                                         start_stop_hz of the jump; it is in step at once
+//   the axle meets an end of travel                                       blocked until the pulses stop or turn back
+//
+// One number each for start/stop and pull-out rate: no torque curve, no load, no resonance.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace motionrack::parts {
+
+struct StepperSettings {
+    std::int64_t full_steps_per_rev = 200;  ///< 1 .. 100'000
+    std::int64_t microsteps = 16;           ///< pulses for one full step, 1 .. 1024
+    double start_stop_hz = 2000;            ///< > 0: greatest jump of the pulse rate that the rotor follows, pulses/s
+    double pull_out_hz = 200'000;           ///< > 0: above this rate it loses steps, pulses/s
+
+    std::int64_t pulses_per_rev() const { return full_steps_per_rev * microsteps; }
+    /// The pulses after which the coils' currents are the same again.
+    std::int64_t electrical_cycle() const { return 4 * microsteps; }
+};
+
+/// Whether the rotor follows, and what keeps it from it.
+enum class RotorHold : std::int32_t { in_step, stalled, blocked_plus, blocked_minus };
+
+struct StepperState {
+    double rate_hz = 0;        ///< of the pulses
+    std::int64_t lost = 0;     ///< pulses - rotor while in step
+    std::int64_t stand = 0;    ///< where the rotor stands while not in step
+    RotorHold hold = RotorHold::in_step;
+    std::int32_t jammed = 0;   ///< fault: the axle cannot turn
+};
+
+/// The rules of the motor over a state that its machine owns. Positions are microsteps (= pulses), rates pulses/s.
+class Stepper {
+  public:
+    Stepper(const StepperSettings& settings, StepperState& state);
+
+    std::int64_t rotor(std::int64_t pulses) const {
+        return state_.hold == RotorHold::in_step ? pulses - state_.lost : state_.stand;
+    }
+    /// The rotor's rate when the pulses have `rate_hz`.
+    double rotor_rate(double rate_hz) const { return state_.hold == RotorHold::in_step ? rate_hz : 0; }
+    bool in_step() const { return state_.hold == RotorHold::in_step; }
+
+    /// A rotor in step that stays so at the new rate: nothing to do but to note it.
+    bool follows(double rate_hz) const {
+        return in_step() && std::fabs(rate_hz - state_.rate_hz) <= settings_.start_stop_hz &&
+               std::fabs(rate_hz) <= settings_.pull_out_hz;
+    }
+    void note_rate(double rate_hz) { state_.rate_hz = rate_hz; }
+
+    /// The pulse rate becomes `rate_hz` and follows() said no, or the rotor is not in step; `pulses`: the count now.
+    void change_rate(double rate_hz, std::int64_t pulses);
+    /// The rotor has come to an end of travel at `end` and cannot turn on in `direction` (+1 or -1).
+    void block(int direction, std::int64_t end, std::int64_t pulses);
+    /// Fault: the axle is held fast (or let go).
+    void jam(bool held, std::int64_t pulses);
+    /// The rotor is moved by about `distance` microsteps: exactly that while it is not in step, else to the nearest
+    /// place of the same electrical phase, at least one cycle away.
+    void push(std::int64_t distance, std::int64_t pulses);
+
+    const StepperSettings& settings() const { return settings_; }
+
+  private:
+    bool may_lock() const;
+    void lock(std::int64_t pulses);
+
+    StepperSettings settings_;
+    StepperState& state_;
+};
+
+}  // namespace motionrack::parts
