@@ -1,0 +1,32 @@
+// Makes a failing program small: drops ops while it still fails.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <motionrack/cards/mcx314/test/program.hpp>
+
+namespace motionrack::mcx314::twin {
+
+/// `fails(program)`: true while the fault shows. Tries at most `most` programs.
+template <class Fails>
+Program shrink(Program program, const Fails& fails, int most = 3000) {
+    for (std::size_t piece = std::max<std::size_t>(program.ops.size() / 2, 1); most > 0;) {
+        bool dropped = false;
+        for (std::size_t at = 0; at < program.ops.size() && most > 0; --most) {
+            Program smaller = program;
+            const auto from = smaller.ops.begin() + static_cast<std::ptrdiff_t>(at);
+            smaller.ops.erase(from, from + static_cast<std::ptrdiff_t>(std::min(piece, program.ops.size() - at)));
+            if (!smaller.ops.empty() && fails(smaller)) {
+                program = std::move(smaller);
+                dropped = true;
+            } else {
+                at += piece;
+            }
+        }
+        if (piece == 1 && !dropped) break;
+        if (!dropped || piece > program.ops.size()) piece = std::max<std::size_t>(piece / 2, 1);
+    }
+    return program;
+}
+
+}  // namespace motionrack::mcx314::twin
