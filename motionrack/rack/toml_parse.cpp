@@ -4,6 +4,7 @@
 //   - a header without a key ("[{"), where it asserts, or tells the optimiser, that there is one;
 //   - brackets that do not match ("[}"), another assumption of the same kind;
 //   - quotes within a number or word ("1\"a"), which end it for the scanner but not for the parser;
+//   - a date and half a time after a blank ("1979-05-27 7"), one more such assumption;
 //   - characters beyond ASCII where it asks whether they are blanks (its table of blanks runs into "unreachable").
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -35,6 +36,11 @@ class Scanner {
             }
             if (not_ascii(at_)) {
                 return error("Letters other than a-z and A-Z may stand only in quotes and comments. Nothing was read.");
+            }
+            if (c == ' ' && digit(at_ + 1) && after_word()) {
+                return error(
+                    "Two values with only a blank between them; a rack file has one value for a key, and no dates. "
+                    "Nothing was read.");
             }
             if (c == '#') {
                 at_ = std::min(text_.find('\n', at_), text_.size());
@@ -81,10 +87,7 @@ class Scanner {
     }
 
     /// At a quote: does a text or a quoted key begin here?
-    bool text_may_begin() const {
-        const char before = at_ > line_start_ ? text_[at_ - 1] : '\n';
-        return std::string_view("\n\t =,[{").find(before) != std::string_view::npos || (before == '.' && !value_);
-    }
+    bool text_may_begin() const { return !after_word() || (text_[at_ - 1] == '.' && !value_); }
 
     /// After a header's '[' or '[[' and blanks: does a key (or the closing bracket, which the parser refuses itself)
     /// come?
@@ -105,6 +108,12 @@ class Scanner {
     }
 
     bool not_ascii(std::size_t at) const { return at < text_.size() && static_cast<unsigned char>(text_[at]) >= 0x80; }
+
+    bool after_word() const {
+        return at_ > line_start_ && std::string_view("\t =,[{").find(text_[at_ - 1]) == std::string_view::npos;
+    }
+
+    bool digit(std::size_t at) const { return at < text_.size() && text_[at] >= '0' && text_[at] <= '9'; }
 
     std::optional<Error> skip_string(char quote) {
         const bool many_lines = triple(quote);

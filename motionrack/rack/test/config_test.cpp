@@ -48,6 +48,7 @@ const std::vector<BadFile>& bad_files() {
         {"[]\n", {1, 2}, {"not TOML"}},
         {"x = 1\"a\"\n", {1, 6}, {"not TOML", "middle of a word"}},
         {"x = [\n1.\"a\"]\n", {2, 3}, {"not TOML", "middle of a word"}},
+        {"x = 1979-05-27 7\n", {1, 15}, {"Two values", "no dates"}},
         {"x = [}\n", {1, 6}, {"not TOML", "'}'", "not opened"}},
         {"# ä\nx = 1ä\n", {2, 6}, {"only in quotes and comments"}},
         {"x = \"ää\" \u00e4\n", {1, 10}, {"only in quotes and comments"}},
