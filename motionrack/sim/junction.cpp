@@ -4,7 +4,8 @@
 
 namespace motionrack::sim {
 
-Junctions::Junctions(Kernel& kernel, std::string name) : kernel_(kernel), id_(kernel.add(*this, Phase::wires, std::move(name))) {}
+Junctions::Junctions(Kernel& kernel, std::string name)
+    : kernel_(kernel), id_(kernel.add(*this, Phase::wires, std::move(name))) {}
 
 void Junctions::join(WireId from, WireId to, bool inverted) {
     MOTIONRACK_ASSERT(from != to);

@@ -1,6 +1,7 @@
 // Joins wires: the level of one (an output of a part) is that of another (an input of a card), at the same instant.
 //
-//   part ──► from ══ Junctions ══► to ──► card           want(to) ──► want(from): a lazily driven wire stays lazy through a junction
+//   part ──► from ══ Junctions ══► to ──► card           want(to) ──► want(from): a lazily driven wire stays lazy
+//   through a junction
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,8 @@ class Junctions final : public Device {
   public:
     explicit Junctions(Kernel& kernel, std::string name = "junctions");
 
-    /// From now on `to` follows `from`; `inverted`: 0 becomes 1, all else 0. Before Kernel::start, and after `from`'s owner has said
-    /// whether it drives it lazily. A `to` at another level than `from` changes at instant 0.
+    /// From now on `to` follows `from`; `inverted`: 0 becomes 1, all else 0. Before Kernel::start, and after `from`'s
+    /// owner has said whether it drives it lazily. A `to` at another level than `from` changes at instant 0.
     void join(WireId from, WireId to, bool inverted = false);
 
     void act(Instant now) override;

@@ -5,7 +5,8 @@
 
 namespace motionrack::sim {
 
-// ---- Closed form ----------------------------------------------------------------------------------------------------------------
+// ---- Closed form
+// ----------------------------------------------------------------------------------------------------------------
 
 void ClosedFormCounter::watch(Motion& motion, int slot, std::int64_t below, std::int64_t above) const {
     const bool no_below = below == unwatched_below;
@@ -26,7 +27,8 @@ void ClosedFormCounter::watch(Motion& motion, int slot, std::int64_t below, std:
     motion.watch(slot, low, high);
 }
 
-// ---- Edge by edge ---------------------------------------------------------------------------------------------------------------
+// ---- Edge by edge
+// ---------------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -49,8 +51,8 @@ int QuadratureDecoder::lines(std::uint8_t lines) {
         ++illegal_;
         return 0;
     }
-    if (edges_ != Edges::all && !((before ^ lines_) & 1)) change = 0;                      // A stayed
-    if (edges_ == Edges::rising_a && ((before | lines_) & 2)) change = 0;                  // only 00 <-> 01
+    if (edges_ != Edges::all && !((before ^ lines_) & 1)) change = 0;      // A stayed
+    if (edges_ == Edges::rising_a && ((before | lines_) & 2)) change = 0;  // only 00 <-> 01
     count_ += change;
     return change;
 }
@@ -64,7 +66,8 @@ void QuadratureDecoder::index(int level, bool clear) {
     if (clear) count_ = 0;
 }
 
-// ---- In bulk --------------------------------------------------------------------------------------------------------------------
+// ---- In bulk
+// --------------------------------------------------------------------------------------------------------------------
 
 namespace {
 
@@ -79,9 +82,13 @@ Bytes load(const std::uint8_t* from) {
 }
 
 // The phase 0 .. 3 of lines in Gray code; bytes hold two bits, so a shift of wider lanes would do no harm either.
-Bytes phase(Bytes lines) { return lines ^ ((lines & 2) != 0 ? Bytes{} + 1 : Bytes{}); }
+Bytes phase(Bytes lines) {
+    return lines ^ ((lines & 2) != 0 ? Bytes{} + 1 : Bytes{});
+}
 
-int phase(std::uint8_t lines) { return (lines ^ (lines >> 1)) & 3; }
+int phase(std::uint8_t lines) {
+    return (lines ^ (lines >> 1)) & 3;
+}
 
 std::uint64_t sum(Bytes v) {
     std::uint64_t total = 0;
@@ -120,7 +127,8 @@ void BatchDecoder::decode(const std::uint8_t* lines, std::size_t size) {
 void lines_of_batch(const EdgeBatch& batch, std::uint8_t* lines) {
     // Phases repeat every four edges, so sixteen edges later the lines are the same.
     Bytes row;
-    for (std::size_t i = 0; i < width; ++i) row[i] = lines_of(batch.first_count + batch.step * static_cast<std::int64_t>(i));
+    for (std::size_t i = 0; i < width; ++i)
+        row[i] = lines_of(batch.first_count + batch.step * static_cast<std::int64_t>(i));
     std::size_t i = 0;
     for (; i + width <= batch.size; i += width) std::memcpy(lines + i, &row, width);
     std::memcpy(lines + i, &row, batch.size - i);

@@ -9,12 +9,22 @@ namespace {
 
 constexpr int index_pin = 0;
 constexpr std::array<std::string_view, 3> switch_names = {"limit_minus", "limit_plus", "home"};
-constexpr std::array<std::string_view, 12> all_faults = {
-    "motor.stall",           "motor.lose_steps",      "motor.push",            "encoder.broken_a",
-    "encoder.broken_b",      "encoder.swapped",       "limit_minus.stuck_open", "limit_minus.stuck_closed",
-    "limit_plus.stuck_open", "limit_plus.stuck_closed", "home.stuck_open",       "home.stuck_closed"};
+constexpr std::array<std::string_view, 12> all_faults = {"motor.stall",
+                                                         "motor.lose_steps",
+                                                         "motor.push",
+                                                         "encoder.broken_a",
+                                                         "encoder.broken_b",
+                                                         "encoder.swapped",
+                                                         "limit_minus.stuck_open",
+                                                         "limit_minus.stuck_closed",
+                                                         "limit_plus.stuck_open",
+                                                         "limit_plus.stuck_closed",
+                                                         "home.stuck_open",
+                                                         "home.stuck_closed"};
 
-std::int64_t whole(double value) { return static_cast<std::int64_t>(value + (value < 0 ? -0.5 : 0.5)); }
+std::int64_t whole(double value) {
+    return static_cast<std::int64_t>(value + (value < 0 ? -0.5 : 0.5));
+}
 
 }  // namespace
 
@@ -47,9 +57,15 @@ void AxisMachine::connect(sim::Motion& pulses) {
     aim(kernel_.now());
 }
 
-sim::Motion& AxisMachine::rotor() { return faces_[rotor_face]; }
-sim::Motion& AxisMachine::encoder() { return faces_[encoder_face]; }
-std::span<const std::string_view> AxisMachine::fault_names() { return all_faults; }
+sim::Motion& AxisMachine::rotor() {
+    return faces_[rotor_face];
+}
+sim::Motion& AxisMachine::encoder() {
+    return faces_[encoder_face];
+}
+std::span<const std::string_view> AxisMachine::fault_names() {
+    return all_faults;
+}
 
 std::int64_t AxisMachine::face_count_at(Face face, Instant t) const {
     if (face == rotor_face) return rotor_at(t);
@@ -80,7 +96,8 @@ void AxisMachine::watch(Face face, int slot, Range counts) {
     aim(now);
 }
 
-// ---- What the pulses tell -----------------------------------------------------------------------------------------------------
+// ---- What the pulses tell
+// -----------------------------------------------------------------------------------------------------
 
 void AxisMachine::rate_changed(double rate, Instant now) {
     if (!motor_.follows(rate)) {
@@ -109,7 +126,8 @@ void AxisMachine::crossed(Instant now) {
     check(now);
 }
 
-// ---- The motor ----------------------------------------------------------------------------------------------------------------
+// ---- The motor
+// ----------------------------------------------------------------------------------------------------------------
 
 template <class Change>
 void AxisMachine::change_motor(Instant now, Change change) {
@@ -127,7 +145,8 @@ void AxisMachine::change_motor(Instant now, Change change) {
         state_.edges_until = rotor;
     }
     check(now);
-    if (motor_.rotor_rate(state_.motor.rate_hz) != (before.hold == RotorHold::in_step ? before.rate_hz : 0)) tell_rate(now);
+    if (motor_.rotor_rate(state_.motor.rate_hz) != (before.hold == RotorHold::in_step ? before.rate_hz : 0))
+        tell_rate(now);
 }
 
 void AxisMachine::report_change(const StepperState& before, std::int64_t rotor_before, std::int64_t rotor) {
@@ -139,7 +158,8 @@ void AxisMachine::report_change(const StepperState& before, std::int64_t rotor_b
     if (after.jammed && !before.jammed) say(AxisCondition::axle_held, rotor_before, 0);
     if (before.hold == RotorHold::in_step && new_rate && (!motor_.in_step() || rotor != rotor_before))
         say(AxisCondition::fell_out_of_step, whole(before.rate_hz), whole(after.rate_hz));
-    if (motor_.in_step() && after.lost != before.lost) say(AxisCondition::lost_steps, after.lost - before.lost, after.lost);
+    if (motor_.in_step() && after.lost != before.lost)
+        say(AxisCondition::lost_steps, after.lost - before.lost, after.lost);
 }
 
 bool AxisMachine::check_ends(Instant now) {
@@ -152,7 +172,8 @@ bool AxisMachine::check_ends(Instant now) {
     return true;
 }
 
-// ---- Crossings ----------------------------------------------------------------------------------------------------------------
+// ---- Crossings
+// ----------------------------------------------------------------------------------------------------------------
 
 void AxisMachine::check(Instant now) {
     if (checking_) return;
@@ -243,9 +264,12 @@ void AxisMachine::act(Instant now) {
     put_off();
 }
 
-// ---- The index wire -----------------------------------------------------------------------------------------------------------
+// ---- The index wire
+// -----------------------------------------------------------------------------------------------------------
 
-int AxisMachine::level_at(int, Instant now) const { return encoder_.index(rotor_at(now)); }
+int AxisMachine::level_at(int, Instant now) const {
+    return encoder_.index(rotor_at(now));
+}
 
 void AxisMachine::wanted_changed(int, bool wanted, Instant now) {
     const std::int64_t rotor = rotor_at(now);
@@ -255,7 +279,8 @@ void AxisMachine::wanted_changed(int, bool wanted, Instant now) {
     aim(now);
 }
 
-// ---- Faults -------------------------------------------------------------------------------------------------------------------
+// ---- Faults
+// -------------------------------------------------------------------------------------------------------------------
 
 bool AxisMachine::fault(std::string_view name, double value, Instant now) {
     const std::size_t dot = name.find('.');
@@ -296,7 +321,8 @@ bool AxisMachine::encoder_fault(std::string_view name, double value, Instant now
     const std::int64_t rotor = rotor_at(now);
     const std::int64_t before = encoder_.count(rotor);
     encoder_.set_fault(value != 0 ? fault : LineFault::none, rotor);
-    if (edge_listeners_[encoder_face]) maker_->count_jump(*edge_listeners_[encoder_face], now, before, encoder_.count(rotor));
+    if (edge_listeners_[encoder_face])
+        maker_->count_jump(*edge_listeners_[encoder_face], now, before, encoder_.count(rotor));
     for (int i = 0; i < listener_count_[encoder_face]; ++i) {
         Watch& w = state_.watches[encoder_face][i];
         w.rotor = encoder_.rotor_range(w.counts, rotor);
@@ -318,7 +344,8 @@ bool AxisMachine::switch_fault(int i, std::string_view name, double value) {
     return true;
 }
 
-// ---- Edges --------------------------------------------------------------------------------------------------------------------
+// ---- Edges
+// --------------------------------------------------------------------------------------------------------------------
 
 void AxisMachine::listen_edges(Face face, sim::EdgeListener* listener) {
     MOTIONRACK_ASSERT(pulses_ != nullptr);
@@ -332,7 +359,8 @@ void AxisMachine::listen_edges(Face face, sim::EdgeListener* listener) {
 void AxisMachine::listen_pulse_edges(sim::EdgeListener* listener) {
     MOTIONRACK_ASSERT(pulses_ != nullptr);
     pulse_edges_ = listener;
-    pulses_->listen_edges(pulse_edges_ || edge_listeners_[rotor_face] || edge_listeners_[encoder_face] ? this : nullptr);
+    pulses_->listen_edges(pulse_edges_ || edge_listeners_[rotor_face] || edge_listeners_[encoder_face] ? this
+                                                                                                       : nullptr);
 }
 
 void AxisMachine::edges(const sim::EdgeBatch& batch) {
@@ -340,9 +368,11 @@ void AxisMachine::edges(const sim::EdgeBatch& batch) {
     if (!edge_listeners_[rotor_face] && !edge_listeners_[encoder_face]) return;
     std::int64_t size = batch.size;
     // A rotor that has just met its end of travel still owes the edges up to there; one that stands owes none.
-    if (!motor_.in_step()) size = std::clamp<std::int64_t>((state_.motor.stand - state_.edges_until) * batch.step, 0, size);
+    if (!motor_.in_step())
+        size = std::clamp<std::int64_t>((state_.motor.stand - state_.edges_until) * batch.step, 0, size);
     if (size == 0) return;
-    const std::int64_t first = motor_.in_step() ? batch.first_count - state_.motor.lost : state_.edges_until + batch.step;
+    const std::int64_t first =
+        motor_.in_step() ? batch.first_count - state_.motor.lost : state_.edges_until + batch.step;
     state_.edges_until = first + batch.step * (size - 1);
     maker_->pass(encoder_, edge_listeners_, batch, first, static_cast<std::uint32_t>(size));
 }

@@ -4,9 +4,9 @@
 //                               │                   └─► limit_plus, limit_minus, home   (wires)
 //                               └─► Encoder ──encoder() Motion──► card,  enc_z          (lazy wire)
 //
-// Nothing is done for a pulse. The machine takes one listener slot of the pulses and watches there the nearest place where anything
-// happens: a switch, the index if someone wants it, an end of travel, a watch on rotor() or encoder(). A step of the pulse rate costs
-// one comparison. Edges are made only while someone listens to them.
+// Nothing is done for a pulse. The machine takes one listener slot of the pulses and watches there the nearest place
+// where anything happens: a switch, the index if someone wants it, an end of travel, a watch on rotor() or encoder(). A
+// step of the pulse rate costs one comparison. Edges are made only while someone listens to them.
 #pragma once
 
 #include <array>
@@ -36,25 +36,27 @@ struct AxisMachineSettings {
 
 class AxisMachine final : public sim::Device, private sim::MotionListener, private sim::EdgeListener {
   public:
-    /// Adds the device `name` and its wires to the kernel (before start): NAME.limit_minus, NAME.limit_plus, NAME.home where there is
-    /// such a switch, NAME.enc_z (lazily driven) where there is an encoder.
+    /// Adds the device `name` and its wires to the kernel (before start): NAME.limit_minus, NAME.limit_plus, NAME.home
+    /// where there is such a switch, NAME.enc_z (lazily driven) where there is an encoder.
     AxisMachine(sim::Kernel& kernel, const std::string& name, const AxisMachineSettings& settings);
     ~AxisMachine() override;
     AxisMachine(const AxisMachine&) = delete;
     AxisMachine& operator=(const AxisMachine&) = delete;
 
-    /// The pulses that turn the motor; once, before Kernel::start. Their count is 0 where the machine stands at its start position and is
-    /// that of the pulses on the wire: writing a card's position register must not change it.
+    /// The pulses that turn the motor; once, before Kernel::start. Their count is 0 where the machine stands at its
+    /// start position and is that of the pulses on the wire: writing a card's position register must not change it.
     void connect(sim::Motion& pulses);
 
     /// The rotor in microsteps (pulses), 0 at the start. Up to Motion::max_listeners listeners, one edge listener.
     sim::Motion& rotor();
-    /// The encoder's counts as a decoder at the end of its lines sees them, 0 at the start. As rotor(); without encoder it stays 0.
+    /// The encoder's counts as a decoder at the end of its lines sees them, 0 at the start. As rotor(); without encoder
+    /// it stays 0.
     sim::Motion& encoder();
     bool has_encoder() const { return encoder_.present(); }
     /// The lines A and B at `t`.
     Lines encoder_lines(Instant t) const { return encoder_.lines(rotor_at(t)); }
-    /// Hears the edges of the pulses themselves, of which there can be one listener only: this machine, if it makes edges.
+    /// Hears the edges of the pulses themselves, of which there can be one listener only: this machine, if it makes
+    /// edges.
     void listen_pulse_edges(sim::EdgeListener* listener);
 
     /// The truth: where the table is at `t` (not before the last event, not after the present), mm or degrees.

@@ -26,9 +26,13 @@ std::int64_t in_nano(double value) {
 
 }  // namespace
 
-Ratio linear_travel(double lead_mm) { return reduced(in_nano(lead_mm), static_cast<std::int64_t>(nano)); }
+Ratio linear_travel(double lead_mm) {
+    return reduced(in_nano(lead_mm), static_cast<std::int64_t>(nano));
+}
 
-Ratio rotary_travel(double gear_ratio) { return reduced(360 * static_cast<std::int64_t>(nano), in_nano(gear_ratio)); }
+Ratio rotary_travel(double gear_ratio) {
+    return reduced(360 * static_cast<std::int64_t>(nano), in_nano(gear_ratio));
+}
 
 Axle::Axle(const AxleSettings& settings, std::int64_t pulses_per_rev, AxleState& state)
     : settings_(settings), state_(state) {

@@ -2,7 +2,8 @@
 //
 //   rotor r --play--> table y --x travel / pulses--> position        y = r while moving to minus, r - play to plus
 //
-// The play (backlash) is an operator with one memory, the table's place at the last turn: y = clamp(memory, r - play, r).
+// The play (backlash) is an operator with one memory, the table's place at the last turn: y = clamp(memory, r - play,
+// r).
 #pragma once
 
 #include <cstdint>
@@ -54,7 +55,8 @@ class Axle {
     double position(std::int64_t rotor) const { return position_of(table(rotor)); }
     double units_per_pulse() const { return num_ / den_; }
 
-    /// The first place of the table, in microsteps, whose position is at least `position`; and the last that is at most.
+    /// The first place of the table, in microsteps, whose position is at least `position`; and the last that is at
+    /// most.
     std::int64_t first_at_or_above(double position) const;
     std::int64_t last_at_or_below(double position) const;
     /// The rotor range for a range of the table.

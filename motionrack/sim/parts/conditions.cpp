@@ -10,20 +10,24 @@ std::string describe(const sim::Condition& c, std::string_view axis) {
     switch (static_cast<AxisCondition>(c.code)) {
         case AxisCondition::fell_out_of_step:
             return fmt::format(
-                "axis {}: at {:.6f} s the motor fell out of step when the pulse rate went from {} to {} Hz; it stands until the "
+                "axis {}: at {:.6f} s the motor fell out of step when the pulse rate went from {} to {} Hz; it stands "
+                "until the "
                 "rate is low enough to lock again",
                 axis, at, c.a, c.b);
         case AxisCondition::lost_steps:
             return fmt::format(
-                "axis {}: at {:.6f} s the motor was in step again and had {} {} pulses ({} in all); the machine is not where the "
+                "axis {}: at {:.6f} s the motor was in step again and had {} {} pulses ({} in all); the machine is not "
+                "where the "
                 "controller believes it is, so find home again",
                 axis, at, c.a < 0 ? "run on by" : "lost", c.a < 0 ? -c.a : c.a, c.b);
         case AxisCondition::end_of_travel:
-            return fmt::format("axis {}: at {:.6f} s the axle ran into its {} end of travel at {} microsteps and stopped there", axis,
-                               at, c.a > 0 ? "plus" : "minus", c.b);
+            return fmt::format(
+                "axis {}: at {:.6f} s the axle ran into its {} end of travel at {} microsteps and stopped there", axis,
+                at, c.a > 0 ? "plus" : "minus", c.b);
         case AxisCondition::axle_held:
-            return fmt::format("axis {}: at {:.6f} s the axle was held fast at {} microsteps (a fault that was asked for)", axis, at,
-                               c.a);
+            return fmt::format(
+                "axis {}: at {:.6f} s the axle was held fast at {} microsteps (a fault that was asked for)", axis, at,
+                c.a);
     }
     return fmt::format("axis {}: at {:.6f} s condition {} ({}, {})", axis, at, c.code, c.a, c.b);
 }

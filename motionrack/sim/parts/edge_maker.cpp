@@ -5,8 +5,8 @@
 
 namespace motionrack::parts {
 
-void AxisMachine::EdgeMaker::pass(const Encoder& encoder, const Listeners& listeners, const sim::EdgeBatch& batch, std::int64_t first,
-                                  std::uint32_t size) {
+void AxisMachine::EdgeMaker::pass(const Encoder& encoder, const Listeners& listeners, const sim::EdgeBatch& batch,
+                                  std::int64_t first, std::uint32_t size) {
     const sim::EdgeBatch* rotor = &batch;
     if (first != batch.first_count || size != batch.size) {
         copy_.origin = batch.origin;
@@ -25,8 +25,8 @@ void AxisMachine::EdgeMaker::pass(const Encoder& encoder, const Listeners& liste
         turn(*listeners[encoder_face], encoder, *rotor, first, size);
 }
 
-void AxisMachine::EdgeMaker::turn(sim::EdgeListener& listener, const Encoder& encoder, const sim::EdgeBatch& batch, std::int64_t first,
-                                  std::uint32_t size) {
+void AxisMachine::EdgeMaker::turn(sim::EdgeListener& listener, const Encoder& encoder, const sim::EdgeBatch& batch,
+                                  std::int64_t first, std::uint32_t size) {
     out_.size = 0;
     out_.tick = batch.tick;
     origin_ = batch.origin;
@@ -58,7 +58,8 @@ void AxisMachine::EdgeMaker::turn(sim::EdgeListener& listener, const Encoder& en
 void AxisMachine::EdgeMaker::add(sim::EdgeListener& listener, std::int64_t at, std::int64_t count) {
     const std::int64_t step = count - count_;
     if (step == 0) return;
-    if (out_.size == out_.capacity || (out_.size > 0 && (step != out_.step || at - base_ > std::numeric_limits<std::uint32_t>::max())))
+    if (out_.size == out_.capacity ||
+        (out_.size > 0 && (step != out_.step || at - base_ > std::numeric_limits<std::uint32_t>::max())))
         flush(listener);
     if (out_.size == 0) {
         base_ = at;
@@ -75,7 +76,8 @@ void AxisMachine::EdgeMaker::flush(sim::EdgeListener& listener) {
     out_.size = 0;
 }
 
-void AxisMachine::EdgeMaker::jump(const Encoder& encoder, const Listeners& listeners, Instant now, std::int64_t from, std::int64_t to) {
+void AxisMachine::EdgeMaker::jump(const Encoder& encoder, const Listeners& listeners, Instant now, std::int64_t from,
+                                  std::int64_t to) {
     while (from != to) {
         const int step = to > from ? 1 : -1;
         copy_.origin = now;

@@ -1,7 +1,7 @@
 // Turns batches of pulse edges into edges of the rotor and of the encoder's count.
 //
-// Where a microstep turns the encoder by several counts, its edges come shortly before the microstep's own instant, in order, the last
-// one exactly then.
+// Where a microstep turns the encoder by several counts, its edges come shortly before the microstep's own instant, in
+// order, the last one exactly then.
 #pragma once
 
 #include <array>

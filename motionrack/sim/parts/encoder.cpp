@@ -11,7 +11,9 @@ namespace {
 constexpr Lines lines_of_phase[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 constexpr int phase_of_lines[4] = {0, 1, 3, 2};
 
-int phase_of(std::int64_t disc) { return static_cast<int>(disc & 3); }
+int phase_of(std::int64_t disc) {
+    return static_cast<int>(disc & 3);
+}
 
 /// The phase that the lines have behind the fault, when the disc is in `phase`.
 int faulty_phase(LineFault fault, int phase) {
@@ -35,10 +37,14 @@ Encoder::Encoder(const EncoderSettings& settings, std::int64_t pulses_per_rev, E
 
 std::int64_t Encoder::seen(std::int64_t disc) const {
     switch (state_.fault) {
-        case LineFault::none: return disc + state_.shift;
-        case LineFault::swapped: return state_.shift - disc;
-        case LineFault::broken_a: return state_.shift - (phase_of(disc) >= 2);  // 00 and 01 only
-        case LineFault::broken_b: return state_.shift + (phase_of(disc) == 1 || phase_of(disc) == 2);  // 00 and 10 only
+        case LineFault::none:
+            return disc + state_.shift;
+        case LineFault::swapped:
+            return state_.shift - disc;
+        case LineFault::broken_a:
+            return state_.shift - (phase_of(disc) >= 2);  // 00 and 01 only
+        case LineFault::broken_b:
+            return state_.shift + (phase_of(disc) == 1 || phase_of(disc) == 2);  // 00 and 10 only
     }
     return 0;
 }
@@ -57,7 +63,8 @@ void Encoder::set_fault(LineFault fault, std::int64_t rotor) {
     if (fault == state_.fault) return;
     const std::int64_t at = disc(rotor);
     const std::int64_t count = seen(at);
-    // The decoder sees the lines change from one phase to another: at most one count, or two (taken as up) if both lines change.
+    // The decoder sees the lines change from one phase to another: at most one count, or two (taken as up) if both
+    // lines change.
     const int change = (faulty_phase(fault, phase_of(at)) - faulty_phase(state_.fault, phase_of(at))) & 3;
     const std::int64_t after = count + (change == 3 ? -1 : change);
     state_.fault = fault;

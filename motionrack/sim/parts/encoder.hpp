@@ -1,12 +1,13 @@
-// A quadrature encoder on the rotor: counts as an exact ratio of microsteps, lines A, B and Z, and what broken wiring makes of them.
+// A quadrature encoder on the rotor: counts as an exact ratio of microsteps, lines A, B and Z, and what broken wiring
+// makes of them.
 //
 //   count  ...  0   1   2   3   4  ...     counting up: A leads B
 //   A      ...  _/~~~~~~~\_______/~~       A high in phases 1 and 2
 //   B      ...  _____/~~~~~~~\_____        B high in phases 2 and 3
 //   Z      ...  ~~~\________ ... __/~~~    one count wide, where count is a multiple of counts_per_rev
 //
-// A line that is broken reads low: the other line alone makes a decoder count to and fro by one. Swapped lines count backwards.
-// Both are closed forms of the true count, so nothing needs to be counted edge by edge.
+// A line that is broken reads low: the other line alone makes a decoder count to and fro by one. Swapped lines count
+// backwards. Both are closed forms of the true count, so nothing needs to be counted edge by edge.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,8 @@ std::uint64_t mixed(std::uint64_t x) {
 
 LimitSwitch::LimitSwitch(const LimitSwitchSettings& settings, const Axle& axle, LimitSwitchState& state)
     : settings_(settings), state_(state) {
-    MOTIONRACK_ASSERT(settings.hysteresis >= 0 && settings.bounce >= Duration{0} && settings.bounce <= whole_seconds(1));
+    MOTIONRACK_ASSERT(settings.hysteresis >= 0 && settings.bounce >= Duration{0} &&
+                      settings.bounce <= whole_seconds(1));
     if (!present()) return;
     const double place = *settings.position;
     if (settings.side == SwitchSide::at_and_above) {
@@ -61,7 +62,8 @@ void LimitSwitch::move(std::int64_t table, Instant now) {
 
 // Edge i lies in the i-th of `bounces` equal parts of the bounce time, after a quarter of the part.
 Instant LimitSwitch::bounce_edge(int i) const {
-    const std::uint64_t bits = mixed((static_cast<std::uint64_t>(state_.changes) << 8) + 1 + static_cast<std::uint64_t>(i));
+    const std::uint64_t bits =
+        mixed((static_cast<std::uint64_t>(state_.changes) << 8) + 1 + static_cast<std::uint64_t>(i));
     const std::int64_t fraction = 16'384 + static_cast<std::int64_t>(bits % 49'152);
     const std::int64_t parts = std::int64_t{65'536} * state_.bounces;
     return state_.bounce_from + Duration{settings_.bounce.count() * (std::int64_t{65'536} * i + fraction) / parts};

@@ -2,7 +2,8 @@
 //
 //   table   ----------+-------------+-------->       (a switch that is active at and above its place)
 //   inactive          off          on  active        on: acts; off: where it is released again
-//   wire    ~~~~~~~~~~~~~~~~~~~~~~~~|_|~|_|~~|______ the contacts bounce, at fixed instants derived from the number of changes
+//   wire    ~~~~~~~~~~~~~~~~~~~~~~~~|_|~|_|~~|______ the contacts bounce, at fixed instants derived from the number of
+//   changes
 #pragma once
 
 #include <cstdint>
@@ -17,19 +18,19 @@ enum class SwitchSide : std::int32_t { at_and_below, at_and_above };
 struct LimitSwitchSettings {
     std::optional<double> position;  ///< mm or degrees where it acts; absent: there is no such switch
     SwitchSide side = SwitchSide::at_and_below;
-    double hysteresis = 0.05;             ///< mm or degrees to go back until it is released, >= 0
-    Duration bounce = milliseconds(1);    ///< how long contacts bounce at a change, 0 .. 1 s; 0: clean edges
-    int active_level = 0;                 ///< the wire's level when it acts; it rests at the other
+    double hysteresis = 0.05;           ///< mm or degrees to go back until it is released, >= 0
+    Duration bounce = milliseconds(1);  ///< how long contacts bounce at a change, 0 .. 1 s; 0: clean edges
+    int active_level = 0;               ///< the wire's level when it acts; it rests at the other
 };
 
 enum class SwitchFault : std::int32_t { none, stuck_open, stuck_closed };
 
 struct LimitSwitchState {
-    std::int64_t changes = 0;      ///< how often it has acted or been released
-    Instant bounce_from{};         ///< the last change
-    Instant next = never;          ///< the next edge of the bounce
-    std::int32_t bounces = 0;      ///< edges after the first of this bounce, an even number
-    std::int32_t bounced = 0;      ///< those that have been
+    std::int64_t changes = 0;  ///< how often it has acted or been released
+    Instant bounce_from{};     ///< the last change
+    Instant next = never;      ///< the next edge of the bounce
+    std::int32_t bounces = 0;  ///< edges after the first of this bounce, an even number
+    std::int32_t bounced = 0;  ///< those that have been
     std::int32_t active = 0;
     SwitchFault fault = SwitchFault::none;
 };

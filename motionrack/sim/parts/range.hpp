@@ -16,7 +16,9 @@ constexpr std::int64_t floor_div(Wide a, std::int64_t b) {
 }
 
 /// The least whole number not below a / b (b > 0).
-constexpr std::int64_t ceil_div(Wide a, std::int64_t b) { return -floor_div(-a, b); }
+constexpr std::int64_t ceil_div(Wide a, std::int64_t b) {
+    return -floor_div(-a, b);
+}
 
 /// a modulo b in 0 .. b-1 (b > 0).
 constexpr std::int64_t floor_mod(std::int64_t a, std::int64_t b) {

@@ -12,7 +12,8 @@ Stepper::Stepper(const StepperSettings& settings, StepperState& state) : setting
 }
 
 bool Stepper::may_lock() const {
-    if (state_.jammed || std::fabs(state_.rate_hz) > std::min(settings_.start_stop_hz, settings_.pull_out_hz)) return false;
+    if (state_.jammed || std::fabs(state_.rate_hz) > std::min(settings_.start_stop_hz, settings_.pull_out_hz))
+        return false;
     if (state_.hold == RotorHold::blocked_plus) return state_.rate_hz <= 0;
     if (state_.hold == RotorHold::blocked_minus) return state_.rate_hz >= 0;
     return true;

@@ -5,8 +5,10 @@
 //
 //   rate jumps by more than start_stop_hz, or rate > pull_out_hz          in step -> stalled
 //   rate <= start_stop_hz                                                 stalled -> in step, steps lost
-//   rate jumps to <= start_stop_hz (an abrupt stop)                       the rotor runs on, one electrical cycle for each
-//                                                                         start_stop_hz of the jump; it is in step at once
+//   rate jumps to <= start_stop_hz (an abrupt stop)                       the rotor runs on, one electrical cycle for
+//   each
+//                                                                         start_stop_hz of the jump; it is in step at
+//                                                                         once
 //   the axle meets an end of travel                                       blocked until the pulses stop or turn back
 //
 // One number each for start/stop and pull-out rate: no torque curve, no load, no resonance.
@@ -32,11 +34,11 @@ struct StepperSettings {
 enum class RotorHold : std::int32_t { in_step, stalled, blocked_plus, blocked_minus };
 
 struct StepperState {
-    double rate_hz = 0;        ///< of the pulses
-    std::int64_t lost = 0;     ///< pulses - rotor while in step
-    std::int64_t stand = 0;    ///< where the rotor stands while not in step
+    double rate_hz = 0;      ///< of the pulses
+    std::int64_t lost = 0;   ///< pulses - rotor while in step
+    std::int64_t stand = 0;  ///< where the rotor stands while not in step
     RotorHold hold = RotorHold::in_step;
-    std::int32_t jammed = 0;   ///< fault: the axle cannot turn
+    std::int32_t jammed = 0;  ///< fault: the axle cannot turn
 };
 
 /// The rules of the motor over a state that its machine owns. Positions are microsteps (= pulses), rates pulses/s.

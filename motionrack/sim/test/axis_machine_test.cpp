@@ -55,7 +55,8 @@ std::vector<std::pair<AxisCondition, std::int64_t>> conditions(const Kernel& ker
     return out;
 }
 
-// ---- Truth --------------------------------------------------------------------------------------------------------------------
+// ---- Truth
+// --------------------------------------------------------------------------------------------------------------------
 
 TEST(AxisMachine, TurnsPulsesIntoMillimetresExactly) {
     World w(plain(), {{Instant{0}, microseconds(100), +1}});
@@ -98,7 +99,8 @@ TEST(AxisMachine, MovesTheTableOnlyAfterTheBacklashIsTakenUp) {
     EXPECT_EQ(w.machine.rotor().count(w.kernel.now()), 25);
 }
 
-// ---- Switches -----------------------------------------------------------------------------------------------------------------
+// ---- Switches
+// -----------------------------------------------------------------------------------------------------------------
 
 TEST(AxisMachine, SwitchesActAtTheirPulseAndReleaseAfterTheHysteresis) {
     AxisMachineSettings s = plain();
@@ -110,8 +112,9 @@ TEST(AxisMachine, SwitchesActAtTheirPulseAndReleaseAfterTheHysteresis) {
     w.run(milliseconds(100));
     const WireId wire = w.kernel.find_wire("X.limit_plus");
     ASSERT_EQ(wire, w.machine.limit_plus_wire());
-    const std::vector<Scribe::Line> expected = {{wire, 0, microseconds(32'000)},                       // at 320 pulses
-                                                {wire, 1, milliseconds(40) + microseconds(11'200)}};   // at 400 - 112 = 288
+    const std::vector<Scribe::Line> expected = {
+        {wire, 0, microseconds(32'000)},                      // at 320 pulses
+        {wire, 1, milliseconds(40) + microseconds(11'200)}};  // at 400 - 112 = 288
     EXPECT_EQ(w.scribe.lines, expected);
 }
 
@@ -180,7 +183,8 @@ TEST(AxisMachine, AStuckSwitchKeepsItsLevelWhateverTheMachineDoes) {
 
 RC_GTEST_PROP(AxisMachine, ASwitchTogglesExactlyWhereThePositionPassesItsPlace, ()) {
     AxisMachineSettings s = plain();
-    s.axle.travel_per_rev = *rc::gen::element(linear_travel(5), linear_travel(5.08), rotary_travel(7), rotary_travel(90));
+    s.axle.travel_per_rev =
+        *rc::gen::element(linear_travel(5), linear_travel(5.08), rotary_travel(7), rotary_travel(90));
     s.axle.start_position = *rc::gen::inRange(-1000, 1000) / 10.0;
     s.limit_plus.position = s.axle.start_position + *rc::gen::inRange(1, 100) / 100.0;
     s.limit_plus.bounce = Duration{0};
@@ -195,7 +199,8 @@ RC_GTEST_PROP(AxisMachine, ASwitchTogglesExactlyWhereThePositionPassesItsPlace, 
     RC_ASSERT(w.kernel.level(w.machine.limit_plus_wire()) == 0);
 }
 
-// ---- Lost steps ---------------------------------------------------------------------------------------------------------------
+// ---- Lost steps
+// ---------------------------------------------------------------------------------------------------------------
 
 TEST(AxisMachine, AMotorStartedTooFastStandsAndLocksAMultipleOfFourStepsLater) {
     AxisMachineSettings s = plain();
@@ -218,7 +223,9 @@ TEST(AxisMachine, AMotorStoppedAbruptlyRunsOnByWholeElectricalCycles) {
     AxisMachineSettings s = plain();
     s.motor.start_stop_hz = 2000;
     // 0 -> 2000 -> 4000 -> 0 Hz: the last is a jump of twice the start/stop rate.
-    World w(s, {{Instant{0}, microseconds(500), +1}, {milliseconds(10), microseconds(250), +1}, {milliseconds(20), microseconds(250), 0}});
+    World w(s, {{Instant{0}, microseconds(500), +1},
+                {milliseconds(10), microseconds(250), +1},
+                {milliseconds(20), microseconds(250), 0}});
     w.kernel.start();
     w.run(milliseconds(30));
     EXPECT_TRUE(w.machine.in_step());
@@ -229,7 +236,9 @@ TEST(AxisMachine, AMotorStoppedAbruptlyRunsOnByWholeElectricalCycles) {
 TEST(AxisMachine, AMotorDrivenFasterThanItPullsStalls) {
     AxisMachineSettings s = plain();
     s.motor.pull_out_hz = 15'000;
-    World w(s, {{Instant{0}, microseconds(100), +1}, {milliseconds(10), microseconds(50), +1}, {milliseconds(20), microseconds(100), 0}});
+    World w(s, {{Instant{0}, microseconds(100), +1},
+                {milliseconds(10), microseconds(50), +1},
+                {milliseconds(20), microseconds(100), 0}});
     w.kernel.start();
     w.run(milliseconds(30));
     EXPECT_EQ(w.machine.lost_steps(), 192);  // 200 pulses: 3 cycles of 64
@@ -243,7 +252,8 @@ RC_GTEST_PROP(AxisMachine, LosesMultiplesOfFourFullStepsAndKeepsThePhase, ()) {
     std::vector<PulseLaw> laws;
     const int size = *rc::gen::inRange(1, 20);
     for (int i = 0; i < size; ++i)
-        laws.push_back({milliseconds(10 * i), microseconds(*rc::gen::inRange(20, 2000)), *rc::gen::inRange<std::int64_t>(-1, 2)});
+        laws.push_back(
+            {milliseconds(10 * i), microseconds(*rc::gen::inRange(20, 2000)), *rc::gen::inRange<std::int64_t>(-1, 2)});
     laws.push_back({milliseconds(10 * size), milliseconds(1), 0});
     World w(s, laws);
     w.kernel.start();
@@ -299,14 +309,17 @@ TEST(AxisMachine, APushThatPassesASwitchIsSeenAtOnce) {
     EXPECT_EQ(w.kernel.level(w.machine.limit_plus_wire()), 1);
 }
 
-// ---- Snapshots ----------------------------------------------------------------------------------------------------------------
+// ---- Snapshots
+// ----------------------------------------------------------------------------------------------------------------
 
 TEST(AxisMachine, ASnapshotTakenInAMoveGoesOnAsTheRunThatWasNotInterrupted) {
     AxisMachineSettings s = plain();
     s.motor.start_stop_hz = 15'000;
     s.limit_plus.position = 0.5;
     s.home.position = 0.1;
-    World w(s, {{Instant{0}, microseconds(100), +1}, {milliseconds(45), microseconds(50), -1}, {milliseconds(70), microseconds(100), +1}});
+    World w(s, {{Instant{0}, microseconds(100), +1},
+                {milliseconds(45), microseconds(50), -1},
+                {milliseconds(70), microseconds(100), +1}});
     w.kernel.start();
     const Instant middle = milliseconds(32) + microseconds(300);  // in the bounce
     w.run(middle);

@@ -45,7 +45,8 @@ class FakePulses final : public Device, public Motion {
 
     // ---- Device
     void act(Instant now) override {
-        if (state_.next_law < laws_.size() && laws_[state_.next_law].at <= now) change_law(laws_[state_.next_law++], now);
+        if (state_.next_law < laws_.size() && laws_[state_.next_law].at <= now)
+            change_law(laws_[state_.next_law++], now);
         for (std::size_t i = 0; i < listeners_.size(); ++i) {
             const std::int64_t c = count(now);
             if (c > state_.watches[i].below && c < state_.watches[i].above) continue;
@@ -81,7 +82,9 @@ class FakePulses final : public Device, public Motion {
         std::array<Bounds, max_listeners> watches{};
     };
 
-    std::int64_t steps(Instant t) const { return state_.law.direction == 0 ? 0 : (t - state_.law.at) / state_.law.period; }
+    std::int64_t steps(Instant t) const {
+        return state_.law.direction == 0 ? 0 : (t - state_.law.at) / state_.law.period;
+    }
 
     void change_law(const PulseLaw& law, Instant now) {
         make_edges(now);
