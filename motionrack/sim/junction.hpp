@@ -1,7 +1,7 @@
 // Joins wires: the level of one (an output of a part) is that of another (an input of a card), at the same instant.
 //
-//   part ──► from ══ Junctions ══► to ──► card           want(to) ──► want(from): a lazily driven wire stays lazy
-//   through a junction
+//   part ──► from ══ Junctions ══► to ──► card
+//            from ◄── want ─────── to                    a lazily driven wire stays lazy through a junction
 #pragma once
 
 #include <cstdint>

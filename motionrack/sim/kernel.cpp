@@ -221,6 +221,7 @@ void Kernel::restore(const Snapshot& snapshot) {
     std::size_t at = 0;
     auto take = [&](std::span<std::byte> piece) {
         MOTIONRACK_ASSERT(at + piece.size() <= snapshot.bytes.size());
+        if (piece.empty()) return;
         std::memcpy(piece.data(), snapshot.bytes.data() + at, piece.size());
         at += piece.size();
     };

@@ -1,11 +1,10 @@
 // Quadrature counters: what cards make of two lines A and B, in three forms that agree.
 //
-//   lines (bit 0: A, bit 1: B)  00 -> 01 -> 11 -> 10 -> 00  counts up (A leads B), the other way down; both at once is
-//   illegal
+//   lines B A (bit 0: A)  00 -> 01 -> 11 -> 10 -> 00   up (A leads B); the other way down; both at once: illegal
 //
-//   ClosedFormCounter   a count at any instant from a Motion, nothing done for an edge     (positions, compare
-//   registers) QuadratureDecoder   edge by edge, a table of 16 transitions                            (wires driven
-//   from outside, the reference) BatchDecoder        lines in bulk (edge listeners: millions of edges a second)
+//   ClosedFormCounter   a count at any instant from a Motion, nothing done for an edge    positions, compare registers
+//   QuadratureDecoder   edge by edge, a table of 16 transitions                           wires driven from outside
+//   BatchDecoder        lines in bulk                                                     edge listeners
 #pragma once
 
 #include <array>
@@ -31,8 +30,7 @@ constexpr std::int64_t divided(std::int64_t count, Edges edges) {
     return (count + 3) >> 2;                                 // A rises (B low) at 0|1
 }
 
-// ---- Closed form
-// ----------------------------------------------------------------------------------------------------------------
+// ---- Closed form ----------------------------------------------------------------------------------------------------
 
 /// A settable counter over a Motion: counter(t) = divided(motion) + offset. Its whole state is the offset.
 class ClosedFormCounter {
@@ -56,8 +54,7 @@ class ClosedFormCounter {
     std::int32_t reversed_ = 0;
 };
 
-// ---- Edge by edge
-// ---------------------------------------------------------------------------------------------------------------
+// ---- Edge by edge ---------------------------------------------------------------------------------------------------
 
 /// State only; trivially copyable.
 class QuadratureDecoder {
@@ -88,8 +85,7 @@ class QuadratureDecoder {
     [[maybe_unused]] std::uint16_t reserved_ = 0;
 };
 
-// ---- In bulk
-// --------------------------------------------------------------------------------------------------------------------
+// ---- In bulk --------------------------------------------------------------------------------------------------------
 
 /// Decodes rows of line states, one byte a sample. The same count and illegal transitions as QuadratureDecoder with
 /// Edges::all.

@@ -96,8 +96,7 @@ void AxisMachine::watch(Face face, int slot, Range counts) {
     aim(now);
 }
 
-// ---- What the pulses tell
-// -----------------------------------------------------------------------------------------------------
+// ---- What the pulses tell -------------------------------------------------------------------------------------------
 
 void AxisMachine::rate_changed(double rate, Instant now) {
     if (!motor_.follows(rate)) {
@@ -126,8 +125,7 @@ void AxisMachine::crossed(Instant now) {
     check(now);
 }
 
-// ---- The motor
-// ----------------------------------------------------------------------------------------------------------------
+// ---- The motor ------------------------------------------------------------------------------------------------------
 
 template <class Change>
 void AxisMachine::change_motor(Instant now, Change change) {
@@ -172,8 +170,7 @@ bool AxisMachine::check_ends(Instant now) {
     return true;
 }
 
-// ---- Crossings
-// ----------------------------------------------------------------------------------------------------------------
+// ---- Crossings ------------------------------------------------------------------------------------------------------
 
 void AxisMachine::check(Instant now) {
     if (checking_) return;
@@ -264,8 +261,7 @@ void AxisMachine::act(Instant now) {
     put_off();
 }
 
-// ---- The index wire
-// -----------------------------------------------------------------------------------------------------------
+// ---- The index wire -------------------------------------------------------------------------------------------------
 
 int AxisMachine::level_at(int, Instant now) const {
     return encoder_.index(rotor_at(now));
@@ -279,8 +275,7 @@ void AxisMachine::wanted_changed(int, bool wanted, Instant now) {
     aim(now);
 }
 
-// ---- Faults
-// -------------------------------------------------------------------------------------------------------------------
+// ---- Faults ---------------------------------------------------------------------------------------------------------
 
 bool AxisMachine::fault(std::string_view name, double value, Instant now) {
     const std::size_t dot = name.find('.');
@@ -344,8 +339,7 @@ bool AxisMachine::switch_fault(int i, std::string_view name, double value) {
     return true;
 }
 
-// ---- Edges
-// --------------------------------------------------------------------------------------------------------------------
+// ---- Edges ----------------------------------------------------------------------------------------------------------
 
 void AxisMachine::listen_edges(Face face, sim::EdgeListener* listener) {
     MOTIONRACK_ASSERT(pulses_ != nullptr);

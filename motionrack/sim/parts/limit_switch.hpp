@@ -2,8 +2,9 @@
 //
 //   table   ----------+-------------+-------->       (a switch that is active at and above its place)
 //   inactive          off          on  active        on: acts; off: where it is released again
-//   wire    ~~~~~~~~~~~~~~~~~~~~~~~~|_|~|_|~~|______ the contacts bounce, at fixed instants derived from the number of
-//   changes
+//   wire    ~~~~~~~~~~~~~~~~~~~~~~~~|_|~|_|~~|______
+//
+// The contacts bounce at fixed instants, derived from the number of changes so far.
 #pragma once
 
 #include <cstdint>

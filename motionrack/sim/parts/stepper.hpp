@@ -5,13 +5,11 @@
 //
 //   rate jumps by more than start_stop_hz, or rate > pull_out_hz          in step -> stalled
 //   rate <= start_stop_hz                                                 stalled -> in step, steps lost
-//   rate jumps to <= start_stop_hz (an abrupt stop)                       the rotor runs on, one electrical cycle for
-//   each
-//                                                                         start_stop_hz of the jump; it is in step at
-//                                                                         once
+//   rate jumps to <= start_stop_hz (an abrupt stop)                       in step at once, but further on: see below
 //   the axle meets an end of travel                                       blocked until the pulses stop or turn back
 //
-// One number each for start/stop and pull-out rate: no torque curve, no load, no resonance.
+// Stopped abruptly the rotor runs on, by one electrical cycle for each start_stop_hz of the jump. The model has one
+// number each for start/stop and pull-out rate: no torque curve, no load, no resonance.
 #pragma once
 
 #include <cmath>

@@ -55,8 +55,7 @@ std::vector<std::pair<AxisCondition, std::int64_t>> conditions(const Kernel& ker
     return out;
 }
 
-// ---- Truth
-// --------------------------------------------------------------------------------------------------------------------
+// ---- Truth ----------------------------------------------------------------------------------------------------------
 
 TEST(AxisMachine, TurnsPulsesIntoMillimetresExactly) {
     World w(plain(), {{Instant{0}, microseconds(100), +1}});
@@ -99,8 +98,7 @@ TEST(AxisMachine, MovesTheTableOnlyAfterTheBacklashIsTakenUp) {
     EXPECT_EQ(w.machine.rotor().count(w.kernel.now()), 25);
 }
 
-// ---- Switches
-// -----------------------------------------------------------------------------------------------------------------
+// ---- Switches -------------------------------------------------------------------------------------------------------
 
 TEST(AxisMachine, SwitchesActAtTheirPulseAndReleaseAfterTheHysteresis) {
     AxisMachineSettings s = plain();
@@ -199,8 +197,7 @@ RC_GTEST_PROP(AxisMachine, ASwitchTogglesExactlyWhereThePositionPassesItsPlace, 
     RC_ASSERT(w.kernel.level(w.machine.limit_plus_wire()) == 0);
 }
 
-// ---- Lost steps
-// ---------------------------------------------------------------------------------------------------------------
+// ---- Lost steps -----------------------------------------------------------------------------------------------------
 
 TEST(AxisMachine, AMotorStartedTooFastStandsAndLocksAMultipleOfFourStepsLater) {
     AxisMachineSettings s = plain();
@@ -309,8 +306,7 @@ TEST(AxisMachine, APushThatPassesASwitchIsSeenAtOnce) {
     EXPECT_EQ(w.kernel.level(w.machine.limit_plus_wire()), 1);
 }
 
-// ---- Snapshots
-// ----------------------------------------------------------------------------------------------------------------
+// ---- Snapshots ------------------------------------------------------------------------------------------------------
 
 TEST(AxisMachine, ASnapshotTakenInAMoveGoesOnAsTheRunThatWasNotInterrupted) {
     AxisMachineSettings s = plain();

@@ -39,8 +39,7 @@ class Scribe final : public Kernel::WireObserver {
     std::string text;
 };
 
-// ---- Order
-// --------------------------------------------------------------------------------------------------------------------
+// ---- Order ----------------------------------------------------------------------------------------------------------
 
 TEST(Kernel, RunsEventsByInstantThenPhaseThenTheOrderInWhichTheyWereAskedFor) {
     Kernel kernel;
@@ -103,8 +102,7 @@ TEST(Kernel, ABrokenRunEndsAfterTheEventWithEverythingSyncedAndGoesOnAfterwards)
     EXPECT_EQ(kernel.now(), Instant{25});
 }
 
-// ---- Wires
-// --------------------------------------------------------------------------------------------------------------------
+// ---- Wires ----------------------------------------------------------------------------------------------------------
 
 TEST(Kernel, WireChangesAreHeardFirstInFirstOutAtTheirInstant) {
     Kernel kernel;
@@ -245,8 +243,7 @@ TEST(KernelDeathTest, TwoInvertersInARingAreAProgrammersMistakeAndNotAnEndlessLo
         "most_changes");
 }
 
-// ---- Conditions
-// ---------------------------------------------------------------------------------------------------------------
+// ---- Conditions -----------------------------------------------------------------------------------------------------
 
 TEST(Kernel, KeepsTheLatestConditionsAndTellsHowManyAreGone) {
     Kernel kernel;
@@ -268,8 +265,7 @@ TEST(Kernel, KeepsTheLatestConditionsAndTellsHowManyAreGone) {
     EXPECT_EQ(all.back().code, 3);
 }
 
-// ---- Snapshots
-// ----------------------------------------------------------------------------------------------------------------
+// ---- Snapshots ------------------------------------------------------------------------------------------------------
 
 /// Two devices that drive each other's wires and report, by a rule that mixes numbers.
 struct Clockwork {
