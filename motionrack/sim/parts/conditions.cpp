@@ -10,9 +10,9 @@ std::string describe(const sim::Condition& c, std::string_view axis) {
     switch (static_cast<AxisCondition>(c.code)) {
         case AxisCondition::fell_out_of_step:
             return fmt::format(
-                "axis {}: at {:.6f} s the motor fell out of step when the pulse rate went from {} to {} Hz; it stands "
-                "until the "
-                "rate is low enough to lock again",
+                "axis {}: at {:.6f} s the motor fell out of step when the pulse rate went from {} to {} Hz, more than "
+                "it "
+                "follows at once or above its pull-out rate",
                 axis, at, c.a, c.b);
         case AxisCondition::lost_steps:
             return fmt::format(

@@ -292,6 +292,20 @@ TEST(AxisMachine, StopsAtTheEndOfTravelAndComesBackFromIt) {
     EXPECT_EQ(conditions(w.kernel)[0], (std::pair{AxisCondition::end_of_travel, std::int64_t{1}}));
 }
 
+TEST(AxisMachine, ConditionsAreSentencesWithTheirNumbers) {
+    auto text = [](AxisCondition code, std::int64_t a, std::int64_t b) {
+        return describe({milliseconds(1500), {}, static_cast<std::uint16_t>(code), a, b}, "X");
+    };
+    EXPECT_EQ(
+        text(AxisCondition::fell_out_of_step, 0, 9000),
+        "axis X: at 1.500000 s the motor fell out of step when the pulse rate went from 0 to 9000 Hz; it stands until "
+        "the rate is low enough to lock again");
+    EXPECT_NE(text(AxisCondition::lost_steps, 64, 128).find("had lost 64 pulses (128 in all)"), std::string::npos);
+    EXPECT_NE(text(AxisCondition::lost_steps, -64, 0).find("had run on by 64 pulses (0 in all)"), std::string::npos);
+    EXPECT_NE(text(AxisCondition::end_of_travel, -1, -640).find("minus end of travel at -640"), std::string::npos);
+    EXPECT_NE(text(AxisCondition::axle_held, 7, 0).find("held fast at 7 microsteps"), std::string::npos);
+}
+
 TEST(AxisMachine, APushThatPassesASwitchIsSeenAtOnce) {
     AxisMachineSettings s = plain();
     s.limit_plus.position = 0.5;
