@@ -298,8 +298,8 @@ TEST(AxisMachine, ConditionsAreSentencesWithTheirNumbers) {
     };
     EXPECT_EQ(
         text(AxisCondition::fell_out_of_step, 0, 9000),
-        "axis X: at 1.500000 s the motor fell out of step when the pulse rate went from 0 to 9000 Hz; it stands until "
-        "the rate is low enough to lock again");
+        "axis X: at 1.500000 s the motor fell out of step when the pulse rate went from 0 to 9000 Hz, more than it "
+        "follows at once or above its pull-out rate");
     EXPECT_NE(text(AxisCondition::lost_steps, 64, 128).find("had lost 64 pulses (128 in all)"), std::string::npos);
     EXPECT_NE(text(AxisCondition::lost_steps, -64, 0).find("had run on by 64 pulses (0 in all)"), std::string::npos);
     EXPECT_NE(text(AxisCondition::end_of_travel, -1, -640).find("minus end of travel at -640"), std::string::npos);
