@@ -121,11 +121,17 @@ void Path::step_arc(std::array<int, 3>& step) {
     at_[long_axis] += grow * o.long_side;
     step[long_axis] = grow * o.long_side;
 
-    for (int i = 0; i < 4 && leaves(octant_, at_[0], at_[1]); ++i) {
-        octant_ = (octant_ + 1) % 8;
-        lap_ = false;
+    const auto at_finish = [&] { return octant_ == finish_octant_ && !lap_ && past_finish(); };
+    finished_ = at_finish();
+    for (int i = 0; i < 4 && !finished_ && leaves(octant_, at_[0], at_[1]); ++i) {
+        if (octant_ == finish_octant_ && !lap_) {
+            finished_ = true;
+        } else {
+            octant_ = (octant_ + 1) % 8;
+            lap_ = false;
+            finished_ = at_finish();
+        }
     }
-    finished_ = octant_ == finish_octant_ && !lap_ && past_finish();
     if (segment_.kind == Segment::Kind::arc_cw) step[1] = -step[1];
 }
 
