@@ -6,6 +6,11 @@
 
 namespace motionrack::mcx314::twin {
 
+void sort_pulses(std::vector<Pulse>& pulses) {
+    std::stable_sort(pulses.begin(), pulses.end(),
+                     [](const Pulse& a, const Pulse& b) { return a.tick != b.tick ? a.tick < b.tick : a.axis < b.axis; });
+}
+
 Outcome run_on_twin(const Program& program) {
     Twin twin;
     Outcome out;
@@ -28,6 +33,7 @@ Outcome run_on_twin(const Program& program) {
         out.sights.push_back(sight);
     }
     out.pulses = twin.pulses();
+    sort_pulses(out.pulses);
     return out;
 }
 

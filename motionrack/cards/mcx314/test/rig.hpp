@@ -29,6 +29,9 @@ struct Way {
     std::size_t snapshot_at = 0;     ///< after this op the chip is saved, disturbed and restored; 0: never
 };
 
+/// By tick, then axis.
+void sort_pulses(std::vector<Pulse>& pulses);
+
 Outcome run_on_twin(const Program& program);
 
 /// The first difference in words, or "" if there is none. Pulses are compared if both listened.
