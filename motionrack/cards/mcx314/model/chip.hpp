@@ -1,0 +1,192 @@
+// The virtual MCX314: registers in front, four speed generators and an interpolator behind, exact to the tick (RULES.md).
+//
+//          WR0..WR7 ┌──────────┐ P, V, ..  ┌───────────┐ basic pulses ┌──────────────┐ pulses  xpp xpm
+//   host ──────────►│ registers├──────────►│ generators├─────────────►│ lines, arcs  ├────────►  .. upp upm
+//          RR0..RR7 └────▲─────┘           └─────▲─────┘              └──────────────┘
+//                        └── EP ◄── encoders     └── limits, IN0..3, alarm, emergency ◄── wires
+//
+// Nothing ticks: between two interesting ticks (a speed step, a special pulse, an input) everything is closed form; an interesting
+// tick is worked off by the rules, one by one. Edges are made only while somebody listens to them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/cards/mcx314/model/state.hpp>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/register_device.hpp>
+#include <string>
+
+namespace motionrack::mcx314 {
+
+/// What the chip reports as conditions.
+enum ChipCondition : std::uint16_t {
+    drive_ignored = 1,      ///< a: command, b: axis that is driving
+    path_ignored = 2,       ///< a: command; queue full, axis busy or named twice
+    unknown_command = 3     ///< a: command
+};
+
+/// The sentence of a condition that a chip reported.
+std::string describe(const sim::Condition& condition, const std::string& card);
+
+class Chip final : public sim::Device, public sim::RegisterDevice {
+  public:
+    /// Adds the chip and its wires "<name>.<pin>" to the kernel. CLK is 16 MHz.
+    Chip(sim::Kernel& kernel, const std::string& name);
+
+    std::uint16_t read(std::uint32_t offset) override;
+    void write(std::uint32_t offset, std::uint16_t value) override;
+    std::uint16_t peek(std::uint32_t offset) const override;
+
+    /// Pulses of an axis (0 X .. 3 U) as a position over time: + and - pulses since the start, whatever LP is set to.
+    sim::Motion& pulses(int axis) { return outputs_[static_cast<std::size_t>(axis)]; }
+    /// The encoder at xeca/xecb. Before the kernel starts.
+    void connect_encoder(int axis, sim::Motion& counts);
+    /// Pulses of both directions since the start.
+    std::int64_t pulses_made(int axis);
+    std::int32_t lp(int axis);
+    std::int32_t ep(int axis) const;
+
+    sim::DeviceId id() const { return id_; }
+    sim::WireId interrupt_wire() const { return int_n_; }
+
+    void act(Instant now) override;
+    void on_wire(int pin, int level, Instant now) override;
+    int level_at(int pin, Instant now) const override;
+    void sync(Instant now) override;
+    std::span<std::byte> state() override { return sim::bytes_of(state_); }
+
+  private:
+    /// One axis' pulses.
+    class Output final : public sim::Motion {
+      public:
+        std::int64_t count(Instant t) const override { return chip->count_at(axis, t); }
+        double rate(Instant) const override { return chip->rate_of(axis); }
+        void watch(int slot, std::int64_t below, std::int64_t above) override { chip->watch(axis, slot, below, above); }
+        int listen(sim::MotionListener& listener) override;
+        void listen_edges(sim::EdgeListener* listener) override { chip->listen_edges(axis, listener); }
+
+        Chip* chip = nullptr;
+        int axis = 0;
+        std::array<sim::MotionListener*, max_listeners> listeners{};
+        int listener_count = 0;
+        sim::EdgeListener* edge_listener = nullptr;
+        sim::EdgeBatch batch;
+    };
+    /// Hears when an encoder passes a comparison value.
+    class EncoderEar final : public sim::MotionListener {
+      public:
+        void crossed(Instant now) override { chip->encoder_crossed(axis, now); }
+        void rate_changed(double, Instant) override {}
+        Chip* chip = nullptr;
+        int axis = 0;
+        int slot = -1;
+        sim::Motion* motion = nullptr;
+    };
+
+    // chip.cpp: time, wires, listeners
+    std::int64_t tick_of(Instant t) const { return t.count() / rules::tick_100ps; }
+    void advance_to(std::int64_t tick);
+    void reschedule();
+    void settle(Instant now);
+    void update_interrupt();
+    void update_outputs();
+    void law_changed(int a) { changed_ |= 1u << a; }
+    void law_changed_of(int generator);
+    void tell_listeners(Instant now);
+    std::int64_t count_at(int axis, Instant t) const;
+    double rate_of(int axis) const;
+    void watch(int axis, int slot, std::int64_t below, std::int64_t above);
+    void listen_edges(int axis, sim::EdgeListener* listener);
+    void encoder_crossed(int axis, Instant now);
+    void watch_encoder(int axis);
+    void set_wants(int axis);
+    std::int32_t encoder_position(const Axis& axis, int a) const;
+    void set_encoder_position(int a, std::int32_t value);
+
+    // tick.cpp: one tick by the rules
+    void tick();
+    void work(int a);
+    bool inputs(int a);
+    std::uint16_t active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const;
+    bool beyond_software_limit(int a) const;
+    bool stop(int a, bool decelerating, bool immediate);
+    bool pulse(int a);
+    int step_axes(int a);
+    void move(int a, int direction, std::int64_t tick);
+    bool segment_end(int a);
+    void check_final(int a);
+    void end(int a);
+    void compare(int a);
+    std::uint32_t moved_by(int generator) const;
+    void begin_segment(const PathCommand& command);
+    bool path_finished() const;
+    int path_direction(int i) const;
+
+    // speed.cpp: the speed step
+    bool speed_step(int a);
+    std::int64_t target(const Axis& axis) const;
+    void set_ramp(int a, int ramp);
+    void t_curve(int a);
+    void s_curve(int a);
+    void s_turn_final(int a);
+    void s_advance(int a);
+
+    // horizon.cpp: closed form between interesting ticks
+    std::int64_t ticks_to_event(int a);
+    std::int64_t ticks_to_speed_event(const Axis& axis) const;
+    std::int64_t pulses_to_special(int a) const;
+    std::int64_t pulses_until_steps(int generator, int axis, std::int64_t steps) const;
+    std::int64_t pulses_to_final(int a) const;
+    std::int64_t steps_to_threshold(int a, int direction) const;
+    bool walks_pulses(int a) const;
+    std::int64_t phase_for(const Generator& gen, std::int64_t pulses) const;
+    std::int64_t extra_steps(std::int64_t pulses) const;
+    std::int64_t pulses_in(const Generator& gen, std::int64_t ticks) const;
+    std::array<std::int64_t, 3> path_steps(std::int64_t pulses) const;
+    void skip(std::int64_t ticks);
+    void skip_generator(int a, std::int64_t ticks);
+    void skip_pulses(int a, std::int64_t pulses);
+
+    // edges.cpp
+    bool edges_wanted(int a) const;
+    void make_edges(int a, std::int64_t ticks, std::int64_t pulses);
+    void make_own_edges(int a, std::int64_t ticks, std::int64_t pulses);
+    void make_path_edges(std::int64_t pulses);
+    void add_edge(int axis, std::int64_t tick, int direction);
+    void flush_edges(int axis);
+
+    // registers.cpp
+    void reset();
+    void command(std::uint16_t value);
+    void data_write(int code, int a);
+    void data_read(int code, int a);
+    void drive_command(int code, unsigned axes);
+    void start_drive(int a, int code);
+    void begin_generator(int a, Drive drive);
+    PathCommand captured(int code) const;
+    bool any_busy(const PathCommand& command) const;
+    void path_command(int code);
+    void start_path(const PathCommand& command);
+    void free_held(unsigned axes);
+    void ask_stop(unsigned axes, bool immediate);
+    bool driving(int a) const;
+    int first_selected() const;
+    std::uint16_t main_status() const;
+    std::uint16_t status1(int a) const;
+    std::uint16_t status2(int a) const;
+    std::uint16_t input_levels(int a) const;
+
+    sim::Kernel& kernel_;
+    sim::DeviceId id_;
+    State state_;
+    std::array<Output, axes_of_chip> outputs_;
+    std::array<EncoderEar, axes_of_chip> ears_;
+    std::array<std::array<sim::WireId, 10>, axes_of_chip> inputs_{};
+    std::array<std::array<sim::WireId, 8>, axes_of_chip> general_outputs_{};
+    sim::WireId emgn_{};
+    sim::WireId int_n_{};
+    unsigned changed_ = 0;  // axes whose law of motion changed in the present event
+};
+
+}  // namespace motionrack::mcx314

@@ -1,0 +1,271 @@
+// Closed form: when the next interesting tick is, and everything up to it in one go.
+//
+//   tick    |--------- plain ticks, pulses in closed form ---------|  interesting tick, worked off by the rules
+//           now                                        speed step, special pulse, input ..
+#include <limits>
+#include <motionrack/cards/mcx314/model/chip.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+constexpr std::int64_t far = std::numeric_limits<std::int64_t>::max() / 4;
+
+}  // namespace
+
+// ---- the next interesting tick ------------------------------------------------------------------------------------------------
+
+/// Ticks until generator `a` needs a tick worked in full (>= 1), far if never.
+std::int64_t Chip::ticks_to_event(int a) {
+    Axis& axis = state_.axis[a];
+    Generator& gen = axis.gen;
+    if (gen.drive == Drive::idle) return far;
+    if (gen.wait > 0) return gen.wait + 1;
+    if (gen.look) return 1;
+    const std::int64_t ticks = ticks_to_speed_event(axis);
+    if (!gen.special_known) {
+        const std::int64_t pulses = pulses_to_special(a);
+        gen.next_special = pulses >= far ? far : gen.n + pulses;
+        gen.special_known = true;
+    }
+    if (gen.next_special >= far) return ticks;
+    const std::int64_t phase = phase_for(gen, gen.next_special - gen.n) - gen.acc;
+    if (ticks < far && ticks * gen.speed < phase) return ticks;
+    return std::max<std::int64_t>(1, std::min(ticks, rules::ceil_div(phase, gen.speed)));
+}
+
+std::int64_t Chip::ticks_to_speed_event(const Axis& axis) const {
+    const Generator& gen = axis.gen;
+    if (gen.stopping && gen.speed <= rules::used_speed(axis.start_speed)) return 1;
+    const std::int64_t to = target(axis);
+    if (!gen.s_curve) {
+        const int want = to > gen.speed ? 1 : to < gen.speed ? -1 : 0;
+        if (want != gen.ramp) return 1;
+        if (gen.ramp == 0) return far;
+        const bool own = gen.ramp < 0 && gen.own_deceleration;
+        return rules::ceil_div(rules::speed_carry - gen.speed_part, rules::used_speed(own ? axis.decel : axis.accel));
+    }
+    if (gen.final && !gen.final_seen) return 1;
+    if (gen.ramp == 0) return gen.speed != to ? 1 : far;
+    const std::int64_t jerk = rules::jerk_ticks_per_k * rules::used_jerk(axis.jerk) - gen.rate_part;
+    const std::int64_t step = gen.rate > 0 ? rules::ceil_div(rules::speed_carry - gen.speed_part, gen.rate) : far;
+    return std::max<std::int64_t>(1, std::min(jerk, step));
+}
+
+/// Basic pulses until one does more than step its axes (>= 1), far if never.
+std::int64_t Chip::pulses_to_special(int a) const {
+    const Axis& own = state_.axis[a];
+    const Generator& gen = own.gen;
+    if (walks_pulses(a)) return 1;
+    std::int64_t pulses = pulses_to_final(a);
+    if (gen.drive == Drive::fixed) pulses = std::min(pulses, std::int64_t{own.pulses} - gen.n);
+    if (gen.drive != Drive::path) {
+        pulses = std::min(pulses, steps_to_threshold(a, own.direction));
+        return std::max<std::int64_t>(1, pulses);
+    }
+    const PathCommand& command = state_.path.command;
+    pulses = std::min(pulses, command.arc() ? state_.path.arc.pulses_to_event() : state_.path.longest - gen.n);
+    for (int i = 0; i < command.count; ++i) {
+        const int direction = path_direction(i);
+        if (direction == 0) continue;
+        const std::int64_t steps = steps_to_threshold(command.axis[i], direction);
+        if (steps < far) pulses = std::min(pulses, pulses_until_steps(a, i, steps));
+    }
+    return std::max<std::int64_t>(1, pulses);
+}
+
+/// Constant vector speed of three axes has no closed form here: its pulses are walked one by one.
+bool Chip::walks_pulses(int a) const {
+    const Path& path = state_.path;
+    return state_.axis[a].gen.drive == Drive::path && path.command.count == 3 &&
+           (path.range_for[1] != path.range_for[0] || path.range_for[2] != path.range_for[0]);
+}
+
+std::int64_t Chip::pulses_to_final(int a) const {
+    const Axis& axis = state_.axis[a];
+    const Generator& gen = axis.gen;
+    std::int64_t total = 0;
+    if (gen.final || gen.drive == Drive::continuous) return far;
+    if (gen.drive == Drive::path) {
+        if (!state_.decel_enabled || state_.queued || (state_.path.command.arc() && !gen.manual)) return far;
+        total = state_.path.longest;
+    } else {
+        total = axis.pulses;
+    }
+    if (gen.manual) return std::max<std::int64_t>(1, std::int64_t{axis.decel_point} - gen.n);
+    const std::int64_t left = total - gen.n - axis.offset;
+    // P - n <= accel_pulses + AO, where accel_pulses rises, stays or falls with n.
+    if (gen.ramp > 0) return std::max<std::int64_t>(1, rules::ceil_div(std::max<std::int64_t>(0, left - gen.accel_pulses), 2));
+    if (gen.ramp == 0) return std::max<std::int64_t>(1, left - gen.accel_pulses);
+    return left <= gen.accel_pulses ? 1 : std::max<std::int64_t>(1, left);
+}
+
+/// Steps of an axis in `direction` until a limit, a comparison or a watched count is passed (>= 1), far if never.
+std::int64_t Chip::steps_to_threshold(int a, int direction) const {
+    const Axis& axis = state_.axis[a];
+    std::int64_t steps = far;
+    auto at = [&steps](std::int64_t distance) {
+        if (distance >= 1) steps = std::min(steps, distance);
+    };
+    for (const Watch& watch : axis.watch) {
+        if (direction > 0 && watch.above != sim::unwatched_above) at(std::max<std::int64_t>(1, watch.above - axis.count));
+        if (direction < 0 && watch.below != sim::unwatched_below) at(std::max<std::int64_t>(1, axis.count - watch.below));
+    }
+    if (bit(axis.wr1, 8) && !(axis.flags & 1u)) at(1);
+    const bool compares = (axis.wr1 & 0x1E00u) != 0 || (axis.wr2 & 3u) != 0;
+    if (!compares || bit(axis.wr2, 5)) return steps;
+    const std::int64_t lp = axis.lp, plus = axis.comp_plus, minus = axis.comp_minus;
+    if (direction > 0) {
+        for (const std::int64_t value : {plus, plus + 1, minus}) at(value - lp);
+        at((std::int64_t{1} << 31) - lp);
+    } else {
+        for (const std::int64_t value : {plus - 1, minus - 1}) at(lp - value);
+        at(lp + (std::int64_t{1} << 31) + 1);
+    }
+    return steps;
+}
+
+/// Basic pulses of the path until AX(i+1) has made `steps` more steps, far if that is beyond its next event.
+std::int64_t Chip::pulses_until_steps(int a, int i, std::int64_t steps) const {
+    const Path& path = state_.path;
+    if (!path.command.arc()) {
+        const std::int64_t p = rules::magnitude(path.command.finish[i]);
+        const std::int64_t wanted = rules::line_steps(state_.axis[a].gen.n, p, path.longest) + steps;
+        return wanted > p ? far : rules::line_pulse_of_step(wanted, p, path.longest) - state_.axis[a].gen.n;
+    }
+    const rules::Octant& octant = rules::octants[path.arc.octant];
+    if (octant.short_axis == i) return steps;
+    auto moved = [&](std::int64_t pulses) { return rules::magnitude(path.arc.after(pulses)[i] - path.arc.at[i]); };
+    std::int64_t low = 0, high = path.arc.pulses_to_event() - 1;
+    if (high < 1 || moved(high) < steps) return far;
+    while (low + 1 < high) {
+        const std::int64_t middle = (low + high) / 2;
+        (moved(middle) < steps ? low : high) = middle;
+    }
+    return high;
+}
+
+// ---- phase and pulses ---------------------------------------------------------------------------------------------------------
+
+/// How many of the next `pulses` basic pulses step two axes (paths of two axes).
+std::int64_t Chip::extra_steps(std::int64_t pulses) const {
+    const Path& path = state_.path;
+    if (pulses <= 0) return 0;
+    if (path.command.arc()) {
+        const auto l = static_cast<std::size_t>(1 - rules::octants[path.arc.octant].short_axis);
+        return rules::magnitude(path.arc.after(pulses)[l] - path.arc.at[l]);
+    }
+    const std::int64_t n = state_.axis[state_.master].gen.n;
+    const std::int64_t p = std::min(rules::magnitude(path.command.finish[0]), rules::magnitude(path.command.finish[1]));
+    return rules::line_steps(n + pulses, p, path.longest) - rules::line_steps(n, p, path.longest);
+}
+
+/// What acc and the speed must add up to until the next `pulses` basic pulses (>= 1) are out.
+std::int64_t Chip::phase_for(const Generator& gen, std::int64_t pulses) const {
+    if (gen.drive != Drive::path) return pulses * gen.range_now;
+    const auto& range = state_.path.range_for;
+    std::int64_t phase = gen.range_now + (pulses - 1) * range[0];
+    if (range[1] != range[0] && state_.path.command.count == 2) phase += (range[1] - range[0]) * extra_steps(pulses - 1);
+    return phase;
+}
+
+/// Basic pulses in the next `ticks` plain working ticks.
+std::int64_t Chip::pulses_in(const Generator& gen, std::int64_t ticks) const {
+    const std::int64_t phase = gen.acc + ticks * gen.speed;
+    if (phase < gen.range_now) return 0;
+    if (gen.drive != Drive::path) return phase / gen.range_now;
+    const auto& range = state_.path.range_for;
+    if (range[1] == range[0] || state_.path.command.count != 2) return 1 + (phase - gen.range_now) / range[0];
+    std::int64_t low = 1, high = 2 + (phase - gen.range_now) / std::min(range[0], range[1]);
+    if (gen.special_known) high = std::min(high, gen.next_special - gen.n + 1);
+    while (low + 1 < high) {
+        const std::int64_t middle = low + (high - low) / 2;
+        (phase_for(gen, middle) <= phase ? low : high) = middle;
+    }
+    return low;
+}
+
+/// Steps of AX1 .. AX3 in the next `pulses` basic pulses, signed.
+std::array<std::int64_t, 3> Chip::path_steps(std::int64_t pulses) const {
+    const Path& path = state_.path;
+    std::array<std::int64_t, 3> steps{};
+    if (path.command.arc()) {
+        const auto to = path.arc.after(pulses);
+        steps[0] = to[0] - path.arc.at[0];
+        steps[1] = path.arc.clockwise ? path.arc.at[1] - to[1] : to[1] - path.arc.at[1];
+        return steps;
+    }
+    const std::int64_t n = state_.axis[state_.master].gen.n;
+    for (int i = 0; i < path.command.count; ++i) {
+        const std::int64_t p = rules::magnitude(path.command.finish[i]);
+        const std::int64_t made = rules::line_steps(n + pulses, p, path.longest) - rules::line_steps(n, p, path.longest);
+        steps[i] = path.command.finish[i] < 0 ? -made : made;
+    }
+    return steps;
+}
+
+// ---- many plain ticks at once ---------------------------------------------------------------------------------------------------
+
+void Chip::skip(std::int64_t ticks) {
+    if (ticks <= 0) return;
+    for (int a = 0; a < axes_of_chip; ++a) {
+        Axis& axis = state_.axis[a];
+        if (axis.gen.drive != Drive::idle) skip_generator(a, ticks);
+        if (axis.waits_position && (!bit(axis.wr2, 15) || level(axis, Pin::in_position) == bit(axis.wr2, 14)))
+            axis.waits_position = false;
+    }
+    state_.tick += ticks;
+}
+
+void Chip::skip_generator(int a, std::int64_t ticks) {
+    Axis& axis = state_.axis[a];
+    Generator& gen = axis.gen;
+    const std::int64_t waited = std::min<std::int64_t>(gen.wait, ticks);
+    gen.wait -= static_cast<std::int32_t>(waited);
+    ticks -= waited;
+    if (ticks == 0) return;
+    const std::int64_t pulses = pulses_in(gen, ticks);
+    if (pulses > 0 && edges_wanted(a)) make_edges(a, waited, pulses);
+    gen.acc += ticks * gen.speed;
+    if (pulses > 0) {
+        gen.acc -= phase_for(gen, pulses);
+        skip_pulses(a, pulses);
+    }
+    if (gen.ramp == 0) return;
+    if (gen.s_curve) {
+        gen.rate_part += ticks;
+    } else {
+        gen.rate = rules::used_speed(gen.ramp < 0 && gen.own_deceleration ? axis.decel : axis.accel);
+    }
+    gen.speed_part += ticks * gen.rate;
+}
+
+void Chip::skip_pulses(int a, std::int64_t pulses) {
+    Generator& gen = state_.axis[a].gen;
+    auto add = [this](int i, std::int64_t steps) {
+        if (steps == 0) return;
+        Axis& axis = state_.axis[i];
+        axis.lp = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.lp) + static_cast<std::uint32_t>(steps));
+        axis.count += steps;
+        axis.made += rules::magnitude(steps);
+        compare(i);
+        if (bit(axis.wr1, 8)) axis.flags |= 1u;
+    };
+    if (gen.drive == Drive::path) {
+        const std::array<std::int64_t, 3> steps = path_steps(pulses);
+        const std::array<std::int64_t, 3> before = path_steps(pulses - 1);
+        int stepped = 0;
+        for (int i = 0; i < state_.path.command.count; ++i) stepped += steps[i] != before[i];
+        state_.stepped = stepped;
+        gen.range_now = state_.path.range_for[static_cast<std::size_t>(stepped - 1)];
+        for (int i = 0; i < state_.path.command.count; ++i) add(state_.path.command.axis[i], steps[i]);
+        if (state_.path.command.arc()) state_.path.arc.at = state_.path.arc.after(pulses);
+    } else {
+        add(a, pulses * state_.axis[a].direction);
+    }
+    gen.n += pulses;
+    if (gen.ramp > 0) gen.accel_pulses += pulses;
+    if (gen.ramp < 0 && !gen.final) gen.accel_pulses = std::max<std::int64_t>(0, gen.accel_pulses - pulses);
+}
+
+}  // namespace motionrack::mcx314

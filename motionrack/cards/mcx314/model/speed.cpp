@@ -1,0 +1,132 @@
+// The third step of a tick: the speed moves towards its target, by a straight or an S-shaped ramp (RULES.md).
+#include <motionrack/cards/mcx314/model/chip.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+constexpr unsigned flag_constant_end = 1u << 5;
+constexpr unsigned flag_constant_start = 1u << 6;
+
+std::int64_t ramp_rate(const Axis& axis) {
+    const bool own = axis.gen.ramp < 0 && axis.gen.own_deceleration;
+    return rules::used_speed(own ? axis.decel : axis.accel);
+}
+}  // namespace
+
+/// True if the drive ended.
+bool Chip::speed_step(int a) {
+    Axis& axis = state_.axis[a];
+    Generator& gen = axis.gen;
+    auto at_start_speed = [&] { return gen.speed <= rules::used_speed(axis.start_speed); };
+    if (gen.stopping && at_start_speed()) return end(a), true;
+    const std::int64_t before = gen.speed;
+    if (gen.s_curve)
+        s_curve(a);
+    else
+        t_curve(a);
+    gen.final_seen = gen.final;
+    if (gen.speed != before) law_changed_of(a);
+    if (gen.stopping && at_start_speed()) return end(a), true;
+    return false;
+}
+
+std::int64_t Chip::target(const Axis& axis) const {
+    if (!axis.gen.final) return rules::used_speed(axis.speed);
+    return std::min(axis.gen.speed, rules::used_speed(axis.start_speed));
+}
+
+void Chip::set_ramp(int a, int ramp) {
+    Axis& axis = state_.axis[a];
+    Generator& gen = axis.gen;
+    auto flag = [&axis](unsigned which) { axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & which)); };
+    if (gen.ramp != 0 && ramp == 0 && !gen.final) {
+        gen.constant = true;
+        flag(flag_constant_start);
+    }
+    if (gen.ramp == 0 && ramp != 0 && gen.constant) {
+        gen.constant = false;
+        flag(flag_constant_end);
+    }
+    if (gen.ramp != ramp) gen.special_known = false;
+    gen.ramp = ramp;
+}
+
+void Chip::t_curve(int a) {
+    Axis& axis = state_.axis[a];
+    Generator& gen = axis.gen;
+    const std::int64_t to = target(axis);
+    const int want = to > gen.speed ? 1 : to < gen.speed ? -1 : 0;
+    if (want != gen.ramp) {
+        set_ramp(a, want);
+        gen.speed_part = 0;
+    }
+    if (gen.ramp == 0) return;
+    gen.rate = ramp_rate(axis);
+    gen.speed_part += gen.rate;
+    if (gen.speed_part >= rules::speed_carry) {
+        gen.speed_part -= rules::speed_carry;
+        gen.speed += gen.ramp;
+    }
+    if (gen.speed == target(axis)) {
+        set_ramp(a, 0);
+        gen.speed_part = 0;
+    }
+}
+
+void Chip::s_curve(int a) {
+    Generator& gen = state_.axis[a].gen;
+    if (gen.final && !gen.final_seen) s_turn_final(a);
+    const std::int64_t to = target(state_.axis[a]);
+    if (gen.ramp == 0 && gen.speed != to) {
+        set_ramp(a, to > gen.speed ? 1 : -1);
+        gen.aim = to;
+        gen.phase = Phase::increasing;
+        gen.rate = gen.speed_part = gen.rate_part = gen.speed_steps = 0;
+    }
+    if (gen.ramp != 0) s_advance(a);
+}
+
+/// The final deceleration begins in this tick: a rising ramp is dropped, a falling one gets a new aim.
+void Chip::s_turn_final(int a) {
+    Generator& gen = state_.axis[a].gen;
+    auto over = [&] {
+        set_ramp(a, 0);
+        gen.speed_part = gen.rate_part = 0;
+    };
+    if (gen.ramp > 0) return over();
+    if (gen.ramp == 0) return;
+    gen.aim = target(state_.axis[a]);
+    if (gen.speed <= gen.aim) return over();
+    if (gen.phase == Phase::decreasing) {
+        gen.phase = Phase::increasing;
+        gen.rate_part = 0;
+    }
+}
+
+void Chip::s_advance(int a) {
+    Axis& axis = state_.axis[a];
+    Generator& gen = axis.gen;
+    const std::int64_t jerk_ticks = rules::jerk_ticks_per_k * rules::used_jerk(axis.jerk);
+    if (++gen.rate_part >= jerk_ticks) {
+        gen.rate_part = 0;
+        if (gen.phase == Phase::increasing) {
+            if (++gen.rate >= ramp_rate(axis)) gen.phase = Phase::constant;
+        } else if (gen.phase == Phase::decreasing && gen.rate > 1) {
+            --gen.rate;
+        }
+    }
+    gen.speed_part += gen.rate;
+    if (gen.speed_part < rules::speed_carry) return;
+    gen.speed_part -= rules::speed_carry;
+    gen.speed += gen.ramp;
+    if (gen.phase == Phase::increasing) ++gen.speed_steps;
+    if (gen.speed == gen.aim) {
+        set_ramp(a, 0);
+        gen.speed_part = gen.rate_part = 0;
+    } else if (gen.phase != Phase::decreasing && rules::magnitude(gen.aim - gen.speed) <= gen.speed_steps) {
+        gen.rate_part = jerk_ticks - gen.rate_part;
+        gen.phase = Phase::decreasing;
+    }
+}
+
+}  // namespace motionrack::mcx314

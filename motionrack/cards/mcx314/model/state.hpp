@@ -1,0 +1,109 @@
+// All of the chip's state, trivially copyable: registers, one speed generator an axis, the interpolation with its queue.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/cards/mcx314/rules.hpp>
+#include <motionrack/sim/motion.hpp>
+
+namespace motionrack::mcx314 {
+
+inline constexpr int axes_of_chip = 4;
+
+enum class Drive : std::uint8_t { idle, fixed, continuous, path };
+enum class Phase : std::uint8_t { increasing, constant, decreasing };
+
+/// What an interpolation command captures.
+struct PathCommand {
+    std::int32_t code = 0;  ///< 30h .. 33h
+    std::int32_t count = 2;
+    std::int32_t vector_speed = 0;  ///< WR5.LSPD
+    std::array<std::int32_t, 3> axis{};
+    std::array<std::int64_t, 3> finish{};
+    std::array<std::int64_t, 2> centre{};
+
+    bool arc() const { return code >= 0x32; }
+    unsigned mask() const {
+        unsigned bits = 0;
+        for (int i = 0; i < count; ++i) bits |= 1u << axis[static_cast<std::size_t>(i)];
+        return bits;
+    }
+    bool names_an_axis_twice() const {
+        return axis[0] == axis[1] || (count == 3 && (axis[2] == axis[0] || axis[2] == axis[1]));
+    }
+};
+
+/// The running segment: basic pulse n and where that is.
+struct Path {
+    PathCommand command;
+    rules::Arc arc;
+    std::int64_t longest = 0;                   ///< lines: basic pulses
+    std::array<std::int64_t, 3> range_for{};    ///< Rnow when one, two, three axes stepped
+};
+
+/// One speed generator.
+struct Generator {
+    Drive drive = Drive::idle;
+    Phase phase = Phase::increasing;
+    bool manual = false, own_deceleration = false, s_curve = false;
+    bool final = false, final_seen = false, stopping = false, constant = false;
+    bool ask_decelerating = false, ask_immediate = false;
+    bool look = false;            ///< the next working tick must be worked in full (inputs, limits or commands changed)
+    bool special_known = false;   ///< next_special is up to date
+    std::int32_t wait = 0;
+    std::int32_t ramp = 0;
+    std::int64_t range = 0, range_now = 0, acc = 0;
+    std::int64_t speed = 0, speed_part = 0;  ///< CV, va
+    std::int64_t rate = 0, rate_part = 0;    ///< CA, ja
+    std::int64_t speed_steps = 0, aim = 0;   ///< dvup
+    std::int64_t n = 0, accel_pulses = 0;
+    std::int64_t next_special = 0;           ///< the next n at which more happens than a plain pulse
+};
+
+/// A range of counts that a listener watches.
+struct Watch {
+    std::int64_t below = sim::unwatched_below;
+    std::int64_t above = sim::unwatched_above;
+};
+
+struct Axis {
+    std::uint32_t range = 0, pulses = 0, decel_point = 0, centre = 0, pad = 0;
+    std::uint16_t jerk = 0, accel = 0, decel = 0, start_speed = 0, speed = 0, offset = 8;
+    std::uint16_t wr1 = 0, wr2 = 0, wr3 = 0;
+    std::uint16_t causes = 0, finished = 0, flags = 0, compared = 0;
+    std::uint16_t levels = 0x3FF;  ///< input pins as last heard, bit Pin
+    std::int32_t lp = 0, comp_plus = 0, comp_minus = 0;
+    std::int32_t ep = 0;           ///< where no encoder is connected; else EP at encoder_base
+    std::int64_t encoder_base = 0; ///< the encoder's count when EP was `ep`
+    std::int32_t direction = 1;
+    std::int32_t held_command = 0;
+    bool hold = false, waits_position = false, crossed_now = false;
+    std::int64_t count = 0;        ///< net pulses since the start
+    std::int64_t made = 0;         ///< pulses of both directions
+    std::array<Watch, sim::Motion::max_listeners> watch{};
+    PathCommand held_path;
+    Generator gen;
+};
+
+struct State {
+    std::array<Axis, axes_of_chip> axis{};
+    std::int64_t tick = 0;        ///< the last tick worked off
+    std::int64_t next_event = 0;  ///< the next tick that must be worked in full
+    std::uint16_t wr4 = 0, wr5 = 0, wr6 = 0, wr7 = 0, rr6 = 0, rr7 = 0;
+    std::uint16_t selected = 1;
+    bool emergency_high = true;
+    bool queued = false, decel_enabled = false, path_interrupt = false, interrupt = false;
+    std::uint32_t chain = 0;  ///< axes of the interpolation that runs
+    std::int32_t master = 0;
+    std::int32_t stepped = 1; ///< axes stepped in the last basic pulse
+    Path path;
+    PathCommand queue;
+};
+
+/// Input pins of an axis, in the order of RR4 and RR5, then the limits.
+enum class Pin : std::uint8_t { in0, in1, in2, in3, exp_plus, exp_minus, in_position, alarm, limit_plus, limit_minus };
+
+constexpr bool bit(unsigned value, int n) { return (value >> n & 1u) != 0; }
+constexpr bool level(const Axis& axis, Pin pin) { return bit(axis.levels, static_cast<int>(pin)); }
+
+}  // namespace motionrack::mcx314

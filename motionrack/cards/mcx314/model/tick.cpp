@@ -1,0 +1,270 @@
+// One tick by the rules: inputs, pulse, and what a pulse may end (RULES.md, "One generator an axis").
+#include <motionrack/cards/mcx314/model/chip.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+constexpr unsigned flag_pulse = 1u << 0;
+constexpr unsigned flag_drive_end = 1u << 7;
+}  // namespace
+
+void Chip::tick() {
+    ++state_.tick;
+    for (int a = 0; a < axes_of_chip; ++a)
+        if (state_.axis[a].gen.drive != Drive::idle) work(a);
+    for (Axis& axis : state_.axis)
+        if (axis.waits_position && (!bit(axis.wr2, 15) || level(axis, Pin::in_position) == bit(axis.wr2, 14)))
+            axis.waits_position = false;
+}
+
+void Chip::work(int a) {
+    Generator& gen = state_.axis[a].gen;
+    if (gen.wait > 0) {
+        --gen.wait;
+        return;
+    }
+    gen.look = false;
+    if (inputs(a)) return;
+    if (gen.drive == Drive::fixed && gen.n >= state_.axis[a].pulses) return end(a);
+    if (gen.drive == Drive::path && path_finished() && segment_end(a)) return;
+    gen.acc += gen.speed;
+    if (gen.acc >= gen.range_now) {
+        gen.acc -= gen.range_now;
+        if (pulse(a)) return;
+    }
+    speed_step(a);
+}
+
+// ---- step 1 -------------------------------------------------------------------------------------------------------------------
+
+/// Axes that generator `a` steps in the present segment.
+std::uint32_t Chip::moved_by(int a) const {
+    return state_.axis[a].gen.drive == Drive::path ? state_.path.command.mask() : 1u << a;
+}
+
+/// The stop causes of one axis as bits of RR1, and what they ask for.
+std::uint16_t Chip::active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const {
+    unsigned causes = 0;
+    for (int i = 0; i < 4; ++i)
+        if (bit(axis.wr1, 2 * i + 1) && bit(axis.levels, i) == bit(axis.wr1, 2 * i)) causes |= 1u << (8 + i);
+    if (causes != 0) decelerating = true;
+    const bool plus = axis.direction > 0;
+    if (level(axis, plus ? Pin::limit_plus : Pin::limit_minus) == bit(axis.wr2, plus ? 3 : 4)) {
+        causes |= plus ? 1u << 12 : 1u << 13;
+        (bit(axis.wr2, 2) ? decelerating : immediate) = true;
+    }
+    if (bit(axis.wr2, 13) && level(axis, Pin::alarm) == bit(axis.wr2, 12)) {
+        causes |= 1u << 14;
+        immediate = true;
+    }
+    if (!state_.emergency_high) {
+        causes |= 1u << 15;
+        immediate = true;
+    }
+    return static_cast<std::uint16_t>(causes);
+}
+
+bool Chip::beyond_software_limit(int a) const {
+    const Axis& axis = state_.axis[a];
+    if ((axis.wr2 & 3u) == 0) return false;
+    const std::int32_t counter = bit(axis.wr2, 5) ? encoder_position(axis, a) : axis.lp;
+    if (axis.direction > 0) return bit(axis.wr2, 0) && counter > axis.comp_plus;
+    return bit(axis.wr2, 1) && counter < axis.comp_minus;
+}
+
+/// True if the drive ended.
+bool Chip::inputs(int a) {
+    Generator& gen = state_.axis[a].gen;
+    bool decelerating = gen.ask_decelerating, immediate = gen.ask_immediate;
+    gen.ask_decelerating = gen.ask_immediate = false;
+    const std::uint32_t moved = moved_by(a);
+    for (int i = 0; i < axes_of_chip; ++i) {
+        if (!(moved >> i & 1)) continue;
+        const unsigned causes = state_.axis[i].causes | active_inputs(state_.axis[i], decelerating, immediate);
+        state_.axis[i].causes = static_cast<std::uint16_t>(causes);
+        if (beyond_software_limit(i)) decelerating = true;
+    }
+    return stop(a, decelerating, immediate);
+}
+
+/// A stop is accepted; true if it ended the drive.
+bool Chip::stop(int a, bool decelerating, bool immediate) {
+    Generator& gen = state_.axis[a].gen;
+    if (!decelerating && !immediate) return false;
+    if (immediate || gen.speed <= rules::used_speed(state_.axis[a].start_speed)) return end(a), true;
+    if (!gen.final) gen.special_known = false;
+    gen.final = gen.stopping = true;
+    if (gen.drive == Drive::path) state_.queued = false;
+    return false;
+}
+
+void Chip::end(int a) {
+    const bool path = state_.axis[a].gen.drive == Drive::path;
+    const unsigned ended = path ? state_.chain : 1u << a;
+    for (int i = 0; i < axes_of_chip; ++i) {
+        if (!(ended >> i & 1)) continue;
+        Axis& axis = state_.axis[i];
+        if (path && !state_.emergency_high) axis.causes = static_cast<std::uint16_t>(axis.causes | 1u << 15);
+        axis.finished = static_cast<std::uint16_t>(axis.finished | axis.causes);
+        axis.causes = 0;
+        axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & flag_drive_end));
+        axis.waits_position = true;
+        law_changed(i);
+    }
+    if (path) {
+        state_.chain = 0;
+        state_.queued = false;
+    }
+    state_.axis[a].gen.drive = Drive::idle;
+    state_.axis[a].gen.ramp = 0;
+}
+
+// ---- step 2 -------------------------------------------------------------------------------------------------------------------
+
+/// A pulse of the generator; true if the drive ended with it.
+bool Chip::pulse(int a) {
+    Generator& gen = state_.axis[a].gen;
+    ++gen.n;
+    const int stepped = step_axes(a);
+    if (gen.drive == Drive::path) {
+        state_.stepped = stepped;
+        gen.range_now = state_.path.range_for[static_cast<std::size_t>(stepped - 1)];
+    }
+    if (gen.ramp > 0) ++gen.accel_pulses;
+    if (gen.ramp < 0 && !gen.final && gen.accel_pulses > 0) --gen.accel_pulses;
+    if (gen.n >= gen.next_special) gen.special_known = false;
+    bool beyond = false;
+    const std::uint32_t moved = moved_by(a);
+    for (int i = 0; i < axes_of_chip; ++i) beyond = beyond || ((moved >> i & 1) && beyond_software_limit(i));
+    if (stop(a, beyond, false)) return true;
+    if (gen.drive == Drive::fixed && gen.n >= state_.axis[a].pulses) return end(a), true;
+    if (gen.drive == Drive::path && path_finished()) return segment_end(a);
+    check_final(a);
+    return false;
+}
+
+/// Moves the axes of one pulse; returns how many moved.
+int Chip::step_axes(int a) {
+    Path& path = state_.path;
+    if (state_.axis[a].gen.drive != Drive::path) return move(a, state_.axis[a].direction, state_.tick), 1;
+    int moved = 0;
+    if (path.command.arc()) {
+        const int octant = path.arc.octant;
+        const std::array<int, 2> step = path.arc.step();
+        for (int i = 0; i < 2; ++i) {
+            const int axis = path.command.axis[i];
+            if (step[i] != 0) move(axis, step[i], state_.tick), ++moved;
+            state_.axis[axis].direction = path_direction(i);
+        }
+        if (path.arc.octant != octant) {
+            state_.axis[a].gen.look = true;
+            state_.axis[a].gen.special_known = false;
+            law_changed_of(a);
+        }
+        return moved;
+    }
+    const std::int64_t n = state_.axis[a].gen.n;
+    for (int i = 0; i < path.command.count; ++i) {
+        const std::int64_t p = rules::magnitude(path.command.finish[i]);
+        if (rules::line_steps(n, p, path.longest) == rules::line_steps(n - 1, p, path.longest)) continue;
+        move(path.command.axis[i], path.command.finish[i] < 0 ? -1 : 1, state_.tick);
+        ++moved;
+    }
+    return moved;
+}
+
+void Chip::move(int a, int direction, std::int64_t tick_now) {
+    Axis& axis = state_.axis[a];
+    axis.lp = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.lp) + static_cast<std::uint32_t>(direction));
+    axis.count += direction;
+    ++axis.made;
+    axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & flag_pulse));
+    compare(a);
+    if (outputs_[a].edge_listener) add_edge(a, tick_now, direction);
+    for (const Watch& watch : axis.watch)
+        if (axis.count <= watch.below || axis.count >= watch.above) axis.crossed_now = true;
+}
+
+bool Chip::path_finished() const {
+    return state_.path.command.arc() ? state_.path.arc.finished
+                                     : state_.axis[state_.master].gen.n >= state_.path.longest;
+}
+
+/// The direction in which AX(i+1) goes; 0: it does not move.
+int Chip::path_direction(int i) const {
+    const PathCommand& command = state_.path.command;
+    if (!command.arc()) return command.finish[i] > 0 ? 1 : command.finish[i] < 0 ? -1 : 0;
+    const int d = rules::direction_in_octant(state_.path.arc.octant, i);
+    return i == 1 && state_.path.arc.clockwise ? -d : d;
+}
+
+/// The running segment is done: the queued one takes over, or the drive ends (true).
+bool Chip::segment_end(int a) {
+    if (!state_.queued) return end(a), true;
+    state_.queued = false;
+    law_changed_of(a);
+    Generator& gen = state_.axis[a].gen;
+    gen.n = 0;
+    begin_segment(state_.queue);
+    gen.range_now = state_.path.range_for[static_cast<std::size_t>(state_.stepped - 1)];
+    gen.special_known = false;
+    gen.look = true;
+    law_changed_of(a);
+    if (bit(state_.wr5, 14)) state_.path_interrupt = true;
+    if (path_finished()) return end(a), true;
+    check_final(a);
+    return false;
+}
+
+void Chip::begin_segment(const PathCommand& command) {
+    Path& path = state_.path;
+    path.command = command;
+    path.longest = 0;
+    if (command.arc())
+        path.arc.begin(command.centre[0], command.centre[1], command.finish[0], command.finish[1], command.code == 0x32);
+    else
+        for (int i = 0; i < command.count; ++i) path.longest = std::max(path.longest, rules::magnitude(command.finish[i]));
+    auto range_of = [&](int i) { return rules::used_range(state_.axis[command.axis[i]].range); };
+    path.range_for.fill(state_.axis[state_.master].gen.range);
+    if (command.vector_speed == 1) path.range_for[1] = path.range_for[2] = range_of(1);
+    if (command.vector_speed == 3) {
+        path.range_for[1] = range_of(1);
+        path.range_for[2] = command.count == 3 ? range_of(2) : path.range_for[1];
+    }
+    for (int i = 0; i < command.count; ++i)
+        if (const int d = path_direction(i); d != 0) state_.axis[command.axis[i]].direction = d;
+}
+
+// ---- when the final deceleration begins -----------------------------------------------------------------------------------------
+
+void Chip::check_final(int a) {
+    const Axis& axis = state_.axis[a];
+    Generator& gen = state_.axis[a].gen;
+    if (gen.final) return;
+    bool now = false;
+    if (gen.drive == Drive::fixed) {
+        now = gen.manual ? gen.n >= axis.decel_point
+                         : std::int64_t{axis.pulses} - gen.n <= gen.accel_pulses + axis.offset;
+    } else if (gen.drive == Drive::path && state_.decel_enabled && !state_.queued) {
+        now = gen.manual ? gen.n >= axis.decel_point
+                         : !state_.path.command.arc() && state_.path.longest - gen.n <= gen.accel_pulses + axis.offset;
+    }
+    if (!now) return;
+    gen.final = true;
+    gen.special_known = false;
+}
+
+void Chip::compare(int a) {
+    Axis& axis = state_.axis[a];
+    const std::int32_t counter = bit(axis.wr2, 5) ? encoder_position(axis, a) : axis.lp;
+    unsigned now = 0;
+    if (counter >= axis.comp_minus) now |= 1u << 1;
+    if (counter < axis.comp_minus) now |= 1u << 2;
+    if (counter < axis.comp_plus) now |= 1u << 3;
+    if (counter >= axis.comp_plus) now |= 1u << 4;
+    const unsigned risen = now & ~axis.compared;
+    axis.compared = static_cast<std::uint16_t>(now);
+    axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & risen));
+}
+
+}  // namespace motionrack::mcx314
