@@ -32,11 +32,11 @@ struct ReportAxis {
     std::string unit = "mm";  ///< "mm" or "deg"
     double min_position = 0;  ///< travel; min >= max: the travel is not limited
     double max_position = 0;
-    double max_speed = 0;           ///< limit; 0: none
-    double max_accel = 0;           ///< limit; 0: none
-    std::int64_t pulses_sent = 0;   ///< counted on the wire, forward less backward
-    std::int64_t pulse_counter = 0; ///< the card's own counter of what it sent
-    std::int64_t counts_read = 0;   ///< encoder counts the card read back
+    double max_speed = 0;              ///< limit; 0: none
+    double max_accel = 0;              ///< limit; 0: none
+    std::int64_t pulses_sent = 0;      ///< counted on the wire, forward less backward
+    std::int64_t pulse_counter = 0;    ///< the card's own counter of what it sent
+    std::int64_t counts_read = 0;      ///< encoder counts the card read back
     std::int64_t counts_expected = 0;  ///< encoder counts that the pulses sent should give
     std::int64_t lost_steps = 0;
     double top_speed = 0;    ///< greatest absolute value measured
@@ -76,8 +76,8 @@ struct ReportStop {
 /// One block as it was driven. Lengths and speeds are of the path: mm and mm/s, or deg and deg/s as `unit` says.
 struct ReportBlock {
     int line = 0;
-    std::string text;         ///< the line as written in the part program
-    std::string kind;         ///< "traverse", "line", "arc", "dwell"
+    std::string text;  ///< the line as written in the part program
+    std::string kind;  ///< "traverse", "line", "arc", "dwell"
     double length = 0;
     std::string unit = "mm";  ///< "mm" or "deg"
     double start = 0;         ///< s
@@ -102,16 +102,16 @@ struct ReportData {
     ReportVerdict verdict;
     std::vector<ReportNumber> numbers;
     std::vector<ReportAxis> axes;
-    std::vector<double> seconds;       ///< instants of all series, s, never falling
-    std::vector<float> deviation_mm;   ///< distance of the machine from the programmed path, over `seconds`
-    double tolerance_mm = 0;           ///< what the deviation is held against; 0: no line is drawn
+    std::vector<double> seconds;      ///< instants of all series, s, never falling
+    std::vector<float> deviation_mm;  ///< distance of the machine from the programmed path, over `seconds`
+    double tolerance_mm = 0;          ///< what the deviation is held against; 0: no line is drawn
     std::vector<ReportSegment> planned;
-    std::vector<Xyz> driven;           ///< where the machine was, over `seconds`
+    std::vector<Xyz> driven;  ///< where the machine was, over `seconds`
     std::optional<ReportWorst> worst;
     std::optional<ReportStop> stop;
-    std::vector<ReportBlock> blocks;   ///< in the order driven; the page lists the first 2,000
+    std::vector<ReportBlock> blocks;  ///< in the order driven; the page lists the first 2,000
     std::vector<ReportWarning> warnings;
-    std::vector<std::string> notes;    ///< what this report does not show, in sentences
+    std::vector<std::string> notes;  ///< what this report does not show, in sentences
 };
 
 /// The page: one HTML text with its style, drawings, numbers and script inside; it fetches nothing. The same data gives
