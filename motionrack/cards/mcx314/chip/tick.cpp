@@ -1,5 +1,5 @@
 // One tick by the rules: inputs, pulse, and what a pulse may end (RULES.md, "One generator an axis").
-#include <motionrack/cards/mcx314/model/chip.hpp>
+#include <motionrack/cards/mcx314/chip/chip.hpp>
 
 namespace motionrack::mcx314 {
 

@@ -3,7 +3,7 @@
 //   tick    |--------- plain ticks, pulses in closed form ---------|  interesting tick, worked off by the rules
 //           now                                        speed step, special pulse, input ..
 #include <limits>
-#include <motionrack/cards/mcx314/model/chip.hpp>
+#include <motionrack/cards/mcx314/chip/chip.hpp>
 
 namespace motionrack::mcx314 {
 

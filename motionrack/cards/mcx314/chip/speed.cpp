@@ -1,5 +1,5 @@
 // The third step of a tick: the speed moves towards its target, by a straight or an S-shaped ramp (RULES.md).
-#include <motionrack/cards/mcx314/model/chip.hpp>
+#include <motionrack/cards/mcx314/chip/chip.hpp>
 
 namespace motionrack::mcx314 {
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <motionrack/cards/mcx314/model/chip.hpp>
+#include <motionrack/cards/mcx314/chip/chip.hpp>
 
 namespace motionrack::mcx314 {
 

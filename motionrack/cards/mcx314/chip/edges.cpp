@@ -1,5 +1,5 @@
 // Single pulses, made only for who listens: the instants follow from the generator's phase, the axes from the path.
-#include <motionrack/cards/mcx314/model/chip.hpp>
+#include <motionrack/cards/mcx314/chip/chip.hpp>
 
 namespace motionrack::mcx314 {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 #include <cstdint>
-#include <motionrack/cards/mcx314/rules.hpp>
+#include <motionrack/cards/mcx314/arithmetic.hpp>
 #include <motionrack/sim/motion.hpp>
 
 namespace motionrack::mcx314 {

@@ -11,7 +11,7 @@
 
 #include <array>
 #include <cstdint>
-#include <motionrack/cards/mcx314/model/state.hpp>
+#include <motionrack/cards/mcx314/chip/state.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/register_device.hpp>

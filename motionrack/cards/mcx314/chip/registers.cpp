@@ -1,5 +1,5 @@
 // The bus: what a write does and what a read shows.
-#include <motionrack/cards/mcx314/model/chip.hpp>
+#include <motionrack/cards/mcx314/chip/chip.hpp>
 
 namespace motionrack::mcx314 {
 

@@ -1,0 +1,203 @@
+// The chip's whole-number arithmetic (RULES.md), shared by the virtual chip, the function library and the planner: limits of the
+// parameters, points of lines and arcs after any number of basic pulses, and where an arc really ends.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace motionrack::mcx314::rules {
+
+inline constexpr std::int64_t sclk_hz = 8'000'000;
+inline constexpr std::int64_t tick_100ps = 1'250;      ///< 125 ns
+inline constexpr std::int64_t speed_carry = 64'000;    ///< va at which the speed steps
+inline constexpr std::int64_t jerk_ticks_per_k = 16;   ///< SCLK a step of the acceleration, times K
+inline constexpr int start_ticks = 2;                  ///< ticks between a drive command and the generator's first one
+
+/// A parameter as the generator uses it: limited to its documented range.
+constexpr std::int64_t used_range(std::int64_t r) { return std::clamp<std::int64_t>(r, 16'000, 16'777'215); }
+constexpr std::int64_t used_speed(std::int64_t v) { return std::clamp<std::int64_t>(v, 1, 8'000); }
+constexpr std::int64_t used_jerk(std::int64_t k) { return std::clamp<std::int64_t>(k, 1, 65'535); }
+
+/// 24-bit two's complement, as finish points and centres are read.
+constexpr std::int64_t signed24(std::uint32_t v) {
+    return static_cast<std::int64_t>((v & 0xFF'FFFFu) ^ 0x80'0000u) - 0x80'0000;
+}
+
+constexpr std::int64_t magnitude(std::int64_t x) { return x < 0 ? -x : x; }
+constexpr std::int64_t ceil_div(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }  // a >= 0, b > 0
+
+/// Greatest s with s * s <= v, v < 2^62.
+inline std::int64_t isqrt(std::int64_t v) {
+    auto s = static_cast<std::int64_t>(std::sqrt(static_cast<double>(v)));
+    while (s * s > v) --s;
+    while ((s + 1) * (s + 1) <= v) ++s;
+    return s;
+}
+
+/// The integer nearest to sqrt(q); 0 for q <= 0.
+inline std::int64_t near(std::int64_t q) { return q <= 0 ? 0 : (isqrt(4 * q) + 1) / 2; }
+
+// ---- lines --------------------------------------------------------------------------------------------------------------------
+
+/// Pulses of an axis with |P| = `p` after `n` basic pulses of a line whose longest axis has `longest` (> 0).
+constexpr std::int64_t line_steps(std::int64_t n, std::int64_t p, std::int64_t longest) {
+    return (2 * n * p + longest) / (2 * longest);
+}
+
+/// The basic pulse at which that axis makes its pulse number `steps` (>= 1, <= p).
+constexpr std::int64_t line_pulse_of_step(std::int64_t steps, std::int64_t p, std::int64_t longest) {
+    return ceil_div((2 * steps - 1) * longest, 2 * p);
+}
+
+// ---- arcs ---------------------------------------------------------------------------------------------------------------------
+
+/// In octant k: which coordinate (0: x, 1: y) steps at every basic pulse, which way, and on which side of zero the other one is.
+struct Octant {
+    int short_axis, short_step, long_side;
+};
+inline constexpr std::array<Octant, 8> octants{{{1, +1, +1}, {0, -1, +1}, {0, -1, +1}, {1, -1, -1},
+                                                {1, -1, -1}, {0, +1, -1}, {0, +1, -1}, {1, +1, +1}}};
+
+constexpr int octant_of(std::int64_t x, std::int64_t y) {
+    if (x == 0 && y == 0) return 0;
+    if (y >= 0 && x > y) return 0;
+    if (x > 0 && y >= x) return 1;
+    if (y > 0 && x <= 0 && -x < y) return 2;
+    if (y > 0 && -x >= y) return 3;
+    if (x < 0 && y <= 0 && -y < -x) return 4;
+    if (x < 0 && -y >= -x) return 5;
+    if (y < 0 && x >= 0 && x < -y) return 6;
+    return 7;
+}
+
+constexpr bool leaves_octant(int octant, std::int64_t x, std::int64_t y) {
+    switch (octant) {
+        case 0: return y >= x;
+        case 1: return x <= 0;
+        case 2: return -x >= y;
+        case 3: return y <= 0;
+        case 4: return -y >= -x;
+        case 5: return x >= 0;
+        case 6: return x >= -y;
+        default: return y >= 0;
+    }
+}
+
+/// Counter-clockwise, x falls in the upper half and y falls in the left half.
+constexpr int direction_in_octant(int octant, int coordinate) {
+    if (coordinate == 0) return octant < 4 ? -1 : +1;
+    return octant >= 2 && octant < 6 ? -1 : +1;
+}
+
+/// An arc being drawn; trivially copyable. Coordinates are relative to the centre; clockwise arcs are kept mirrored (second axis
+/// negated), so everything here turns counter-clockwise.
+struct Arc {
+    std::array<std::int64_t, 2> at{};
+    std::array<std::int64_t, 2> finish{};
+    std::int64_t r2 = 0;
+    std::int32_t octant = 0;
+    std::int32_t finish_octant = 0;
+    bool clockwise = false;
+    bool lap = false;
+    bool finished = true;
+
+    /// Centre and finish point relative to the start, 24-bit range.
+    void begin(std::int64_t cx, std::int64_t cy, std::int64_t fx, std::int64_t fy, bool cw) {
+        clockwise = cw;
+        const std::int64_t mirror = cw ? -1 : 1;
+        at = {-cx, -cy * mirror};
+        finish = {fx - cx, (fy - cy) * mirror};
+        r2 = at[0] * at[0] + at[1] * at[1];
+        octant = octant_of(at[0], at[1]);
+        finish_octant = octant_of(finish[0], finish[1]);
+        lap = octant == finish_octant && past_finish();
+        finished = r2 == 0;
+    }
+
+    bool past_finish() const {
+        const Octant& o = octants[static_cast<std::size_t>(octant)];
+        const auto s = static_cast<std::size_t>(o.short_axis);
+        return (at[s] - finish[s]) * o.short_step >= 0;
+    }
+
+    /// The point after `pulses` more basic pulses, none of which leaves the octant but perhaps the last.
+    std::array<std::int64_t, 2> after(std::int64_t pulses) const {
+        if (pulses == 0) return at;
+        const Octant& o = octants[static_cast<std::size_t>(octant)];
+        const auto s = static_cast<std::size_t>(o.short_axis), l = 1 - s;
+        std::array<std::int64_t, 2> out = at;
+        out[s] += pulses * o.short_step;
+        out[l] = o.long_side * near(r2 - out[s] * out[s]);
+        return out;
+    }
+
+    /// One basic pulse; gives which axes stepped, -1, 0 or +1, in the chip's own (not mirrored) directions.
+    std::array<int, 2> step() {
+        const Octant& o = octants[static_cast<std::size_t>(octant)];
+        const auto s = static_cast<std::size_t>(o.short_axis), l = 1 - s;
+        std::array<int, 2> steps{};
+        at[s] += o.short_step;
+        steps[s] = o.short_step;
+        const std::int64_t wanted = o.long_side * near(r2 - at[s] * at[s]);
+        steps[l] = wanted > at[l] ? 1 : wanted < at[l] ? -1 : 0;
+        at[l] += steps[l];
+        finished = octant == finish_octant && !lap && past_finish();
+        for (int i = 0; i < 4 && !finished && leaves_octant(octant, at[0], at[1]); ++i) {
+            finished = octant == finish_octant && !lap;  // its octant is behind: the finish point lies beyond the circle
+            if (finished) break;
+            octant = (octant + 1) % 8;
+            lap = false;
+            finished = octant == finish_octant && past_finish();
+        }
+        if (clockwise) steps[1] = -steps[1];
+        return steps;
+    }
+
+    /// Basic pulses until the octant is left (>= 1).
+    std::int64_t pulses_to_leave() const {
+        const Octant& o = octants[static_cast<std::size_t>(octant)];
+        const std::int64_t s = magnitude(at[static_cast<std::size_t>(o.short_axis)]);
+        if (octant & 1) return std::max<std::int64_t>(1, s);
+        std::int64_t next = std::max(s + 1, isqrt(r2 / 2) - 2);
+        while (next < near(r2 - next * next)) ++next;
+        return next - s;
+    }
+
+    /// Basic pulses until something other than a plain step happens: the octant is left or the arc ends (>= 1).
+    std::int64_t pulses_to_event() const {
+        std::int64_t pulses = pulses_to_leave();
+        if (octant == finish_octant && !lap) {
+            const Octant& o = octants[static_cast<std::size_t>(octant)];
+            const auto s = static_cast<std::size_t>(o.short_axis);
+            pulses = std::min(pulses, std::max<std::int64_t>(1, (finish[s] - at[s]) * o.short_step));
+        }
+        return pulses;
+    }
+};
+
+/// What an arc command comes to: basic pulses, and the end relative to the start.
+struct ArcEnd {
+    std::int64_t basic_pulses = 0;
+    std::int64_t first = 0;
+    std::int64_t second = 0;
+};
+
+inline ArcEnd end_of_arc(std::int64_t cx, std::int64_t cy, std::int64_t fx, std::int64_t fy, bool clockwise) {
+    Arc arc;
+    arc.begin(cx, cy, fx, fy, clockwise);
+    ArcEnd end;
+    while (!arc.finished) {
+        const std::int64_t pulses = arc.pulses_to_event();
+        arc.at = arc.after(pulses - 1);
+        arc.step();
+        end.basic_pulses += pulses;
+    }
+    end.first = arc.at[0] + cx;
+    end.second = (clockwise ? -arc.at[1] : arc.at[1]) + cy;
+    return end;
+}
+
+}  // namespace motionrack::mcx314::rules

@@ -1,0 +1,84 @@
+// The chip's axes as the controller sees them: follows planned moves by continuous interpolation, rewriting the speed at each joint.
+//
+//   chip  |== segment 1 ==|== segment 2 ==|== segment 3 ==|
+//   host   ^start 1, queue 2 ^INT: V of 2, queue 3 ^INT: V of 3, queue 4
+//
+// A fourth axis that moves with three others runs on its own generator: at each joint the host reads its counter and gives it the speed that
+// brings it to its place by the segment's end. Its last pulse is counted by the chip, so its end is exact.
+#pragma once
+
+#include <motionrack/cards/mcx314/axes/segmenter.hpp>
+#include <motionrack/cards/mcx314/driver/driver.hpp>
+#include <motionrack/control/path_axes.hpp>
+#include <optional>
+
+namespace motionrack::mcx314 {
+
+class Axes final : public control::PathAxes {
+  public:
+    /// Part of each axis' acceleration that the planner must keep back, because the chip's speeds and accelerations are whole numbers.
+    static constexpr double kept_back = 0.03;
+
+    /// `access`: the time of one register access. The driver must outlive this.
+    Axes(Driver& driver, const AxisMap& map, Duration access);
+
+    /// Resets the chip and sets it up: pulse and direction, limit switches active low with decelerating stop, software limits at the
+    /// travel, encoders x4, positions as given (mm, degrees).
+    Result<void> set_up(const control::Point& position);
+
+    Result<void> begin() override;
+    Result<void> follow(const control::PlannedMove& move) override;
+    Result<void> finish() override;
+    void stop(bool immediate) override;
+    control::Point commanded_position() override;
+    std::vector<control::PathNote> take_notes() override;
+    std::vector<control::BlockStart> take_starts() override { return std::exchange(starts_, {}); }
+
+    /// Speed of one V unit in pulses a second: rates that change by more than this at once are joints, not ramps.
+    double speed_step_hz() const { return 8e6 / range_; }
+    /// Segments given to the chip since begin(): what the path cost.
+    std::int64_t segments() const { return segments_; }
+
+  private:
+    Result<void> play_ready(std::size_t keep);
+    Result<void> play(const Segment& segment, const Segment* next);
+    Result<void> play_pause(const Segment& segment);
+    Result<void> start_chain(const Segment& segment);
+    Result<void> queue(const Segment& segment);
+    Result<void> wait_for_joint();
+    Result<void> wait_for_standstill();
+    Result<void> write_speed(const Segment& segment);
+    Result<void> command(const Segment& segment);
+    Result<void> begin_segment(const Segment& segment, const Segment* next);
+    Result<void> steer_companion(const Segment& segment, const Segment* next);
+    Result<void> start_companion(int channel, std::int64_t pulses, std::int32_t v);
+    double segment_seconds(const Segment& segment) const;
+    tl::unexpected<Error> stopped_by_machine();
+    tl::unexpected<Error> stopped_by_user();
+    void clear_interrupts();
+    std::string place_text();
+
+    Driver& driver_;
+    AxisMap map_;
+    Duration access_;
+    std::int32_t range_;
+    std::optional<Segmenter> segmenter_;
+    std::vector<control::BlockStart> starts_;
+    std::vector<control::PathNote> notes_;
+    Pulses4 expected_ = {};          ///< where the counters are when everything given so far is done
+    std::int32_t last_block_ = -2;
+    std::int32_t current_line_ = 0;
+    std::int32_t previous_speed_ = 1;
+    std::int32_t written_speed_ = 0;
+    std::int32_t written_acceleration_ = 0;
+    int generator_ = 0;
+    bool chain_running_ = false;
+    std::int64_t segments_ = 0;
+    // The companion's present drive.
+    int companion_ = -1;
+    bool companion_negative_ = false;
+    std::int64_t companion_from_ = 0;    ///< its counter where the drive began
+    std::int64_t companion_target_ = 0;  ///< where it should be at the end of the present segment
+};
+
+}  // namespace motionrack::mcx314

@@ -1,0 +1,45 @@
+// How millimetres become pulses of one card: which channel each axis has, and integer pieces of lines and arcs.
+#pragma once
+
+#include <array>
+#include <motionrack/cards/mcx314/axes/segment.hpp>
+#include <motionrack/control/limits.hpp>
+#include <motionrack/control/plan.hpp>
+#include <optional>
+
+namespace motionrack::mcx314 {
+
+/// Which card channel moves which axis of the machine, and how far one pulse is.
+struct AxisMap {
+    std::array<int, control::axis_count> channel = {-1, -1, -1, -1, -1, -1};  ///< 0..3, -1: not on this card
+    control::MachineLimits limits = {};
+    double arc_tolerance_mm = 0.002;  ///< how far chords may leave an arc that the chip cannot draw itself
+
+    /// The nearest whole pulse to a position, per channel.
+    Pulses4 pulses(const control::Point& position) const;
+};
+
+/// An arc of less than a turn, wanted from the chip: absolute pulses of two axes with the same length of a pulse.
+struct ArcRequest {
+    std::array<std::int64_t, 2> start = {};
+    std::array<std::int64_t, 2> end = {};
+    std::array<double, 2> centre = {};  ///< the true one, not whole
+    double radius = 0;                  ///< the true one, pulses
+    double length = 0;                  ///< along the arc, pulses
+    bool clockwise = false;
+};
+
+/// An arc as the chip can draw it, relative to its start.
+struct ChipArc {
+    std::array<std::int32_t, 2> centre = {};
+    std::array<std::int32_t, 2> finish = {};  ///< what to write
+    std::array<std::int32_t, 2> end = {};     ///< where the chip really ends
+    std::int64_t basic_pulses = 0;
+    double deviation_pulses = 0;  ///< greatest distance of its circle from the true one, without the chip's own half pulse
+};
+
+/// Of the whole centres near the true one the one whose arc ends exactly at `end` with the least deviation; if none does, the
+/// one with the least deviation. Nothing if none of them gives an arc of about that length (an arc of a few pulses).
+std::optional<ChipArc> fit_arc(const ArcRequest& wanted);
+
+}  // namespace motionrack::mcx314

@@ -1,0 +1,367 @@
+// How each planned move is drawn by the chip, and the speeds of its pieces.
+#include <motionrack/cards/mcx314/axes/segmenter.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <motionrack/base/trig.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+// R of the second axis over R of the first in constant vector speed, less one.
+constexpr double both_axes_extra = 0.41421356237309503;
+// The planner keeps a little of each axis' acceleration back (Mcx314Axes::kept_back); this much of it is given to the chip, so that
+// its whole-number steps are never slower than the plan.
+constexpr double acceleration_reserve = 1.015;
+// Register accesses between the interrupt at a joint and the new speed being written.
+constexpr double accesses_to_speed = 8;
+constexpr std::int32_t top_speed_units = 8'000;
+constexpr std::int64_t longest_line = 8'000'000;
+
+double squared(double x) { return x * x; }
+
+}  // namespace
+
+std::int32_t Segmenter::best_range(const AxisMap& map) {
+    double fastest = 1;
+    for (std::size_t i = 0; i < map.channel.size(); ++i)
+        if (map.channel[i] >= 0) fastest = std::max(fastest, map.limits[i].max_speed * map.limits[i].pulses_per_unit);
+    const double range = 8e6 * top_speed_units / (fastest * 1.4143);
+    return static_cast<std::int32_t>(std::clamp(std::floor(range), 16'000.0, 8e6));
+}
+
+Segmenter::Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& start, Duration access)
+    : map_(map), range_(range), pulses_per_v_(8e6 / range), latency_seconds_(accesses_to_speed * to_seconds(access)), at_(start) {}
+
+void Segmenter::add(const control::PlannedMove& move) {
+    Work work = classify(move);
+    if (waiting_) emit(*waiting_, work.shape == Shape::pause ? std::nullopt : std::optional(work.units_in));
+    // A move's start is where the one before it really ends, which only emit knows.
+    waiting_ = std::move(work);
+}
+
+void Segmenter::finish() {
+    if (waiting_) emit(*waiting_, std::nullopt);
+    waiting_.reset();
+}
+
+// ---- what a move is -----------------------------------------------------------------------------------------------------------
+
+Segmenter::Work Segmenter::classify(const control::PlannedMove& move) {
+    Work work;
+    work.move = move;
+    work.block = next_block_++;
+    work.path = control::geometry_of(move.move, move.start);
+    work.to = map_.pulses(move.move.end);
+    if (work.path.shape == control::PathShape::nothing) {
+        work.shape = Shape::pause;
+        return work;
+    }
+    const Pulses4 from = map_.pulses(move.start);
+    int moving = 0, last = -1;
+    for (int i = 0; i < control::axis_count; ++i) {
+        const int c = map_.channel[static_cast<std::size_t>(i)];
+        const bool in_plane = work.path.shape == control::PathShape::arc && (i == work.path.first || i == work.path.second);
+        if (c < 0 || (!in_plane && from[static_cast<std::size_t>(c)] == work.to[static_cast<std::size_t>(c)])) continue;
+        ++moving;
+        last = c;
+    }
+    if (moving > 3) work.companion = last;
+    if (work.path.shape == control::PathShape::arc) {
+        const double a = map_.limits[work.path.first].pulses_per_unit, b = map_.limits[work.path.second].pulses_per_unit;
+        work.shape = moving == 2 && std::fabs(a - b) <= 1e-9 * a ? Shape::chip_arc : Shape::chords;
+    }
+    if (work.shape == Shape::chip_arc) {
+        work.constant_vector = true;
+        work.units_in = work.units_out = map_.limits[work.path.first].pulses_per_unit / pulses_per_v_;
+    } else {
+        const bool two_linear = moving == 2 && last >= 0 && work.path.shape == control::PathShape::line &&
+                                work.path.tangent_in[3] == 0 && work.path.tangent_in[4] == 0 && work.path.tangent_in[5] == 0;
+        work.constant_vector = two_linear;
+        work.units_in = units_along(work, work.path.tangent_in);
+        work.units_out = units_along(work, work.path.tangent_out);
+    }
+    return work;
+}
+
+double Segmenter::units_along(const Work& work, const control::Point& tangent) const {
+    double most = 0, second = 0;
+    for (std::size_t i = 0; i < tangent.size(); ++i) {
+        if (map_.channel[i] < 0 || map_.channel[i] == work.companion) continue;
+        const double rate = std::fabs(tangent[i]) * map_.limits[i].pulses_per_unit;
+        if (rate > most) {
+            second = most;
+            most = rate;
+        } else {
+            second = std::max(second, rate);
+        }
+    }
+    if (most <= 0) most = 1e-3;
+    return (work.constant_vector ? most + both_axes_extra * second : most) / pulses_per_v_;
+}
+
+std::int32_t Segmenter::speed_units(double units, double speed) const {
+    return static_cast<std::int32_t>(std::clamp(std::floor(units * speed), 1.0, double{top_speed_units}));
+}
+
+std::int32_t Segmenter::acceleration_units(double units, double acceleration) const {
+    return static_cast<std::int32_t>(std::clamp(std::floor(units * acceleration * acceleration_reserve / 125), 1.0, 8'000.0));
+}
+
+double Segmenter::start_speed(const control::Point& tangent) const {
+    double speed = 1e9;
+    for (std::size_t i = 0; i < tangent.size(); ++i)
+        if (map_.channel[i] >= 0 && std::fabs(tangent[i]) > 1e-12)
+            speed = std::min(speed, map_.limits[i].start_speed / std::fabs(tangent[i]));
+    return speed;
+}
+
+Pulses4 Segmenter::pulses_at(const Work& work, double s) const {
+    return s >= work.path.length ? work.to : map_.pulses(control::position_at(work.path, s));
+}
+
+/// How long before its end a move must begin to fall from `top` to `exit` (V units), with the pulses that the chip's whole steps, the
+/// host's register accesses and the rounding to pulses may take.
+double Segmenter::fall_length(double units, const Speeds& speeds) const {
+    if (speeds.top <= speeds.exit) return 0;
+    const double top = speeds.top, exit = speeds.exit;
+    const double ticks_per_step = 64'000.0 / speeds.acceleration;
+    const double phase = ticks_per_step * (top * (top + 1) - exit * (exit + 1)) / 2 + ticks_per_step * top + latency_seconds_ * 8e6 * top;
+    return (phase / range_ + 2) / (units * pulses_per_v_);
+}
+
+// ---- moves to pieces ------------------------------------------------------------------------------------------------------------
+
+void Segmenter::emit(const Work& work, std::optional<double> next_units) {
+    if (work.shape == Shape::pause) return emit_pause(work);
+    const bool rests = !next_units || work.move.exit <= 0;
+    if (rests && !chain_open_ && work.move.jerk > 0 && emit_s_curve(work)) return;
+    const double units = std::min(work.units_in, work.units_out);
+    Speeds speeds;
+    speeds.top = speed_units(units, work.move.cruise);
+    speeds.exit = rests ? speed_units(work.units_out, start_speed(work.path.tangent_out))
+                        : speed_units(std::min(work.units_out, *next_units), work.move.exit);
+    speeds.exit = std::min(speeds.exit, speeds.top);
+    speeds.acceleration = acceleration_units(units, work.move.accel);
+    speeds.fall_from = std::max(0.0, work.path.length - fall_length(units, speeds));
+    switch (work.shape) {
+        case Shape::chip_arc:
+            if (speeds.fall_from > 0) emit_arcs(work, 0, speeds.fall_from, speeds.top, speeds.acceleration);
+            emit_arcs(work, speeds.fall_from, work.path.length, speeds.exit, speeds.acceleration);
+            break;
+        case Shape::chords: emit_chords(work, speeds, rests); break;
+        default: emit_straight(work, speeds); break;
+    }
+    if (rests) close_chain();
+}
+
+void Segmenter::emit_pause(const Work& work) {
+    close_chain();
+    if (work.move.move.seconds <= 0) return;
+    Segment segment;
+    segment.kind = SegmentKind::pause;
+    segment.seconds = work.move.move.seconds;
+    segment.block = work.block;
+    segment.line = work.move.move.line;
+    segment.starts_chain = segment.ends_chain = true;
+    ready_.push_back(segment);
+}
+
+void Segmenter::close_chain() {
+    if (chain_open_ && !ready_.empty()) ready_.back().ends_chain = true;
+    chain_open_ = false;
+}
+
+void Segmenter::emit_straight(const Work& work, const Speeds& speeds) {
+    if (work.companion >= 0) return emit_chords(work, speeds, false);
+    if (speeds.fall_from > 0) emit_line(work, pulses_at(work, speeds.fall_from), speeds.top, speeds.acceleration);
+    emit_line(work, work.to, speeds.exit, speeds.acceleration);
+}
+
+/// One S-curve from rest to rest, if the chip's ramp fits into the move and its slowest jerk is slow enough.
+bool Segmenter::emit_s_curve(const Work& work) {
+    if (work.shape != Shape::line || work.companion >= 0) return false;
+    const double units = work.units_in;
+    const double initial = std::floor(units * start_speed(work.path.tangent_in));
+    const double k = std::ceil(500'000 * 125 / (units * work.move.jerk));
+    if (k > 65'535 || initial < 1) return false;
+    // The top speed for which two S-ramps with the acceleration limit (or without reaching it) take at most the move's length.
+    const double a = units * work.move.accel, j = 62.5e6 / std::max(1.0, k), v0 = initial;
+    auto ramp_length = [&](double v) {  // in V units * seconds
+        const double dv = v - v0;
+        const double time = dv * j <= a * a ? 2 * std::sqrt(dv / j) : dv / a + a / j;
+        return (v + v0) / 2 * time;
+    };
+    const double whole = units * work.path.length, spare = 8.0 * range_ / 8e6 + v0 * 1e-3;
+    double low = v0 + 1, high = std::min(double{top_speed_units}, units * work.move.cruise);
+    if (high <= low || 2 * ramp_length(low) + spare > whole) return false;
+    if (2 * ramp_length(high) + spare > whole)
+        for (int i = 0; i < 40; ++i) (2 * ramp_length((low + high) / 2) + spare > whole ? high : low) = (low + high) / 2;
+    else
+        low = high;
+    for (std::size_t c = 0; c < at_.size(); ++c)
+        if (work.to[c] - at_[c] > longest_line || at_[c] - work.to[c] > longest_line) return false;
+    const std::size_t first = ready_.size();
+    emit_line(work, work.to, static_cast<std::int32_t>(low), static_cast<std::int32_t>(std::clamp(std::floor(a / 125), 1.0, 8'000.0)));
+    if (ready_.size() == first) return true;  // less than half a pulse
+    ready_.back().s_curve = true;
+    ready_.back().jerk = static_cast<std::int32_t>(std::max(1.0, k));
+    close_chain();
+    return true;
+}
+
+void Segmenter::emit_chords(const Work& work, const Speeds& speeds, bool rests) {
+    const bool arc = work.path.shape == control::PathShape::arc;
+    double count = 1, deviation = 0;
+    if (arc) {
+        // The middle of a chord is r (1 - cos(angle / 2)) inside the arc: angle = sqrt(8 tolerance / r), cut into equal parts.
+        const double angle = std::min(0.5, std::sqrt(8 * map_.arc_tolerance_mm / work.path.radius));
+        count = std::ceil(std::fabs(work.path.sweep) / angle);
+        const double half = std::fabs(work.path.sweep) / count / 2;
+        deviation = work.path.radius * (1 - sin_cos(half).cos);
+    } else {
+        count = std::clamp(std::ceil(work.path.length / (work.move.cruise * 0.02)), 4.0, 10'000.0);
+    }
+    if (work.companion >= 0)
+        note_split(work, "four axes move together: the chip interpolates three, the fourth follows on its own speed generator", deviation);
+    else
+        note_split(work, "the chip has no helix: the arc is drawn with short lines of three axes", deviation);
+    const double step = work.path.length / count;
+    const double top_speed = work.move.cruise, accel = work.move.accel;
+    const double exit_speed = rests ? 0 : work.move.exit;
+    double units_before = work.units_in;
+    for (double i = 0; i < count; ++i) {
+        const double to = i + 1 < count ? (i + 1) * step : work.path.length;
+        const double units = arc ? units_along(work, control::tangent_at(work.path, to - step / 2)) : work.units_in;
+        const double next = i + 1 < count && arc ? units_along(work, control::tangent_at(work.path, to + step / 2)) : units;
+        const double left = work.path.length - to;
+        const double slowed = std::sqrt(squared(exit_speed) + 2 * accel * std::max(0.0, left - fall_length(units, {0, 2, 1, speeds.acceleration})));
+        std::int32_t v = speed_units(std::min(units, next), std::min(top_speed, slowed));
+        if (i + 1 >= count) v = std::min(v, speeds.exit);
+        v = std::max(v, std::min(speeds.exit, speeds.top));
+        emit_line(work, pulses_at(work, to), v, acceleration_units(std::max(units, units_before), accel));
+        units_before = units;
+    }
+    if (at_ != work.to) {  // what is left of a companion after the last pulse of the others
+        Work alone = work;
+        alone.companion = -1;
+        emit_line(alone, work.to, speeds.exit, speeds.acceleration);
+    }
+}
+
+void Segmenter::emit_arcs(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration) {
+    if (to <= from) return;
+    // At most a third of a turn at once: no doubt which way round an end is.
+    const double sweep = std::fabs(work.path.sweep) * (to - from) / work.path.length;
+    const double count = std::max(1.0, std::ceil(sweep / 2.1));
+    for (double i = 0; i < count; ++i) {
+        const double a = from + (to - from) * i / count;
+        const double b = i + 1 < count ? from + (to - from) * (i + 1) / count : to;
+        if (!emit_fitted_arc(work, a, b, v, acceleration)) emit_line(work, pulses_at(work, b), v, acceleration);
+    }
+}
+
+bool Segmenter::emit_fitted_arc(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration) {
+    int a = map_.channel[work.path.first], b = map_.channel[work.path.second];
+    double centre_a = work.path.centre_first, centre_b = work.path.centre_second;
+    bool clockwise = work.path.sweep < 0;
+    // The generator's own axis must not be AX2: its R would be taken for two axes stepping together.
+    if (chain_open_ ? b == generator_ : b < a) {
+        std::swap(a, b);
+        std::swap(centre_a, centre_b);
+        clockwise = !clockwise;
+    }
+    const double scale = map_.limits[work.path.first].pulses_per_unit;
+    const Pulses4 end = pulses_at(work, to);
+    const auto ia = static_cast<std::size_t>(a), ib = static_cast<std::size_t>(b);
+    const double length = (to - from) * scale;
+    if (length < 6) return false;
+    const auto arc = fit_arc({{at_[ia], at_[ib]}, {end[ia], end[ib]}, {centre_a * scale, centre_b * scale}, work.path.radius * scale,
+                              length, clockwise});
+    if (!arc) return false;
+    Segment segment;
+    segment.kind = clockwise ? SegmentKind::arc_cw : SegmentKind::arc_ccw;
+    segment.axis_count = 2;
+    segment.axes = {static_cast<std::uint8_t>(a), static_cast<std::uint8_t>(b), 0};
+    segment.finish = {arc->finish[0], arc->finish[1], 0};
+    segment.centre = arc->centre;
+    segment.moves = {arc->end[0], arc->end[1], 0};
+    segment.constant_vector = true;
+    segment.speed = v;
+    segment.acceleration = acceleration;
+    Pulses4 reached = at_;
+    reached[ia] += arc->end[0];
+    reached[ib] += arc->end[1];
+    append(segment, work, reached);
+    if (reached != end) emit_line(work, end, v, acceleration);
+    return true;
+}
+
+void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, std::int32_t acceleration) {
+    std::array<int, 4> moving{};
+    int count = 0;
+    std::int64_t longest = 0;
+    for (int c = 0; c < channel_count; ++c) {
+        const std::int64_t delta = to[static_cast<std::size_t>(c)] - at_[static_cast<std::size_t>(c)];
+        if (delta == 0 || c == work.companion) continue;
+        moving[static_cast<std::size_t>(count++)] = c;
+        longest = std::max(longest, delta < 0 ? -delta : delta);
+    }
+    if (count == 0) return;  // less than half a pulse; a companion's pulses stay for the next piece
+    if (longest > longest_line) {
+        Pulses4 half = at_;
+        for (std::size_t c = 0; c < half.size(); ++c) half[c] += (to[c] - at_[c]) / 2;
+        emit_line(work, half, v, acceleration);
+        return emit_line(work, to, v, acceleration);
+    }
+    if (count == 1) {  // the chip's line has two axes: the other one stands
+        const int other = chain_open_ && generator_ != moving[0] ? generator_ : moving[0] == 0 ? 1 : 0;
+        moving[static_cast<std::size_t>(count++)] = other;
+        if (other < moving[0] || (chain_open_ && other == generator_)) std::swap(moving[0], moving[1]);
+    }
+    if (chain_open_)
+        for (int i = 1; i < count; ++i)
+            if (moving[static_cast<std::size_t>(i)] == generator_) std::swap(moving[0], moving[static_cast<std::size_t>(i)]);
+    Segment segment;
+    segment.kind = SegmentKind::line;
+    segment.axis_count = static_cast<std::uint8_t>(count);
+    segment.constant_vector = work.constant_vector && count == 2;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        segment.axes[i] = static_cast<std::uint8_t>(moving[i]);
+        segment.finish[i] = static_cast<std::int32_t>(to[static_cast<std::size_t>(moving[i])] - at_[static_cast<std::size_t>(moving[i])]);
+    }
+    segment.moves = segment.finish;
+    segment.speed = v;
+    segment.acceleration = acceleration;
+    append(segment, work, to);
+}
+
+void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
+    if (!chain_open_) {
+        chain_open_ = true;
+        generator_ = segment.axes[0];
+        segment.starts_chain = true;
+        segment.initial_speed = speed_units(work.units_in, start_speed(work.path.tangent_in));
+    }
+    segment.block = work.block;
+    segment.line = work.move.move.line;
+    if (work.companion >= 0) {
+        const auto c = static_cast<std::size_t>(work.companion);
+        segment.companion_channel = work.companion;
+        segment.companion_pulses = static_cast<std::int32_t>(to[c] - at_[c]);
+    }
+    std::int64_t longest = 0;
+    for (std::size_t c = 0; c < to.size(); ++c)
+        if (static_cast<int>(c) != work.companion) longest = std::max(longest, to[c] > at_[c] ? to[c] - at_[c] : at_[c] - to[c]);
+    segment.expected_seconds = static_cast<double>(longest) / (segment.speed * pulses_per_v_);
+    at_ = to;
+    ready_.push_back(segment);
+}
+
+void Segmenter::note_split(const Work& work, const char* why, double deviation_mm) {
+    notes_.push_back({work.move.move.line, fmt::format("line {}: {}", work.move.move.line, why), deviation_mm});
+}
+
+}  // namespace motionrack::mcx314

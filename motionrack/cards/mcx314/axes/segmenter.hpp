@@ -1,0 +1,99 @@
+// Planned moves become chip segments: the chip draws lines of two and three axes and arcs of two; the rest is split here.
+//
+//   planned speed    ______            a move is cut where its speed begins to fall; each piece has one V, which its generator
+//                   /      \           drives towards from the piece's first pulse on:
+//                  /        \              [ rise, cruise ][ fall ]
+//                 /          \___      chords of arcs that the chip cannot draw get their V one by one
+//
+// At the joint of two moves the generator's V goes on, but a pulse of the long axis means another path speed on each side; the joint's V
+// is the lesser of both, so no limit is passed.
+#pragma once
+
+#include <deque>
+#include <motionrack/base/time.hpp>
+#include <motionrack/cards/mcx314/axes/geometry.hpp>
+#include <motionrack/cards/mcx314/axes/segment.hpp>
+#include <motionrack/control/geometry.hpp>
+#include <motionrack/control/path_axes.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace motionrack::mcx314 {
+
+class Segmenter {
+  public:
+    /// `range`: R of the generator (16,000 .. 8,000,000). `start`: where the machine stands, in pulses. `access`: time of a register access.
+    Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& start, Duration access);
+
+    /// Takes the next planned move; its segments come out once the move after it is known.
+    void add(const control::PlannedMove& move);
+    /// No more moves: everything comes out.
+    void finish();
+
+    bool empty() const { return ready_.empty(); }
+    std::size_t ready() const { return ready_.size(); }
+    const Segment& operator[](std::size_t i) const { return ready_[i]; }
+    void pop() { ready_.pop_front(); }
+
+    /// Notes since the last call, oldest first.
+    std::vector<control::PathNote> take_notes() { return std::exchange(notes_, {}); }
+
+    /// R with which the fastest axis' top pulse rate, along a diagonal of two such axes, takes all 8,000 speed units.
+    static std::int32_t best_range(const AxisMap& map);
+
+  private:
+    enum class Shape : std::uint8_t { pause, line, chip_arc, chords };
+    /// A planned move and how the chip will draw it.
+    struct Work {
+        control::PlannedMove move;
+        control::Geometry path;
+        Shape shape = Shape::line;
+        bool constant_vector = false;
+        double units_in = 0;          ///< V units for 1 mm/s (deg/s) at its start
+        double units_out = 0;         ///< and at its end; the same unless it is made of chords
+        std::int32_t block = 0;
+        std::int32_t companion = -1;  ///< channel of a fourth axis that moves beside the interpolation
+        Pulses4 to = {};
+    };
+    /// Which pieces a move is cut into: it drives towards `top` until `fall_from` along it, then towards `exit`.
+    struct Speeds {
+        double fall_from = 0;
+        std::int32_t top = 1;
+        std::int32_t exit = 1;
+        std::int32_t acceleration = 1;
+    };
+
+    Work classify(const control::PlannedMove& move);
+    void emit(const Work& work, std::optional<double> next_units);
+    void emit_pause(const Work& work);
+    bool emit_s_curve(const Work& work);
+    void emit_straight(const Work& work, const Speeds& speeds);
+    void emit_arcs(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration);
+    bool emit_fitted_arc(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration);
+    void emit_chords(const Work& work, const Speeds& speeds, bool rests);
+    void emit_line(const Work& work, const Pulses4& to, std::int32_t v, std::int32_t acceleration);
+    void append(Segment segment, const Work& work, const Pulses4& to);
+    void close_chain();
+    void note_split(const Work& work, const char* why, double deviation_mm);
+    Pulses4 pulses_at(const Work& work, double s) const;
+    double units_along(const Work& work, const control::Point& tangent) const;
+    double fall_length(double units, const Speeds& speeds) const;
+    std::int32_t speed_units(double units, double speed) const;
+    std::int32_t acceleration_units(double units, double acceleration) const;
+    double start_speed(const control::Point& tangent) const;
+
+    AxisMap map_;
+    std::int32_t range_;
+    double pulses_per_v_;  ///< pulses a second of one V unit
+    double latency_seconds_;
+    Pulses4 at_;
+    std::optional<Work> waiting_;
+    std::deque<Segment> ready_;
+    std::vector<control::PathNote> notes_;
+    bool chain_open_ = false;
+    int generator_ = 0;
+    std::int32_t next_block_ = 0;
+};
+
+}  // namespace motionrack::mcx314

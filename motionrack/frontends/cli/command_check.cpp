@@ -1,0 +1,178 @@
+// check, canon and new: what can be said of files without moving anything.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <motionrack/control/gcode/canon.hpp>
+#include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/rack/template.hpp>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace motionrack::cli {
+
+namespace {
+
+constexpr std::size_t problems_shown = 100;
+
+struct CheckOptions {
+    std::vector<std::string> files;
+    std::string rack;
+    bool json = false;
+    bool block_delete = false;
+};
+
+nlohmann::json json_of(const Error& error) {
+    return {{"file", error.file}, {"line", error.place.line}, {"column", error.place.column}, {"message", error.message}};
+}
+
+bool is_rack_file(const std::string& path) { return path.size() > 5 && path.substr(path.size() - 5) == ".toml"; }
+
+int check_rack(const std::string& path, nlohmann::json* json) {
+    const rack::RackReading reading = rack::read_rack_file(path);
+    if (json) {
+        nlohmann::json entry = {{"file", path}, {"ok", reading.errors.empty()}, {"errors", nlohmann::json::array()},
+                                {"warnings", nlohmann::json::array()}};
+        for (const Error& error : reading.errors) entry["errors"].push_back(json_of(error));
+        for (const Error& warning : reading.warnings) entry["warnings"].push_back(json_of(warning));
+        json->push_back(entry);
+    } else {
+        for (const Error& warning : reading.warnings) print_warning(warning.text());
+        for (const Error& error : reading.errors) print_error(error.text());
+        if (reading.config)
+            fmt::print("{}: good. {}: {} card{}, {} axes, {} wires.\n", path, reading.config->name, reading.config->cards.size(),
+                       reading.config->cards.size() == 1 ? "" : "s", reading.config->axes.size(), reading.config->wires.size());
+        else
+            fmt::print("{}: {} error{}.\n", path, reading.errors.size(), reading.errors.size() == 1 ? "" : "s");
+    }
+    return reading.errors.empty() ? exit_done : exit_code(reading.errors.front().trouble);
+}
+
+int check_program_file(const std::string& path, const CheckOptions& options, nlohmann::json* json) {
+    int code = exit_done;
+    const auto config = load_rack(options.rack, code);
+    if (!config) return code;
+    const Result<std::string> text = read_text(path);
+    if (!text) return report(text.error());
+    const control::gcode::Check check =
+        control::gcode::check_program(*text, reader_settings(*config, options.block_delete), problems_shown, path);
+    if (json) {
+        nlohmann::json entry = {{"file", path}, {"ok", check.problems.empty()}, {"lines", check.lines}, {"moves", check.moves},
+                                {"dwells", check.dwells}, {"errors", nlohmann::json::array()}};
+        for (const auto& problem : check.problems) {
+            nlohmann::json one = json_of(problem);
+            one["word"] = problem.word;
+            one["grbl_error"] = static_cast<int>(problem.status);
+            entry["errors"].push_back(one);
+        }
+        json->push_back(entry);
+        return check.problems.empty() ? exit_done : exit_bad_input;
+    }
+    if (const int bad = print_problems(check, path); bad != exit_done) return bad;
+    fmt::print("{}: good. {} lines, {} moves, {} dwells", path, check.lines, check.moves, check.dwells);
+    for (const rack::RackAxis& axis : config->axes) {
+        const auto i = static_cast<std::size_t>(axis.index());
+        fmt::print("{} {} {:.3f} to {:.3f} {}", i == 0 ? ";" : ",", axis.letter, check.least[i], check.greatest[i], axis.unit());
+    }
+    fmt::print(" (machine coordinates).\n");
+    return exit_done;
+}
+
+int check(const CheckOptions& options) {
+    int worst = exit_done;
+    nlohmann::json json = nlohmann::json::array();
+    for (const std::string& path : options.files) {
+        nlohmann::json* to = options.json ? &json : nullptr;
+        const int code = is_rack_file(path) ? check_rack(path, to) : check_program_file(path, options, to);
+        if (worst == exit_done) worst = code;
+    }
+    if (options.json) fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    return worst;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<CheckOptions>();
+    CLI::App* command = app.add_subcommand("check", "List everything that is wrong in rack files (*.toml) and part programs; nothing moves");
+    command->add_option("FILE", options->files, "rack files and part programs")->required();
+    command->add_option("--rack", options->rack, "rack file that the programs are checked against (default: the built-in router)");
+    command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
+    command->add_flag("--json", options->json, "print the findings as JSON");
+    command->footer("Example: motionrack check my.toml part.ngc --rack my.toml");
+    command->callback([options, &chosen] { chosen = [options] { return check(*options); }; });
+}
+
+void add_canon(CLI::App& app, Action& chosen) {
+    struct Options {
+        std::string file, rack;
+        bool machine = false, plain = false, block_delete = false;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("canon", "Print the canonical moves of a part program, in the form of LinuxCNC's rs274 -g");
+    command->add_option("FILE", options->file, "part program ('-': standard input)")->required();
+    command->add_option("--rack", options->rack, "rack file whose axes and limits count (default: the built-in router)");
+    command->add_flag("--machine", options->machine, "machine coordinates in mm and degrees instead of the program's own");
+    command->add_flag("--plain", options->plain, "without the two number columns");
+    command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
+    command->footer("Example: motionrack canon part.ngc | grep ARC_FEED");
+    command->callback([options, &chosen] {
+        chosen = [options]() -> int {
+            namespace gcode = control::gcode;
+            int code = exit_done;
+            const auto config = load_rack(options->rack, code);
+            if (!config) return code;
+            const Result<std::string> text = read_text(options->file);
+            if (!text) return report(text.error());
+            gcode::CanonOptions how;
+            how.coordinates = options->machine ? gcode::Coordinates::machine : gcode::Coordinates::program;
+            how.numbered = !options->plain;
+            const auto done = gcode::print_canon(
+                *text, reader_settings(*config, options->block_delete), how,
+                [](std::string_view line) { std::fwrite(line.data(), 1, line.size(), stdout); }, options->file);
+            return done ? static_cast<int>(exit_done) : report(done.error());
+        };
+    });
+}
+
+void add_new(CLI::App& app, Action& chosen) {
+    struct Options {
+        std::string variant = "router", file;
+        bool force = false;
+    };
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("new", "Write a commented rack file to start from");
+    std::string kinds;
+    for (const rack::TemplateVariant& variant : rack::template_variants())
+        kinds += fmt::format("{}{}: {}", kinds.empty() ? "" : "; ", variant.name, variant.doc);
+    command->add_option("KIND", options->variant, kinds)->capture_default_str();
+    command->add_option("FILE", options->file, "where to write it (default: standard output)");
+    command->add_flag("--force", options->force, "overwrite FILE if it is there");
+    command->footer("Example: motionrack new router my.toml");
+    command->callback([options, &chosen] {
+        chosen = [options]() -> int {
+            const Result<std::string> text = rack::rack_template(options->variant);
+            if (!text) return report(text.error());
+            if (options->file.empty()) {
+                fmt::print("{}", *text);
+                return exit_done;
+            }
+            if (!options->force) {
+                if (std::FILE* there = std::fopen(options->file.c_str(), "rb")) {
+                    std::fclose(there);
+                    print_error(fmt::format("{} is there already and was left as it is; choose another name or add --force.", options->file));
+                    return exit_refused;
+                }
+            }
+            const Result<void> written = write_text(options->file, *text);
+            if (!written) return report(written.error());
+            fmt::print("{} written. Next: motionrack check {}\n", options->file, options->file);
+            return exit_done;
+        };
+    });
+}
+
+}  // namespace motionrack::cli

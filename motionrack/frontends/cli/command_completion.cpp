@@ -1,0 +1,53 @@
+// completion: a bash completion script made from the command line's own tables.
+#include <fmt/format.h>
+
+#include <memory>
+#include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <string>
+
+namespace motionrack::cli {
+
+namespace {
+
+std::string bash_script(const CLI::App& app) {
+    std::string commands, cases;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        commands += (commands.empty() ? "" : " ") + command->get_name();
+        std::string options;
+        for (const CLI::Option* option : command->get_options())
+            for (const std::string& name : option->get_lnames()) options += " --" + name;
+        cases += fmt::format("        {}) words=\"{}\" ;;\n", command->get_name(), options.empty() ? "" : options.substr(1));
+    }
+    return fmt::format(
+        "# bash completion of motionrack; put this into ~/.bashrc:  eval \"$(motionrack completion)\"\n"
+        "_motionrack() {{\n"
+        "    local word=${{COMP_WORDS[COMP_CWORD]}} words=\"{}\"\n"
+        "    if [ \"$COMP_CWORD\" -gt 1 ]; then\n"
+        "        case ${{COMP_WORDS[1]}} in\n{}"
+        "        esac\n"
+        "    fi\n"
+        "    case $word in\n"
+        "        -*) COMPREPLY=($(compgen -W \"$words\" -- \"$word\")) ;;\n"
+        "        *) if [ \"$COMP_CWORD\" -eq 1 ]; then COMPREPLY=($(compgen -W \"$words\" -- \"$word\")); else COMPREPLY=($(compgen -f -- "
+        "\"$word\")); fi ;;\n"
+        "    esac\n"
+        "}}\n"
+        "complete -F _motionrack motionrack\n",
+        commands, cases);
+}
+
+}  // namespace
+
+void add_completion(CLI::App& app, Action& chosen) {
+    CLI::App* command = app.add_subcommand("completion", "Print a bash completion script");
+    command->footer("Example: eval \"$(motionrack completion)\"");
+    command->callback([&app, &chosen] {
+        chosen = [&app]() -> int {
+            fmt::print("{}", bash_script(app));
+            return exit_done;
+        };
+    });
+}
+
+}  // namespace motionrack::cli

@@ -1,0 +1,21 @@
+// The commands of the program. Each adds itself to the command line and leaves what to do in `chosen`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace motionrack::cli {
+
+/// What the command line asked for; gives the exit code.
+using Action = std::function<int()>;
+
+void add_run(CLI::App& app, Action& chosen);
+void add_trace(CLI::App& app, Action& chosen);
+void add_check(CLI::App& app, Action& chosen);
+void add_canon(CLI::App& app, Action& chosen);
+void add_describe(CLI::App& app, Action& chosen);
+void add_new(CLI::App& app, Action& chosen);
+void add_bench(CLI::App& app, Action& chosen);
+void add_completion(CLI::App& app, Action& chosen);
+
+}  // namespace motionrack::cli

@@ -1,0 +1,29 @@
+// Exit codes of the program, one meaning each.
+#pragma once
+
+#include <motionrack/base/result.hpp>
+
+namespace motionrack::cli {
+
+enum ExitCode : int {
+    exit_done = 0,
+    exit_usage = 1,      ///< the command line is wrong
+    exit_bad_input = 2,  ///< a program or rack file is wrong; nothing moved
+    exit_refused = 3,    ///< asked for something outside a limit; nothing moved
+    exit_machine = 4,    ///< the machine stopped the job: limit switch, alarm, lost steps
+    exit_io = 5,         ///< a file could not be read or written
+    exit_stopped = 130   ///< Ctrl-C; what was recorded is kept
+};
+
+constexpr int exit_code(Trouble trouble) {
+    switch (trouble) {
+        case Trouble::bad_input: return exit_bad_input;
+        case Trouble::refused: return exit_refused;
+        case Trouble::machine: return exit_machine;
+        case Trouble::io: return exit_io;
+        case Trouble::stopped: return exit_stopped;
+    }
+    return exit_usage;
+}
+
+}  // namespace motionrack::cli

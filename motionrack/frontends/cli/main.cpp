@@ -1,0 +1,51 @@
+// The motionrack program: the command line and nothing else.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+
+namespace {
+
+constexpr const char* footer = R"(Examples:
+  motionrack run part.ngc --rack router.toml     run a program, write report.html
+  motionrack check part.ngc --rack router.toml   list everything wrong, move nothing
+  motionrack new router > router.toml            a commented rack file to start from
+  motionrack describe mcx314                     the card's registers, commands and states
+
+Exit codes: 0 done, 1 wrong command line, 2 wrong input (nothing moved), 3 refused (nothing moved),
+4 the machine stopped the job, 5 a file could not be read or written, 130 stopped by Ctrl-C.
+motionrack COMMAND --help tells more of each command.)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    using namespace motionrack::cli;
+    CLI::App app{"Motionrack: a rack of motion-control cards, in software.", "motionrack"};
+    app.footer(footer);
+    app.set_version_flag("--version", "motionrack 0.1.0");
+    app.require_subcommand(1);
+    Action chosen;
+    add_run(app, chosen);
+    add_check(app, chosen);
+    add_new(app, chosen);
+    add_describe(app, chosen);
+    add_trace(app, chosen);
+    add_canon(app, chosen);
+    add_bench(app, chosen);
+    add_completion(app, chosen);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        // Help and version are no errors; everything else is a wrong command line.
+        return app.exit(e) == 0 ? exit_done : exit_usage;
+    }
+    try {
+        return chosen ? chosen() : exit_usage;
+    } catch (const std::exception& e) {
+        print_error(fmt::format("{}. Nothing more was done; files written before this are whole.", e.what()));
+        return exit_io;
+    }
+}

@@ -1,0 +1,45 @@
+// Loading what a command works on.
+#include <fmt/format.h>
+
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/rack/template.hpp>
+
+namespace motionrack::cli {
+
+std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code_out) {
+    rack::RackReading reading;
+    if (path.empty()) {
+        const Result<std::string> text = rack::rack_template("router");
+        reading = rack::read_rack_text(*text, "built-in router");
+    } else {
+        reading = rack::read_rack_file(path);
+    }
+    for (const Error& warning : reading.warnings) print_warning(warning.text());
+    for (const Error& error : reading.errors) print_error(error.text());
+    if (!reading.errors.empty()) exit_code_out = exit_code(reading.errors.front().trouble);
+    return reading.config;
+}
+
+control::gcode::Settings reader_settings(const rack::RackConfig& config, bool block_delete) {
+    control::gcode::Settings settings;
+    settings.limits = config.limits();
+    settings.block_delete = block_delete;
+    settings.path_tolerance_mm = config.controller.default_path_tolerance_mm;
+    for (const rack::RackAxis& axis : config.axes) {
+        const auto i = static_cast<std::size_t>(axis.index());
+        settings.start[i] = settings.g28[i] = settings.g30[i] = axis.start_position;
+    }
+    return settings;
+}
+
+int print_problems(const control::gcode::Check& check, const std::string& name) {
+    if (check.problems.empty()) return exit_done;
+    for (const control::gcode::Problem& problem : check.problems) print_error(problem.text());
+    print_error(fmt::format("{} has {}{} problem{}; nothing was moved.", name, check.problems.size(),
+                            check.more_problems ? " or more" : "", check.problems.size() == 1 ? "" : "s"));
+    return exit_bad_input;
+}
+
+}  // namespace motionrack::cli

@@ -1,0 +1,24 @@
+// The program and the rack a command works on: files, or the built-in example.
+#pragma once
+
+#include <motionrack/base/result.hpp>
+#include <motionrack/control/gcode/reader.hpp>
+#include <motionrack/rack/config.hpp>
+#include <optional>
+#include <string>
+
+namespace motionrack::cli {
+
+/// The example that comes with the program (examples/02_part/part.ngc).
+const char* example_program();
+
+/// Reads a rack file, prints its warnings, and every error; nothing if there are errors. An empty path is the built-in router.
+std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code);
+
+/// How a rack's controller reads part programs.
+control::gcode::Settings reader_settings(const rack::RackConfig& config, bool block_delete);
+
+/// Prints up to 20 problems of a program with their lines; the exit code (0 if there are none).
+int print_problems(const control::gcode::Check& check, const std::string& name);
+
+}  // namespace motionrack::cli

@@ -1,0 +1,90 @@
+// Reading and writing files, errors, progress.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+
+namespace motionrack::cli {
+
+bool is_terminal(int descriptor) {
+    const char* term = std::getenv("TERM");
+    return ::isatty(descriptor) && std::getenv("NO_COLOR") == nullptr && term != nullptr && std::string_view(term) != "dumb";
+}
+
+namespace {
+
+void print(const char* label, const char* colour, std::string_view sentence) {
+    if (is_terminal(2))
+        fmt::print(stderr, "{}{}\033[0m {}\n", colour, label, sentence);
+    else
+        fmt::print(stderr, "{} {}\n", label, sentence);
+}
+
+}  // namespace
+
+void print_error(std::string_view sentence) { print("error:", "\033[1;31m", sentence); }
+void print_warning(std::string_view sentence) { print("warning:", "\033[1;33m", sentence); }
+
+Result<std::string> read_text(const std::string& path) {
+    std::FILE* file = path == "-" ? stdin : std::fopen(path.c_str(), "rb");
+    if (!file)
+        return fail(Trouble::io, fmt::format("{} cannot be read: {}. Nothing was done; check the name and the rights.", path,
+                                             std::strerror(errno)));
+    std::string text;
+    std::size_t got = 0;
+    static constexpr std::size_t piece = 1 << 20;
+    do {
+        const std::size_t old = text.size();
+        text.resize(old + piece);
+        got = std::fread(text.data() + old, 1, piece, file);
+        text.resize(old + got);
+    } while (got == piece);
+    const bool bad = std::ferror(file) != 0;
+    const int why = errno;
+    if (file != stdin) std::fclose(file);
+    if (bad)
+        return fail(Trouble::io, fmt::format("{} cannot be read: {}. Nothing was done; a program is a file, not a folder.", path,
+                                             std::strerror(why)));
+    return text;
+}
+
+Result<void> write_text(const std::string& path, std::string_view text) {
+    std::FILE* file = path == "-" ? stdout : std::fopen(path.c_str(), "wb");
+    bool good = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    const int why = errno;
+    if (file != nullptr) good = (file == stdout ? std::fflush(file) : std::fclose(file)) == 0 && good;
+    if (!good) return fail(Trouble::io, fmt::format("{} cannot be written: {}. Choose another name or make room.", path, std::strerror(why)));
+    return {};
+}
+
+int report(const Error& error) {
+    print_error(error.text());
+    return exit_code(error.trouble);
+}
+
+ProgressLine::ProgressLine(bool quiet) : on_(!quiet && ::isatty(2) != 0) {}
+
+void ProgressLine::show(double part, std::string_view text) {
+    part = std::clamp(part, 0.0, 1.0);
+    if (!on_ || std::fabs(part - last_part_) < 0.002) return;
+    last_part_ = part;
+    static constexpr int width = 30;
+    const auto full = static_cast<std::size_t>(part * width);
+    fmt::print(stderr, "\r\033[K[{}{}] {:3.0f} %  {}", std::string(full, '='), std::string(width - full, ' '), part * 100, text);
+    std::fflush(stderr);
+    shown_ = true;
+}
+
+void ProgressLine::clear() {
+    if (shown_) fmt::print(stderr, "\r\033[K");
+    shown_ = false;
+}
+
+}  // namespace motionrack::cli

@@ -1,0 +1,84 @@
+// The kinds of card a rack can hold: one line a card.
+#include <motionrack/cards/mcx314/axes/axes.hpp>
+#include <motionrack/cards/mcx314/driver/driver.hpp>
+#include <motionrack/cards/mcx314/map.hpp>
+#include <motionrack/cards/mcx314/model/chip.hpp>
+#include <motionrack/rack/catalogue.hpp>
+#include <optional>
+
+namespace motionrack::rack {
+
+namespace {
+
+class Mcx314Card final : public Card {
+  public:
+    Mcx314Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log)
+        : name_(config.name),
+          access_(nanoseconds(config.mcx314.bus_access_ns)),
+          chip_(kernel, config.name),
+          port_(kernel, chip_, chip_.id(), chip_.interrupt_wire(), access_, &log),
+          driver_(port_, port_) {}
+
+    const std::string& name() const override { return name_; }
+    sim::DeviceId device() const override { return chip_.id(); }
+    sim::RegisterDevice* registers() override { return &chip_; }
+    int channel_number(std::string_view channel) const override { return static_cast<int>(std::string_view("xyzu").find(channel)); }
+    sim::Motion& pulses(int channel) override { return chip_.pulses(channel); }
+    void connect_encoder(int channel, sim::Motion& counts) override { chip_.connect_encoder(channel, counts); }
+    sim::VirtualPort& port() override { return port_; }
+
+    Result<control::PathAxes*> path_axes(const RackConfig& config, const control::Point& position) override {
+        mcx314::AxisMap map;
+        map.limits = config.limits();
+        map.arc_tolerance_mm = config.controller.arc_tolerance_mm;
+        for (const RackAxis& axis : config.axes)
+            if (axis.card == name_) map.channel[static_cast<std::size_t>(axis.index())] = channel_number(axis.channel);
+        axes_.emplace(driver_, map, access_);
+        MOTIONRACK_CHECK(axes_->set_up(position));
+        return &*axes_;
+    }
+
+    double kept_back() const override { return mcx314::Axes::kept_back; }
+    double jump_hz(const RackConfig& config) const override {
+        mcx314::AxisMap map;
+        map.limits = config.limits();
+        for (const RackAxis& axis : config.axes)
+            if (axis.card == name_) map.channel[static_cast<std::size_t>(axis.index())] = channel_number(axis.channel);
+        // A ramp changes the rate by one speed unit at a time, of the long axis or of two axes stepping together.
+        return 1.5 * 8e6 / mcx314::Segmenter::best_range(map);
+    }
+    std::int64_t segments() const override { return axes_ ? axes_->segments() : 0; }
+    std::int64_t pulses_made(int channel) override { return chip_.pulses_made(channel); }
+    std::int64_t pulse_counter(int channel) override { return chip_.lp(channel); }
+    std::int64_t encoder_counter(int channel) override { return chip_.ep(channel); }
+    std::string describe(const sim::Condition& condition) const override { return mcx314::describe(condition, name_); }
+
+  private:
+    std::string name_;
+    Duration access_;
+    mcx314::Chip chip_;
+    sim::VirtualPort port_;
+    mcx314::Driver driver_;
+    std::optional<mcx314::Axes> axes_;
+};
+
+template <class T>
+std::unique_ptr<Card> make(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log) {
+    return std::make_unique<T>(kernel, config, log);
+}
+
+constexpr CardKind kinds[] = {
+    {"mcx314", &mcx314::card_map, &make<Mcx314Card>},
+};
+
+}  // namespace
+
+std::span<const CardKind> card_kinds() { return kinds; }
+
+const CardKind* find_card_kind(std::string_view type) {
+    for (const CardKind& kind : kinds)
+        if (kind.type == type) return &kind;
+    return nullptr;
+}
+
+}  // namespace motionrack::rack

@@ -1,0 +1,62 @@
+// What kinds of card there are, as the rack needs them: one line a card in catalogue.cpp.
+#pragma once
+
+#include <memory>
+#include <motionrack/base/card_map.hpp>
+#include <motionrack/control/path_axes.hpp>
+#include <motionrack/rack/config.hpp>
+#include <motionrack/sim/input_log.hpp>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/register_device.hpp>
+#include <motionrack/sim/virtual_port.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::rack {
+
+/// A card in a running rack, with its bus, driver and axes.
+class Card {
+  public:
+    virtual ~Card() = default;
+    virtual const std::string& name() const = 0;
+    virtual sim::DeviceId device() const = 0;
+    /// Registers as the host sees them; nullptr if the card has none.
+    virtual sim::RegisterDevice* registers() = 0;
+    /// Number of a channel by its name in the rack file.
+    virtual int channel_number(std::string_view channel) const = 0;
+    /// Pulses of a channel, as a function of time.
+    virtual sim::Motion& pulses(int channel) = 0;
+    virtual void connect_encoder(int channel, sim::Motion& counts) = 0;
+    /// The bus with its interrupt line.
+    virtual sim::VirtualPort& port() = 0;
+    /// The card's axes as a group that follows paths, set up at `position`; `channel[i]` moves axis i of the rack.
+    virtual Result<control::PathAxes*> path_axes(const RackConfig& config, const control::Point& position) = 0;
+    /// Part of each acceleration that the planner keeps back for this card.
+    virtual double kept_back() const = 0;
+    /// Rates that change by more than this at once (pulses a second) are jumps, not ramps.
+    virtual double jump_hz(const RackConfig& config) const = 0;
+    /// Commands given to the card for the present path.
+    virtual std::int64_t segments() const = 0;
+    /// Pulses of both directions that a channel has made since the start.
+    virtual std::int64_t pulses_made(int channel) = 0;
+    /// The card's own counters of a channel: LP, EP.
+    virtual std::int64_t pulse_counter(int channel) = 0;
+    virtual std::int64_t encoder_counter(int channel) = 0;
+    virtual std::string describe(const sim::Condition& condition) const = 0;
+};
+
+/// One kind of card.
+struct CardKind {
+    std::string_view type;          ///< as a rack file calls it
+    const CardMap& (*map)();        ///< its registers, commands, states and pins
+    std::unique_ptr<Card> (*make)(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log);
+};
+
+std::span<const CardKind> card_kinds();
+/// nullptr if there is no such kind.
+const CardKind* find_card_kind(std::string_view type);
+
+}  // namespace motionrack::rack

@@ -1,0 +1,119 @@
+// Running a program and gathering what came of it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/rack/job.hpp>
+
+namespace motionrack::rack {
+
+Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(settings)) {
+    std::vector<WatchedAxis> watched;
+    for (RunningAxis& axis : rack_.axes()) {
+        WatchedAxis one;
+        one.index = axis.config.index();
+        one.commanded = &axis.card->pulses(axis.channel);
+        one.real = &axis.machine->rotor();
+        one.pulses_per_unit = axis.config.pulses_per_unit();
+        one.origin = axis.config.start_position;
+        one.jump_hz = axis.card->jump_hz(rack_.config());
+        watched.push_back(one);
+    }
+    monitor_ = std::make_unique<Monitor>(rack_.kernel(), std::move(watched), settings_.sample_period, settings_.most_samples);
+}
+
+Job::~Job() = default;
+
+JobOutcome Job::run() {
+    JobOutcome out;
+    const Result<control::PathAxes*> axes = rack_.path_axes();
+    if (!axes) {
+        out.ended = tl::unexpected<Error>(axes.error());
+        return out;
+    }
+    control::ControllerSettings settings;
+    settings.gcode.limits = rack_.config().limits();
+    settings.gcode.block_delete = settings_.block_delete;
+    settings.gcode.path_tolerance_mm = rack_.config().controller.default_path_tolerance_mm;
+    settings.gcode.start = settings.gcode.g28 = settings.gcode.g30 = rack_.start_position();
+    settings.kept_back = rack_.axes().front().card->kept_back();
+    const std::int64_t lines = 1 + std::count(settings_.program.begin(), settings_.program.end(), '\n');
+    const Instant began = rack_.kernel().now();
+    const std::uint64_t events_before = rack_.kernel().events();
+
+    int line = 0;
+    auto listen = [&] {
+        for (const control::BlockStart& start : (*axes)->take_starts()) {
+            line = start.line;
+            monitor_->started({start});
+        }
+        monitor_->drain();
+        if (settings_.on_slice) settings_.on_slice();
+        if (settings_.progress) settings_.progress({to_seconds(rack_.kernel().now() - began), line, lines});
+    };
+    rack_.set_stop_flag(settings_.stop);
+    rack_.on_slice(milliseconds(50), listen);
+    control::Controller controller(**axes, settings);
+    controller.on_block([&](std::int64_t block, const control::PlannedMove& move) {
+        monitor_->planned(block, move);
+        out.tolerance_mm = std::max(out.tolerance_mm, move.move.path == control::PathControl::continuous ? move.move.tolerance_mm : 0.0);
+        if (planned_.size() < most_planned) planned_.push_back(move);
+    });
+    monitor_->begin();
+    out.ended = controller.run(settings_.program, settings_.program_name, out.run);
+    if (!out.ended && out.ended.error().trouble == Trouble::machine) out.ended.error().file = settings_.program_name;
+    out.time = rack_.kernel().now() - began;
+    listen();
+    monitor_->finish();
+    rack_.on_slice(milliseconds(50), {});
+
+    out.path_mm = out.run.plan.path_mm;
+    out.worst = monitor_->worst();
+    out.chip_segments = rack_.axes().front().card->segments();
+    out.events = rack_.kernel().events() - events_before;
+    out.trace_hash = rack_.kernel().trace_hash();
+    for (const control::PathNote& note : (*axes)->take_notes())
+        out.warnings.push_back({began, note.line, fmt::format("{} (it costs at most {:.4f} mm)", note.what, note.deviation_mm)});
+    collect_conditions(out);
+    out.axes = axis_outcomes();
+    for (const AxisOutcome& axis : out.axes) out.position_trusted = out.position_trusted && axis.lost_pulses == 0;
+    return out;
+}
+
+void Job::collect_conditions(JobOutcome& out) {
+    for (const sim::Condition& condition : rack_.kernel().conditions())
+        out.warnings.push_back({condition.at, 0, rack_.describe(condition)});
+    if (const std::uint64_t dropped = rack_.kernel().dropped_conditions())
+        out.warnings.push_back({rack_.kernel().now(), 0, fmt::format("{} earlier conditions were not kept", dropped)});
+    for (JobWarning& warning : out.warnings) {
+        if (warning.line != 0) continue;
+        for (const DrivenBlock& block : monitor_->blocks())
+            if (block.start <= warning.at && warning.at <= block.end) warning.line = block.line;
+    }
+}
+
+std::vector<AxisOutcome> Job::axis_outcomes() {
+    std::vector<AxisOutcome> out;
+    const Instant now = rack_.kernel().now();
+    for (RunningAxis& axis : rack_.axes()) {
+        AxisOutcome one;
+        one.index = axis.config.index();
+        one.unit = axis.config.unit();
+        one.limits = rack_.config().limits()[static_cast<std::size_t>(one.index)];
+        const std::int64_t commanded = axis.card->pulses(axis.channel).count(now);
+        one.pulses_sent = axis.card->pulses_made(axis.channel);
+        one.pulse_position = axis.card->pulse_counter(axis.channel);
+        one.counts_read = axis.card->encoder_counter(axis.channel);
+        one.lost_pulses = axis.machine->lost_steps(now);
+        const double counts_per_pulse =
+            static_cast<double>(axis.config.encoder_counts_per_rev) / static_cast<double>(axis.config.pulses_per_rev());
+        one.counts_expected = static_cast<std::int64_t>(std::floor(static_cast<double>(commanded) * counts_per_pulse));
+        one.planned_end = static_cast<double>(one.pulse_position) / axis.config.pulses_per_unit();
+        one.real_end = axis.machine->position(now);
+        one.top = monitor_->statistics(one.index);
+        out.push_back(std::move(one));
+    }
+    return out;
+}
+
+}  // namespace motionrack::rack

@@ -1,0 +1,93 @@
+// A job: a part program run on a rack, watched from start to standstill, with everything a report needs.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <motionrack/control/controller.hpp>
+#include <motionrack/rack/monitor.hpp>
+#include <motionrack/rack/rack.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::rack {
+
+struct JobProgress {
+    double seconds = 0;     ///< virtual time since the job began
+    std::int64_t line = 0;  ///< line being driven
+    std::int64_t lines = 0; ///< lines of the program
+};
+
+struct JobSettings {
+    std::string_view program;              ///< the text; must outlive the job
+    std::string program_name;              ///< for messages
+    bool block_delete = false;
+    Duration sample_period = milliseconds(1);
+    std::size_t most_samples = 200'000;
+    const std::atomic<bool>* stop = nullptr;               ///< Ctrl-C
+    std::function<void(const JobProgress&)> progress = {}; ///< about every 50 ms of virtual time
+    std::function<void()> on_slice = {};                   ///< between runs: recorders drain here
+};
+
+/// What one axis did.
+struct AxisOutcome {
+    int index = 0;  ///< 0 .. 5
+    std::string unit;
+    control::AxisLimits limits;
+    std::int64_t pulses_sent = 0;      ///< pulses of both directions since the job began
+    std::int64_t pulse_position = 0;   ///< the card's counter LP at the end
+    std::int64_t counts_read = 0;      ///< the card's encoder counter EP at the end
+    std::int64_t counts_expected = 0;  ///< what EP would be if every pulse had moved the motor
+    std::int64_t lost_pulses = 0;      ///< pulses that the motor did not follow
+    double planned_end = 0;            ///< mm or degrees
+    double real_end = 0;               ///< where the machine is
+    AxisStatistics top;
+};
+
+/// A sentence about something that happened, with its instant.
+struct JobWarning {
+    Instant at{};
+    int line = 0;
+    std::string text;
+};
+
+struct JobOutcome {
+    Result<void> ended;                ///< how it ended
+    control::ProgramRun run;
+    Duration time{};                   ///< virtual time of the job
+    double path_mm = 0;                ///< planned XYZ path
+    std::vector<AxisOutcome> axes;
+    Deviation worst;
+    double tolerance_mm = 0;           ///< greatest deviation that the program allows somewhere
+    std::vector<JobWarning> warnings;
+    std::int64_t chip_segments = 0;
+    std::uint64_t events = 0;          ///< kernel events: what it cost
+    std::uint64_t trace_hash = 0;
+    bool position_trusted = true;      ///< false once steps were lost
+};
+
+/// Runs a program that has been checked on a rack at standstill. `monitor` keeps what was seen.
+class Job {
+  public:
+    /// Before the rack is started: adds the monitor to it.
+    Job(Rack& rack, JobSettings settings);
+    ~Job();
+
+    JobOutcome run();
+    const Monitor& monitor() const { return *monitor_; }
+    /// Every planned move as it was handed out, at most `most_planned`.
+    const std::vector<control::PlannedMove>& planned() const { return planned_; }
+    static constexpr std::size_t most_planned = 20'000;
+
+  private:
+    std::vector<AxisOutcome> axis_outcomes();
+    void collect_conditions(JobOutcome& out);
+
+    Rack& rack_;
+    JobSettings settings_;
+    std::unique_ptr<Monitor> monitor_;
+    std::vector<control::PlannedMove> planned_;
+};
+
+}  // namespace motionrack::rack

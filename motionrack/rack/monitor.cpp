@@ -1,0 +1,177 @@
+// Sampling in virtual time, and what is made of the samples between runs.
+#include <motionrack/rack/monitor.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace motionrack::rack {
+
+namespace {
+constexpr std::size_t most_blocks = 20'000;
+}
+
+void Monitor::Ear::rate_changed(double new_rate, Instant) {
+    const double step = std::fabs(new_rate - rate);
+    if (step > jump_hz) {
+        jump = std::max(jump, step);
+        ++jumps;
+    }
+    top = std::max(top, std::fabs(new_rate));
+    rate = new_rate;
+}
+
+Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration period, std::size_t most_samples)
+    : kernel_(kernel),
+      id_(kernel.add(*this, sim::Phase::observers, "monitor")),
+      axes_(std::move(axes)),
+      ears_(axes_.size()),
+      period_(period),
+      most_samples_(std::max<std::size_t>(most_samples, 16)),
+      ring_(ring_size) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        ears_[i].jump_hz = axes_[i].jump_hz;
+        axes_[i].commanded->listen(ears_[i]);
+    }
+}
+
+// ---- in virtual time ----------------------------------------------------------------------------------------------------------
+
+void Monitor::begin() {
+    running_ = true;
+    kernel_.schedule(id_, kernel_.now());
+}
+
+void Monitor::finish() {
+    running_ = false;
+    kernel_.schedule(id_, never);
+    take(kernel_.now());
+    drain();
+    if (block_open_) close_block(kernel_.now());
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        AxisStatistics& out = statistics_[static_cast<std::size_t>(axes_[i].index)];
+        out.top_speed = std::max(out.top_speed, ears_[i].top / axes_[i].pulses_per_unit);
+        out.top_jump = ears_[i].jump / axes_[i].pulses_per_unit;
+    }
+}
+
+void Monitor::act(Instant now) {
+    take(now);
+    if (running_) kernel_.schedule(id_, now + period_);
+}
+
+void Monitor::take(Instant now) {
+    if (ring_end_ - ring_begin_ >= ring_size) {
+        ++ring_lost_;
+        return;
+    }
+    RawSample& raw = ring_[ring_end_++ % ring_size];
+    raw.at = now;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        raw.count[i] = axes_[i].real->count(now);
+        raw.rate[i] = axes_[i].commanded->rate(now);
+        raw.jumps[i] = ears_[i].jumps;
+    }
+}
+
+// ---- between runs -------------------------------------------------------------------------------------------------------------
+
+void Monitor::planned(std::int64_t block, const control::PlannedMove& move) {
+    planned_.push_back({block, move, control::geometry_of(move.move, move.start)});
+}
+
+void Monitor::started(const std::vector<control::BlockStart>& starts) {
+    starts_.insert(starts_.end(), starts.begin(), starts.end());
+}
+
+void Monitor::drain() {
+    while (ring_begin_ < ring_end_) work_off(ring_[ring_begin_++ % ring_size]);
+    ring_begin_ = ring_end_ = 0;
+}
+
+void Monitor::close_block(Instant end) {
+    open_block_.end = end;
+    if (blocks_.size() < most_blocks)
+        blocks_.push_back(open_block_);
+    else
+        ++blocks_left_out_;
+    block_open_ = false;
+}
+
+void Monitor::work_off(const RawSample& raw) {
+    while (!starts_.empty() && starts_.front().at <= raw.at) {
+        const control::BlockStart start = starts_.front();
+        starts_.pop_front();
+        if (block_open_) close_block(start.at);
+        if (start.block < 0) continue;
+        current_ = start.block;
+        while (planned_.size() > 1 && planned_[1].block < current_) planned_.pop_front();
+        for (const Planned& planned : planned_) {
+            if (planned.block != current_) continue;
+            open_block_ = {current_, planned.move.move.line, planned.move.move.kind, planned.move.length, planned.move.entry,
+                           planned.move.cruise, planned.move.exit, start.at, start.at, 0};
+            block_open_ = true;
+        }
+    }
+    Sample sample;
+    sample.at = raw.at;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        const auto axis = static_cast<std::size_t>(axes_[i].index);
+        sample.position[axis] = axes_[i].origin + static_cast<double>(raw.count[i]) / axes_[i].pulses_per_unit;
+        sample.speed[axis] = raw.rate[i] / axes_[i].pulses_per_unit;
+        statistics_[axis].top_speed = std::max(statistics_[axis].top_speed, std::fabs(sample.speed[axis]));
+    }
+    accelerations(raw);
+    const double off = deviation_of(sample);
+    if (off > worst_.mm) worst_ = {off, sample.at, open_block_.line, {sample.position[0], sample.position[1], sample.position[2]}};
+    if (block_open_) open_block_.deviation_mm = std::max(open_block_.deviation_mm, off);
+    ++taken_;
+    if (++skipped_ >= keep_every_) {
+        skipped_ = 0;
+        kept_.push_back(sample);
+        deviations_.push_back(off);
+        if (kept_.size() > most_samples_) thin_out();
+    }
+}
+
+void Monitor::accelerations(const RawSample& raw) {
+    std::move_backward(last_.begin(), last_.end() - 1, last_.end());
+    last_[0] = raw;
+    if (++last_count_ < 5) return;
+    const double seconds = to_seconds(raw.at - last_[4].at);
+    if (seconds <= 0) return;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        if (raw.jumps[i] != last_[4].jumps[i]) continue;
+        AxisStatistics& out = statistics_[static_cast<std::size_t>(axes_[i].index)];
+        out.top_accel = std::max(out.top_accel, std::fabs(raw.rate[i] - last_[4].rate[i]) / axes_[i].pulses_per_unit / seconds);
+    }
+}
+
+double Monitor::deviation_of(const Sample& sample) {
+    double best = -1;
+    // The host hears of a joint a little after it happened, so the move before and the one after count too.
+    for (const Planned& planned : planned_) {
+        if (planned.block > current_ + 1) break;
+        if (planned.block + 1 < current_) continue;
+        const bool straight = planned.path.shape == control::PathShape::line || planned.path.shape == control::PathShape::arc;
+        const double off =
+            straight ? control::distance_to(planned.path, sample.position[0], sample.position[1], sample.position[2])
+                     : std::sqrt((sample.position[0] - planned.move.start[0]) * (sample.position[0] - planned.move.start[0]) +
+                                 (sample.position[1] - planned.move.start[1]) * (sample.position[1] - planned.move.start[1]) +
+                                 (sample.position[2] - planned.move.start[2]) * (sample.position[2] - planned.move.start[2]));
+        if (best < 0 || off < best) best = off;
+    }
+    return std::max(best, 0.0);
+}
+
+void Monitor::thin_out() {
+    std::size_t out = 0;
+    for (std::size_t i = 0; i < kept_.size(); i += 2, ++out) {
+        kept_[out] = kept_[i];
+        deviations_[out] = std::max(deviations_[i], i + 1 < deviations_.size() ? deviations_[i + 1] : 0.0);
+    }
+    kept_.resize(out);
+    deviations_.resize(out);
+    keep_every_ *= 2;
+}
+
+}  // namespace motionrack::rack

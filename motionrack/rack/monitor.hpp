@@ -1,0 +1,153 @@
+// Watches where the machine really is while a job runs: samples of every axis, top speeds and accelerations, and the distance from the
+// programmed path.
+//
+//   kernel --act(t), every period--> ring of samples --drain(), between runs--> series, statistics, deviation
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <motionrack/control/geometry.hpp>
+#include <motionrack/control/path_axes.hpp>
+#include <motionrack/control/plan.hpp>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/motion.hpp>
+#include <vector>
+
+namespace motionrack::rack {
+
+/// One axis as the monitor sees it. Position in mm or degrees = origin + count / counts_per_unit.
+struct WatchedAxis {
+    int index = 0;                        ///< 0 .. 5: control::axis_letters
+    sim::Motion* commanded = nullptr;     ///< the card's pulses
+    const sim::Motion* real = nullptr;    ///< the rotor, in pulses
+    double pulses_per_unit = 1;
+    double origin = 0;                    ///< mm or degrees where both counts are 0
+    double jump_hz = 1;                   ///< rates that change by more than this at once are jumps, not ramps
+};
+
+struct Sample {
+    Instant at{};
+    std::array<double, control::axis_count> position = {};  ///< real, mm or degrees
+    std::array<double, control::axis_count> speed = {};     ///< of the pulses, per second
+};
+
+struct AxisStatistics {
+    double top_speed = 0;   ///< per second, at every change of the pulse rate
+    double top_accel = 0;   ///< per second squared, over 4 samples without a jump
+    double top_jump = 0;    ///< greatest change of speed at once (start, joint, stop), per second
+};
+
+/// A planned move as it was really driven.
+struct DrivenBlock {
+    std::int64_t block = 0;
+    int line = 0;
+    control::MoveKind kind = control::MoveKind::feed;
+    double length = 0;  ///< mm or degrees
+    double entry = 0;   ///< planned speeds, per second
+    double cruise = 0;
+    double exit = 0;
+    Instant start{};
+    Instant end{};
+    double deviation_mm = 0;  ///< worst in it
+};
+
+/// Where the machine was farthest from the programmed path.
+struct Deviation {
+    double mm = 0;
+    Instant at{};
+    int line = 0;
+    std::array<double, 3> place = {};  ///< where the machine was, mm
+};
+
+class Monitor final : public sim::Device {
+  public:
+    static constexpr std::size_t ring_size = 1 << 14;
+
+    /// `period`: between samples; doubled whenever more than `most_samples` are kept (every second one is then dropped).
+    Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration period, std::size_t most_samples);
+
+    /// Begins sampling now.
+    void begin();
+    /// Takes the last sample and ends.
+    void finish();
+    /// A planned move was handed to the axes.
+    void planned(std::int64_t block, const control::PlannedMove& move);
+    /// Planned moves that have really begun since the last call.
+    void started(const std::vector<control::BlockStart>& starts);
+    /// Works off the ring; call between runs, at least every ring_size periods.
+    void drain();
+
+    const std::vector<Sample>& samples() const { return kept_; }
+    const std::vector<double>& deviations() const { return deviations_; }  ///< mm, one a sample
+    const AxisStatistics& statistics(int index) const { return statistics_[static_cast<std::size_t>(index)]; }
+    const Deviation& worst() const { return worst_; }
+    const std::vector<DrivenBlock>& blocks() const { return blocks_; }
+    std::int64_t blocks_left_out() const { return blocks_left_out_; }
+    std::int64_t samples_taken() const { return taken_; }
+    Duration period() const { return period_; }
+
+    void act(Instant now) override;
+
+  private:
+    /// Hears of each change of one axis' pulse rate.
+    class Ear final : public sim::MotionListener {
+      public:
+        void crossed(Instant) override {}
+        void rate_changed(double rate, Instant now) override;
+        double rate = 0;
+        double top = 0;
+        double jump = 0;
+        double jump_hz = 1;
+        std::uint32_t jumps = 0;
+    };
+    struct RawSample {
+        Instant at{};
+        std::array<std::int64_t, control::axis_count> count = {};
+        std::array<double, control::axis_count> rate = {};
+        std::array<std::uint32_t, control::axis_count> jumps = {};
+    };
+    struct Planned {
+        std::int64_t block = 0;
+        control::PlannedMove move;
+        control::Geometry path;
+    };
+
+    void take(Instant now);
+    void work_off(const RawSample& raw);
+    void accelerations(const RawSample& raw);
+    double deviation_of(const Sample& sample);
+    void close_block(Instant end);
+    void thin_out();
+
+    sim::Kernel& kernel_;
+    sim::DeviceId id_;
+    std::vector<WatchedAxis> axes_;
+    std::vector<Ear> ears_;
+    Duration period_;
+    std::size_t most_samples_;
+    std::vector<RawSample> ring_;
+    std::size_t ring_begin_ = 0;
+    std::size_t ring_end_ = 0;
+    std::int64_t ring_lost_ = 0;
+    bool running_ = false;
+
+    std::array<RawSample, 5> last_ = {};  // for accelerations, newest first
+    int last_count_ = 0;
+    std::vector<Sample> kept_;
+    std::vector<double> deviations_;
+    std::size_t keep_every_ = 1;
+    std::size_t skipped_ = 0;
+    std::int64_t taken_ = 0;
+    std::array<AxisStatistics, control::axis_count> statistics_ = {};
+    std::deque<Planned> planned_;
+    std::deque<control::BlockStart> starts_;
+    std::int64_t current_ = -1;
+    DrivenBlock open_block_;
+    bool block_open_ = false;
+    std::vector<DrivenBlock> blocks_;
+    std::int64_t blocks_left_out_ = 0;
+    Deviation worst_;
+};
+
+}  // namespace motionrack::rack

@@ -1,0 +1,118 @@
+// From a rack file's config to cards, parts and wires in one kernel.
+#include <fmt/format.h>
+
+#include <motionrack/rack/rack.hpp>
+
+namespace motionrack::rack {
+
+Rack::Rack(const RackConfig& config) : config_(config) {
+    build_cards();
+    build_axes();
+    build_wires();
+}
+
+Rack::~Rack() = default;
+
+Card* Rack::card(std::string_view name) {
+    for (const auto& card : cards_)
+        if (card->name() == name) return card.get();
+    return nullptr;
+}
+
+void Rack::build_cards() {
+    for (const RackCard& card : config_.cards) {
+        const CardKind* kind = find_card_kind(card.type);
+        MOTIONRACK_ASSERT(kind != nullptr);  // read_rack knows the same types
+        cards_.push_back(kind->make(kernel_, card, log_));
+    }
+}
+
+void Rack::build_axes() {
+    for (const RackAxis& axis : config_.axes) {
+        parts::AxisMachineSettings settings;
+        settings.motor = {axis.motor_steps_per_rev, axis.microsteps, axis.motor.start_stop_hz, axis.motor.pull_out_hz};
+        settings.axle.travel_per_rev =
+            axis.kind == AxisKind::linear ? parts::linear_travel(axis.lead_mm) : parts::rotary_travel(axis.gear_ratio);
+        settings.axle.start_position = axis.start_position;
+        settings.encoder.counts_per_rev = axis.encoder_counts_per_rev;
+        auto set = [&](parts::LimitSwitchSettings& which, const std::optional<double>& position) {
+            which.position = position;
+            which.hysteresis = axis.switches.hysteresis;
+            which.bounce = from_seconds(axis.switches.bounce_ms * 1e-3);
+        };
+        set(settings.limit_minus, axis.switches.limit_minus);
+        set(settings.limit_plus, axis.switches.limit_plus);
+        set(settings.home, axis.switches.home);
+        RunningAxis running;
+        running.config = axis;
+        running.card = card(axis.card);
+        MOTIONRACK_ASSERT(running.card != nullptr);
+        running.channel = running.card->channel_number(axis.channel);
+        running.machine = std::make_unique<parts::AxisMachine>(kernel_, std::string(1, axis.letter), settings);
+        running.machine->connect(running.card->pulses(running.channel));
+        if (running.machine->has_encoder()) running.card->connect_encoder(running.channel, running.machine->encoder());
+        axes_.push_back(std::move(running));
+    }
+}
+
+/// The name of an end's wire in the kernel. Pulses and encoder lines have none: they are connected as motions.
+std::string Rack::wire_name(const WireEnd& end) const {
+    switch (end.owner) {
+        case EndOwner::card: return config_.cards[static_cast<std::size_t>(end.index)].name + "." + end.pin;
+        case EndOwner::axis: return std::string(1, config_.axes[static_cast<std::size_t>(end.index)].letter) + "." + end.pin;
+        case EndOwner::estop: return "estop";
+    }
+    return {};
+}
+
+void Rack::build_wires() {
+    estop_ = kernel_.add_wire("estop", 1);
+    junctions_ = std::make_unique<sim::Junctions>(kernel_, "wiring");
+    for (const RackWire& wire : config_.wires) {
+        const sim::WireId from = kernel_.find_wire(wire_name(wire.from));
+        const sim::WireId to = kernel_.find_wire(wire_name(wire.to));
+        if (from != sim::WireId::none && to != sim::WireId::none) junctions_->join(from, to);
+    }
+}
+
+void Rack::start() {
+    kernel_.start();
+    while (kernel_.run_until(kernel_.now()) == sim::RunEnd::broken) {
+    }
+}
+
+Result<control::PathAxes*> Rack::path_axes() {
+    if (axes_.empty())
+        return fail(Trouble::refused, "The rack has no axes, so no program can run on it; add an [axis.X] section to the rack file.");
+    for (const RunningAxis& axis : axes_)
+        if (axis.card != axes_.front().card)
+            return fail(Trouble::refused, fmt::format("Axis {} is on card '{}' and axis {} on card '{}', but a path is followed by the axes of "
+                                                      "one card. Nothing was moved; put them on one card.",
+                                                      axes_.front().config.letter, axes_.front().config.card, axis.config.letter,
+                                                      axis.config.card));
+    return axes_.front().card->path_axes(config_, start_position());
+}
+
+void Rack::on_slice(Duration slice, std::function<void()> call) {
+    for (const auto& card : cards_) card->port().on_slice(slice, call);
+}
+
+void Rack::set_stop_flag(const std::atomic<bool>* stop) {
+    for (const auto& card : cards_) card->port().set_stop_flag(stop);
+}
+
+control::Point Rack::start_position() const {
+    control::Point out = {};
+    for (const RackAxis& axis : config_.axes) out[static_cast<std::size_t>(axis.index())] = axis.start_position;
+    return out;
+}
+
+std::string Rack::describe(const sim::Condition& condition) {
+    for (const RunningAxis& axis : axes_)
+        if (axis.machine->id() == condition.device) return parts::describe(condition, kernel_.device_name(condition.device));
+    for (const auto& card : cards_)
+        if (card->device() == condition.device) return card->describe(condition);
+    return fmt::format("{}: condition {} ({}, {})", kernel_.device_name(condition.device), condition.code, condition.a, condition.b);
+}
+
+}  // namespace motionrack::rack
