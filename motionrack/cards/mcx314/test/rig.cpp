@@ -32,6 +32,7 @@ Outcome run_on_twin(const Program& program) {
         }
         out.sights.push_back(sight);
     }
+    if (!program.ops.empty()) twin.run(std::max<std::int64_t>(program.ops.back().tick - twin.now(), 0));
     out.pulses = twin.pulses();
     sort_pulses(out.pulses);
     return out;

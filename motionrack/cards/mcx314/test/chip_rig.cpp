@@ -1,0 +1,156 @@
+// Register programs on the event-driven chip: accesses between runs, wires forced between ticks or moved at their very instant.
+#include <motionrack/cards/mcx314/test/chip_rig.hpp>
+
+#include <array>
+#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/motion.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace motionrack::mcx314::twin {
+
+namespace {
+
+constexpr Duration one_tick = nanoseconds(125);
+
+// Moves wires at an instant, before the cards look at them.
+class Hand final : public sim::Device {
+  public:
+    explicit Hand(sim::Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::wires, "hand")) {}
+    /// Moves that have not been made yet must all be for the same instant.
+    void move(sim::WireId wire, int level, Instant at) {
+        moves_.emplace_back(wire, level);
+        kernel_.schedule(id_, at);
+    }
+    bool idle() const { return moves_.empty(); }
+    void act(Instant) override {
+        for (const auto& [wire, level] : moves_) kernel_.set_wire(wire, level);
+        moves_.clear();
+    }
+
+  private:
+    sim::Kernel& kernel_;
+    sim::DeviceId id_;
+    std::vector<std::pair<sim::WireId, int>> moves_;
+};
+
+// Writes down the edges of one axis.
+class Edges final : public sim::EdgeListener {
+  public:
+    Edges(std::vector<Pulse>& pulses, int axis) : pulses_(pulses), axis_(axis) {}
+    void edges(const sim::EdgeBatch& batch) override {
+        for (std::uint32_t i = 0; i < batch.size; ++i) {
+            const Instant at = batch.origin + batch.at[i] * batch.tick;
+            const bool on_a_tick = at % one_tick == Duration{0};
+            pulses_.push_back({on_a_tick ? at / one_tick : -1, axis_, batch.step});
+        }
+    }
+
+  private:
+    std::vector<Pulse>& pulses_;
+    int axis_;
+};
+
+// A kernel with one chip, its wires and, perhaps, somebody who listens to its edges.
+class Bench {
+  public:
+    Bench(const Program& program, const Way& way) : program_(program), way_(way), random_(way.slices) {
+        static constexpr const char* pins[] = {"in0", "in1", "in2", "in3", "expp", "expm", "inpos", "alarm", "lmtp", "lmtm"};
+        for (int a = 0; a < axis_count; ++a)
+            for (int p = 0; p < pin_count; ++p) wires_[a][p] = kernel_.find_wire(std::string("c.") + "xyzu"[a] + pins[p]);
+        emgn_ = kernel_.find_wire("c.emgn");
+        kernel_.start();
+        for (int a = 0; a < axis_count && way.listen; ++a) chip_.pulses(a).listen_edges(&edges_[static_cast<std::size_t>(a)]);
+        for (int a = 0; a < axis_count; ++a) start_[a] = chip_.pulses(a).count(kernel_.now());
+    }
+
+    Outcome run() {
+        for (std::size_t i = 0; i < program_.ops.size(); ++i) {
+            const Op& op = program_.ops[i];
+            const bool more = i + 1 < program_.ops.size() && program_.ops[i + 1].order() == op.order();
+            out_.sights.push_back(is_wire(op) ? move_wire(op, more) : access(op));
+            if (i + 1 >= way_.snapshot_at && way_.snapshot_at != 0 && !disturbed_ && hand_.idle()) disturb(op);
+        }
+        sort_pulses(out_.pulses);
+        return std::move(out_);
+    }
+
+  private:
+    // A falling interrupt line ends a run early.
+    void run_on(Instant until) {
+        while (kernel_.run_until(until) == sim::RunEnd::broken) continue;
+    }
+
+    void run_to(Instant until) {
+        while (way_.slices != 0 && random_.one_in(2)) {
+            const std::int64_t left = (until - kernel_.now()).count();
+            if (left <= 1) break;
+            run_on(kernel_.now() + Duration{random_.between(0, left)});
+        }
+        run_on(until);
+    }
+
+    static bool is_wire(const Op& op) { return op.kind == Op::Kind::input || op.kind == Op::Kind::emergency; }
+    static Instant instant_of(const Op& op) { return op.tick * one_tick + (op.between ? one_tick / 2 : Duration{0}); }
+
+    // `more`: the next op moves a wire at the same instant, so that the tick must not be worked off yet.
+    Sight move_wire(const Op& op, bool more) {
+        const sim::WireId wire = op.kind == Op::Kind::emergency ? emgn_ : wires_[op.axis][static_cast<int>(op.pin)];
+        hand_.move(wire, op.value, instant_of(op));
+        if (!more) run_to(instant_of(op));
+        return {};
+    }
+
+    Sight access(const Op& op) {
+        Sight sight;
+        run_to(instant_of(op));
+        if (op.kind == Op::Kind::write)
+            chip_.write(op.offset, op.value);
+        else
+            sight.value = read(op.offset);
+        kernel_.settle();
+        sight.interrupt = kernel_.level(chip_.interrupt_wire()) == 0;
+        for (int a = 0; a < axis_count; ++a) sight.count[a] = chip_.pulses(a).count(kernel_.now()) - start_[a];
+        return sight;
+    }
+
+    // A peek before the read must change nothing and show the same.
+    std::uint16_t read(std::uint8_t offset) {
+        const std::uint16_t peeked = chip_.peek(offset), value = chip_.read(offset);
+        return peeked == value ? value : static_cast<std::uint16_t>(~value);
+    }
+
+    // Saves the world, runs something else in it, and restores it.
+    void disturb(const Op& op) {
+        disturbed_ = true;
+        const sim::Snapshot snapshot = kernel_.snapshot();
+        const std::size_t pulses = out_.pulses.size();
+        chip_.write(14, 0), chip_.write(12, 100), chip_.write(0, 0x0F06), chip_.write(0, 0x0F20);
+        run_on(kernel_.now() + 5000 * one_tick);
+        chip_.write(0, 0x0F27);
+        run_on(kernel_.now() + one_tick * (1 + op.tick % 700));
+        kernel_.restore(snapshot);
+        out_.pulses.resize(pulses);
+    }
+
+    const Program& program_;
+    const Way& way_;
+    Random random_;
+    Outcome out_;
+    sim::Kernel kernel_;
+    Hand hand_{kernel_};
+    Chip chip_{kernel_, "c"};
+    std::array<Edges, axis_count> edges_{Edges{out_.pulses, 0}, Edges{out_.pulses, 1}, Edges{out_.pulses, 2}, Edges{out_.pulses, 3}};
+    std::array<std::array<sim::WireId, pin_count>, axis_count> wires_{};
+    std::array<std::int64_t, axis_count> start_{};
+    sim::WireId emgn_{};
+    bool disturbed_ = false;
+};
+
+}  // namespace
+
+Outcome run_on_chip(const Program& program, const Way& way) { return Bench(program, way).run(); }
+
+}  // namespace motionrack::mcx314::twin

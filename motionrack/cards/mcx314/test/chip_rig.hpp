@@ -1,0 +1,10 @@
+// Register programs on the event-driven chip in a kernel of its own.
+#pragma once
+
+#include <motionrack/cards/mcx314/test/rig.hpp>
+
+namespace motionrack::mcx314::twin {
+
+Outcome run_on_chip(const Program& program, const Way& way);
+
+}  // namespace motionrack::mcx314::twin

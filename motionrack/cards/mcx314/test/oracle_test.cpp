@@ -1,0 +1,53 @@
+// The event-driven chip against the tick-by-tick twin: random register programs must look the same to the host (every read, the
+// interrupt line), to a motor (the tick and direction of every pulse) and to whoever only asks for counts.
+//
+// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment choose other and more programs.
+#include <gtest/gtest.h>
+#include <motionrack/cards/mcx314/test/chip_rig.hpp>
+#include <motionrack/cards/mcx314/test/shrink.hpp>
+
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+namespace motionrack::mcx314::twin {
+namespace {
+
+std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+    const char* text = std::getenv(name);
+    return text && *text ? std::strtoull(text, nullptr, 0) : otherwise;
+}
+
+std::string fault(const Program& program, const Way& way) {
+    return difference(program, run_on_twin(program), run_on_chip(program, way), way.listen);
+}
+
+// Runs `count` programs from number `first` on, the way that `way_of(number)` says; stops at the first difference.
+template <class WayOf>
+void compare(std::uint64_t first, std::uint64_t count, const WayOf& way_of) {
+    const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 1);
+    std::cout << "MOTIONRACK_SEED=" << seed << ", programs " << first << " .. " << first + count - 1 << std::endl;
+    for (std::uint64_t number = first; number < first + count; ++number) {
+        const Program program = make_program(seed, number);
+        const Way way = way_of(program);
+        if (fault(program, way).empty()) continue;
+        const Program small = shrink(program, [&](const Program& p) { return !fault(p, way).empty(); });
+        FAIL() << "the chip and its twin differ" << (way.listen ? "" : " (nobody listens to edges)") << '\n'
+               << fault(small, way) << to_text(small);
+    }
+}
+
+TEST(Mcx314Oracle, RandomProgramsLookTheSameOnTheChipAndOnItsTwin) {
+    compare(0, from_environment("MOTIONRACK_PROGRAMS", 10'000), [](const Program& p) { return Way{p.number % 2 == 0, 0, 0}; });
+}
+
+TEST(Mcx314Oracle, ARunCutIntoSlicesGivesTheSame) {
+    compare(1'000'000, 400, [](const Program& p) { return Way{p.number % 2 == 0, p.number, 0}; });
+}
+
+TEST(Mcx314Oracle, ARestoredSnapshotGivesTheSameRest) {
+    compare(2'000'000, 400, [](const Program& p) { return Way{p.number % 2 == 0, 0, 1 + p.number % (p.ops.size() - 1)}; });
+}
+
+}  // namespace
+}  // namespace motionrack::mcx314::twin
