@@ -2,7 +2,7 @@
 #include <motionrack/cards/mcx314/axes/axes.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
-#include <motionrack/cards/mcx314/model/chip.hpp>
+#include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <optional>
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 namespace motionrack::rack {
 
@@ -10,14 +12,13 @@ namespace {
 constexpr std::size_t most_blocks = 20'000;
 }
 
-void Monitor::Ear::rate_changed(double new_rate, Instant) {
-    const double step = std::fabs(new_rate - rate);
+void Monitor::Ear::rate_changed(double before, double rate, Instant) {
+    const double step = std::fabs(rate - before);
     if (step > jump_hz) {
         jump = std::max(jump, step);
         ++jumps;
     }
-    top = std::max(top, std::fabs(new_rate));
-    rate = new_rate;
+    top = std::max({top, std::fabs(before), std::fabs(rate)});
 }
 
 Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration period, std::size_t most_samples)
@@ -142,6 +143,7 @@ void Monitor::accelerations(const RawSample& raw) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         if (raw.jumps[i] != last_[4].jumps[i]) continue;
         AxisStatistics& out = statistics_[static_cast<std::size_t>(axes_[i].index)];
+        if (getenv("MRDBG") && std::fabs(raw.rate[i] - last_[4].rate[i]) / axes_[i].pulses_per_unit / seconds > 1010) fprintf(stderr,"acc axis %zu t %.4f %.1f -> %.1f\n",i,to_seconds(raw.at),last_[4].rate[i],raw.rate[i]);
         out.top_accel = std::max(out.top_accel, std::fabs(raw.rate[i] - last_[4].rate[i]) / axes_[i].pulses_per_unit / seconds);
     }
 }

@@ -94,8 +94,7 @@ class Monitor final : public sim::Device {
     class Ear final : public sim::MotionListener {
       public:
         void crossed(Instant) override {}
-        void rate_changed(double rate, Instant now) override;
-        double rate = 0;
+        void rate_changed(double before, double rate, Instant now) override;
         double top = 0;
         double jump = 0;
         double jump_hz = 1;

@@ -39,8 +39,9 @@ class MotionListener {
     virtual ~MotionListener() = default;
     /// The count left the range given to Motion::watch; the listener must set a new one.
     virtual void crossed(Instant now) = 0;
-    /// The rate jumped or stepped; `rate` is the new one in counts a second, signed.
-    virtual void rate_changed(double rate, Instant now) = 0;
+    /// The law of motion changed: the rate was `before` just before this instant (along a curve it changes between laws too) and
+    /// is `rate` from now on; counts a second, signed.
+    virtual void rate_changed(double before, double rate, Instant now) = 0;
 };
 
 /// No bound in that direction.

@@ -200,4 +200,50 @@ inline ArcEnd end_of_arc(std::int64_t cx, std::int64_t cy, std::int64_t fx, std:
     return end;
 }
 
+// ---- ramps --------------------------------------------------------------------------------------------------------------------
+
+/// What a ramp takes: ticks, and the sum of CV over them (pulses = phase / R).
+struct Ramp {
+    std::int64_t ticks = 0;
+    std::int64_t phase = 0;
+};
+
+/// An S-ramp of the speed from `from` to `to` (1 .. 8,000) with rates up to `limit` (A or D) and K, exactly as the chip makes it, by
+/// walking its steps.
+inline Ramp s_ramp(std::int64_t from, std::int64_t to, std::int64_t limit, std::int64_t k) {
+    const std::int64_t jerk = jerk_ticks_per_k * used_jerk(k), way = from < to ? 1 : -1;
+    std::int64_t speed = from, rate = 0, rate_part = 0, speed_part = 0, steps = 0;
+    int phase = 0;  // 0 rising, 1 constant, 2 falling rate
+    Ramp ramp;
+    while (speed != to) {
+        const std::int64_t to_jerk = std::max<std::int64_t>(1, jerk - rate_part);
+        const std::int64_t to_step = rate > 0 ? ceil_div(speed_carry - speed_part, rate) : to_jerk;
+        // The rate changes before it is added in the same tick, so the last of `to_jerk` ticks adds the new one.
+        const std::int64_t plain = std::min(to_jerk - 1, to_step);
+        ramp.ticks += plain;
+        ramp.phase += plain * speed;
+        rate_part += plain;
+        speed_part += plain * rate;
+        if (plain < to_step) {
+            ramp.ticks += 1;
+            ramp.phase += speed;
+            if (++rate_part >= jerk) {
+                rate_part = 0;
+                if (phase == 0 && ++rate >= limit) phase = 1;
+                else if (phase == 2 && rate > 1) --rate;
+            }
+            speed_part += rate;
+        }
+        if (speed_part < speed_carry) continue;
+        speed_part -= speed_carry;
+        speed += way;
+        if (phase == 0) ++steps;
+        if (phase != 2 && magnitude(to - speed) <= steps) {
+            rate_part = jerk - rate_part;
+            phase = 2;
+        }
+    }
+    return ramp;
+}
+
 }  // namespace motionrack::mcx314::rules

@@ -98,7 +98,8 @@ void AxisMachine::watch(Face face, int slot, Range counts) {
 
 // ---- What the pulses tell -------------------------------------------------------------------------------------------
 
-void AxisMachine::rate_changed(double rate, Instant now) {
+void AxisMachine::rate_changed(double pulses_before, double rate, Instant now) {
+    motor_.note_rate(pulses_before);  // along a curve the rate has drifted since it was told last
     if (!motor_.follows(rate)) {
         change_motor(now, [&] { motor_.change_rate(rate, pulses_at(now)); });
         return;
@@ -108,15 +109,15 @@ void AxisMachine::rate_changed(double rate, Instant now) {
     motor_.note_rate(rate);
     const double speed = std::fabs(rate);
     if (speed > state_.top_hz) state_.top_hz = speed;
-    tell_rate(now);
+    tell_rate(motor_.rotor_rate(before), now);
 }
 
-void AxisMachine::tell_rate(Instant now) {
+void AxisMachine::tell_rate(double before, Instant now) {
     const double rate = motor_.rotor_rate(state_.motor.rate_hz);
-    for (int i = 0; i < listener_count_[rotor_face]; ++i) listeners_[rotor_face][i]->rate_changed(rate, now);
+    for (int i = 0; i < listener_count_[rotor_face]; ++i) listeners_[rotor_face][i]->rate_changed(before, rate, now);
     if (listener_count_[encoder_face] == 0) return;
     const double counts = encoder_.present() ? encoder_.rate(rate) : 0;
-    for (int i = 0; i < listener_count_[encoder_face]; ++i) listeners_[encoder_face][i]->rate_changed(counts, now);
+    for (int i = 0; i < listener_count_[encoder_face]; ++i) listeners_[encoder_face][i]->rate_changed(encoder_.present() ? encoder_.rate(before) : 0, counts, now);
 }
 
 void AxisMachine::crossed(Instant now) {
@@ -143,8 +144,8 @@ void AxisMachine::change_motor(Instant now, Change change) {
         state_.edges_until = rotor;
     }
     check(now);
-    if (motor_.rotor_rate(state_.motor.rate_hz) != (before.hold == RotorHold::in_step ? before.rate_hz : 0))
-        tell_rate(now);
+    const double told = before.hold == RotorHold::in_step ? before.rate_hz : 0;
+    if (motor_.rotor_rate(state_.motor.rate_hz) != told) tell_rate(told, now);
 }
 
 void AxisMachine::report_change(const StepperState& before, std::int64_t rotor_before, std::int64_t rotor) {
@@ -323,7 +324,7 @@ bool AxisMachine::encoder_fault(std::string_view name, double value, Instant now
         w.rotor = encoder_.rotor_range(w.counts, rotor);
     }
     aim(now);
-    tell_rate(now);
+    tell_rate(motor_.rotor_rate(state_.motor.rate_hz), now);
     return true;
 }
 

@@ -137,7 +137,7 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
     };
 
     void crossed(Instant now) override;
-    void rate_changed(double rate, Instant now) override;
+    void rate_changed(double before, double rate, Instant now) override;
     void edges(const sim::EdgeBatch& batch) override;
 
     std::int64_t pulses_at(Instant t) const { return pulses_ ? pulses_->count(t) : 0; }
@@ -159,7 +159,7 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
     bool check_ends(Instant now);
     void aim(Instant now);
     void put_off();
-    void tell_rate(Instant now);
+    void tell_rate(double before, Instant now);
     bool motor_fault(std::string_view name, double value, Instant now);
     bool encoder_fault(std::string_view name, double value, Instant now);
     bool switch_fault(int i, std::string_view name, double value);

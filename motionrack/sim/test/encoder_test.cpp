@@ -42,7 +42,7 @@ class CrossingEar final : public sim::MotionListener {
         at.push_back(now);
         counts.push_back(motion_.count(now));
     }
-    void rate_changed(double new_rate, Instant) override { rate = new_rate; }
+    void rate_changed(double, double new_rate, Instant) override { rate = new_rate; }
     void watch(std::int64_t below, std::int64_t above) { motion_.watch(slot_, below, above); }
     std::vector<Instant> at;
     std::vector<std::int64_t> counts;

@@ -88,10 +88,11 @@ class FakePulses final : public Device, public Motion {
 
     void change_law(const PulseLaw& law, Instant now) {
         make_edges(now);
+        const double before = rate_of(state_.law);
         state_.base = count(now);
         state_.law = {now, law.period, law.direction};
         state_.edges_made = 0;
-        for (MotionListener* listener : listeners_) listener->rate_changed(rate_of(state_.law), now);
+        for (MotionListener* listener : listeners_) listener->rate_changed(before, rate_of(state_.law), now);
     }
 
     void make_edges(Instant now) {

@@ -91,7 +91,7 @@ RC_GTEST_PROP(BatchDecoder, FollowsTheEdgesOfAMotion, ()) {
 class Watcher final : public MotionListener {
   public:
     void crossed(Instant now) override { at.push_back(now); }
-    void rate_changed(double, Instant) override {}
+    void rate_changed(double, double, Instant) override {}
     std::vector<Instant> at;
 };
 

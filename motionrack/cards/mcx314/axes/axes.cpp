@@ -19,12 +19,6 @@ constexpr std::uint16_t wr2_pulse_and_direction = 0x0040;
 constexpr std::int64_t no_deceleration_point = 268'435'455;
 constexpr Duration joint_timeout = whole_seconds(3600);
 
-unsigned mask_of(const Segment& segment) {
-    unsigned mask = 0;
-    for (std::size_t i = 0; i < segment.axis_count; ++i) mask |= 1u << segment.axes[i];
-    return mask;
-}
-
 }  // namespace
 
 Axes::Axes(Driver& driver, const AxisMap& map, Duration access)
@@ -130,6 +124,7 @@ Result<void> Axes::start_chain(const Segment& segment) {
     if (segment.s_curve) {
         MOTIONRACK_CHECK(driver_.AutoDec(own));
         MOTIONRACK_CHECK(driver_.SetAA(own, segment.jerk));
+        MOTIONRACK_CHECK(driver_.SetAO(own, segment.offset));
     }
     driver_.EnableDeceleration(segment.s_curve);
     written_speed_ = written_acceleration_ = 0;
@@ -247,14 +242,23 @@ Result<void> Axes::steer_companion(const Segment& segment, const Segment* next) 
         if (driving) MOTIONRACK_CHECK(driver_.wait_until_stopped(1u << c, whole_seconds(1)));
         companion_from_ = at;
         companion_negative_ = left < 0;
-        return start_companion(c, left + beyond, v);
+        return start_companion(c, left + beyond, v, beyond == 0);
     }
     const std::int64_t pulses = companion_target_ + beyond - companion_from_;
     MOTIONRACK_CHECK(driver_.Pulse(1u << c, pulses));
+    MOTIONRACK_CHECK(driver_.SetDecPoint(1u << c, companion_fall_from(pulses, v, beyond == 0)));
     return driver_.SetV(1u << c, v);
 }
 
-Result<void> Axes::start_companion(int channel, std::int64_t pulses, std::int32_t v) {
+/// The pulse from which the companion's speed falls to its start speed, if its drive ends with this segment.
+std::int64_t Axes::companion_fall_from(std::int64_t pulses, std::int32_t v, bool ends) const {
+    if (!ends || v <= companion_start_speed_) return no_deceleration_point;
+    const double top = v, low = companion_start_speed_;
+    const double phase = 64'000.0 / companion_acceleration_ * (top * (top + 1) - low * (low + 1)) / 2;
+    return std::max<std::int64_t>(0, (pulses < 0 ? -pulses : pulses) - static_cast<std::int64_t>(phase / range_) - 2);
+}
+
+Result<void> Axes::start_companion(int channel, std::int64_t pulses, std::int32_t v, bool ends) {
     const unsigned axis = 1u << channel;
     double acceleration = 8'000, start = 1;
     for (std::size_t i = 0; i < map_.channel.size(); ++i) {
@@ -264,11 +268,13 @@ Result<void> Axes::start_companion(int channel, std::int64_t pulses, std::int32_
         start = limits.start_speed * limits.pulses_per_unit * range_ / 8e6;
     }
     MOTIONRACK_CHECK(driver_.SetRange(axis, range_));
-    MOTIONRACK_CHECK(driver_.SetSV(axis, static_cast<std::int64_t>(std::clamp(std::floor(start), 1.0, 8'000.0))));
-    MOTIONRACK_CHECK(driver_.SetA(axis, static_cast<std::int64_t>(std::clamp(std::floor(acceleration), 1.0, 8'000.0))));
+    companion_start_speed_ = static_cast<std::int32_t>(std::clamp(std::floor(start), 1.0, 8'000.0));
+    companion_acceleration_ = static_cast<std::int32_t>(std::clamp(std::floor(acceleration), 1.0, 8'000.0));
+    MOTIONRACK_CHECK(driver_.SetSV(axis, companion_start_speed_));
+    MOTIONRACK_CHECK(driver_.SetA(axis, companion_acceleration_));
     MOTIONRACK_CHECK(driver_.SetV(axis, v));
     driver_.SetSCurve(axis, false);
-    MOTIONRACK_CHECK(driver_.ManualDec(axis, no_deceleration_point));
+    MOTIONRACK_CHECK(driver_.ManualDec(axis, companion_fall_from(pulses, v, ends)));
     MOTIONRACK_CHECK(driver_.Pulse(axis, pulses));
     driver_.Drive(axis, pulses < 0);
     return {};

@@ -51,7 +51,8 @@ class Axes final : public control::PathAxes {
     Result<void> command(const Segment& segment);
     Result<void> begin_segment(const Segment& segment, const Segment* next);
     Result<void> steer_companion(const Segment& segment, const Segment* next);
-    Result<void> start_companion(int channel, std::int64_t pulses, std::int32_t v);
+    Result<void> start_companion(int channel, std::int64_t pulses, std::int32_t v, bool ends);
+    std::int64_t companion_fall_from(std::int64_t pulses, std::int32_t v, bool ends) const;
     double segment_seconds(const Segment& segment) const;
     tl::unexpected<Error> stopped_by_machine();
     tl::unexpected<Error> stopped_by_user();
@@ -76,6 +77,8 @@ class Axes final : public control::PathAxes {
     std::int64_t segments_ = 0;
     // The companion's present drive.
     int companion_ = -1;
+    std::int32_t companion_start_speed_ = 1;   ///< SV and A it drives with
+    std::int32_t companion_acceleration_ = 1;
     bool companion_negative_ = false;
     std::int64_t companion_from_ = 0;    ///< its counter where the drive began
     std::int64_t companion_target_ = 0;  ///< where it should be at the end of the present segment

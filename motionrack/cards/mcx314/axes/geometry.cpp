@@ -27,8 +27,8 @@ std::optional<ChipArc> fit_arc(const ArcRequest& wanted) {
                                          wanted.centre[1] - static_cast<double>(wanted.start[1])};
     std::optional<ChipArc> best;
     bool best_exact = false;
-    for (int dx = -1; dx <= 2; ++dx) {
-        for (int dy = -1; dy <= 2; ++dy) {
+    for (int dx = -2; dx <= 3; ++dx) {
+        for (int dy = -2; dy <= 3; ++dy) {
             const std::int64_t cx = static_cast<std::int64_t>(std::floor(ideal[0])) + dx;
             const std::int64_t cy = static_cast<std::int64_t>(std::floor(ideal[1])) + dy;
             const rules::ArcEnd end = rules::end_of_arc(cx, cy, finish[0], finish[1], wanted.clockwise);

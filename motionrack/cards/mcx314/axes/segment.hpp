@@ -27,6 +27,7 @@ struct Segment {
     std::int32_t speed = 1;                    ///< V from the segment's start on
     std::int32_t acceleration = 1;             ///< A, both ways
     std::int32_t jerk = 65'535;                ///< K, s_curve only
+    std::int32_t offset = 0;                   ///< AO, s_curve only: what falling takes more than rising
     std::int32_t companion_pulses = 0;         ///< pulses of the fourth axis that belong to this segment, signed
     std::int32_t companion_channel = -1;       ///< its channel, -1: none
     std::int32_t block = 0;                    ///< number of the planned move, from 0

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <motionrack/base/trig.hpp>
+#include <motionrack/cards/mcx314/arithmetic.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -154,7 +155,10 @@ void Segmenter::emit(const Work& work, std::optional<double> next_units) {
         case Shape::chords: emit_chords(work, speeds, rests); break;
         default: emit_straight(work, speeds); break;
     }
-    if (rests) close_chain();
+    if (rests) {
+        if (at_ != work.to) emit_line(work, work.to, speeds.exit, speeds.acceleration);
+        close_chain();
+    }
 }
 
 void Segmenter::emit_pause(const Work& work) {
@@ -194,7 +198,8 @@ bool Segmenter::emit_s_curve(const Work& work) {
         const double time = dv * j <= a * a ? 2 * std::sqrt(dv / j) : dv / a + a / j;
         return (v + v0) / 2 * time;
     };
-    const double whole = units * work.path.length, spare = 8.0 * range_ / 8e6 + v0 * 1e-3;
+    const double whole = units * work.path.length;
+    const double spare = (8 + 0.02 * whole * 8e6 / range_) * range_ / 8e6 + v0 * 1e-3;
     double low = v0 + 1, high = std::min(double{top_speed_units}, units * work.move.cruise);
     if (high <= low || 2 * ramp_length(low) + spare > whole) return false;
     if (2 * ramp_length(high) + spare > whole)
@@ -203,11 +208,20 @@ bool Segmenter::emit_s_curve(const Work& work) {
         low = high;
     for (std::size_t c = 0; c < at_.size(); ++c)
         if (work.to[c] - at_[c] > longest_line || at_[c] - work.to[c] > longest_line) return false;
+    // The chip's S-ramps are not quite symmetric: what falling takes more than rising goes into AO, or it would end too fast.
+    const auto v = static_cast<std::int32_t>(low), sv = static_cast<std::int32_t>(initial);
+    const auto limit = static_cast<std::int32_t>(std::clamp(std::floor(a / 125), 1.0, 8'000.0));
+    const auto jerk = static_cast<std::int32_t>(std::max(1.0, k));
+    if (v <= sv) return false;
+    const std::int64_t rise = rules::s_ramp(sv, v, limit, jerk).phase / range_;
+    const std::int64_t fall = rules::s_ramp(v, sv, limit, jerk).phase / range_;
+    const std::int64_t offset = std::max<std::int64_t>(0, fall - rise) + 2;
     const std::size_t first = ready_.size();
-    emit_line(work, work.to, static_cast<std::int32_t>(low), static_cast<std::int32_t>(std::clamp(std::floor(a / 125), 1.0, 8'000.0)));
+    emit_line(work, work.to, v, limit);
     if (ready_.size() == first) return true;  // less than half a pulse
     ready_.back().s_curve = true;
-    ready_.back().jerk = static_cast<std::int32_t>(std::max(1.0, k));
+    ready_.back().jerk = jerk;
+    ready_.back().offset = static_cast<std::int32_t>(offset);
     close_chain();
     return true;
 }
@@ -294,8 +308,7 @@ bool Segmenter::emit_fitted_arc(const Work& work, double from, double to, std::i
     Pulses4 reached = at_;
     reached[ia] += arc->end[0];
     reached[ib] += arc->end[1];
-    append(segment, work, reached);
-    if (reached != end) emit_line(work, end, v, acceleration);
+    append(segment, work, reached);  // where it ends beside its point, the next piece starts from there
     return true;
 }
 

@@ -103,6 +103,7 @@ void Chip::advance_to(std::int64_t to) {
     while (state_.tick < to) {
         if (state_.next_event > to) return skip(to - state_.tick);
         skip(state_.next_event - 1 - state_.tick);
+        note_rates();
         tick();
         reschedule();
     }
@@ -139,6 +140,7 @@ void Chip::sync(Instant now) {
 void Chip::on_wire(int pin, int wire_level, Instant now) {
     // A level that changes at the very instant of a tick counts for that tick.
     advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
+    note_rates();
     if (pin == emergency_pin) {
         state_.emergency_high = wire_level != 0;
     } else {
@@ -195,6 +197,15 @@ void Chip::law_changed_of(int generator) {
     changed_ |= state_.axis[generator].gen.drive == Drive::path ? state_.path.command.mask() : 1u << generator;
 }
 
+/// Before anything happens: along an arc the rates drift between the changes that listeners hear of.
+void Chip::note_rates() {
+    if (state_.chain == 0 || !state_.path.command.arc()) return;
+    for (int i = 0; i < 2; ++i) {
+        const int a = state_.path.command.axis[i];
+        if (outputs_[a].listener_count > 0) told_rate_[a] = rate_of(a);
+    }
+}
+
 void Chip::tell_listeners(Instant now) {
     for (int a = 0; a < axes_of_chip; ++a) {
         Output& output = outputs_[a];
@@ -204,7 +215,8 @@ void Chip::tell_listeners(Instant now) {
             if (output.edge_listener) flush_edges(a);
             if (output.listener_count > 0) {
                 const double rate = rate_of(a);
-                for (int i = 0; i < output.listener_count; ++i) output.listeners[i]->rate_changed(rate, now);
+                for (int i = 0; i < output.listener_count; ++i) output.listeners[i]->rate_changed(told_rate_[a], rate, now);
+                told_rate_[a] = rate;
             }
         }
         Axis& axis = state_.axis[a];

@@ -77,7 +77,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     class EncoderEar final : public sim::MotionListener {
       public:
         void crossed(Instant now) override { chip->encoder_crossed(axis, now); }
-        void rate_changed(double, Instant) override {}
+        void rate_changed(double, double, Instant) override {}
         Chip* chip = nullptr;
         int axis = 0;
         int slot = -1;
@@ -93,6 +93,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void update_outputs();
     void law_changed(int a) { changed_ |= 1u << a; }
     void law_changed_of(int generator);
+    void note_rates();
     void tell_listeners(Instant now);
     std::int64_t count_at(int axis, Instant t) const;
     double rate_of(int axis) const;
@@ -187,6 +188,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     sim::WireId emgn_{};
     sim::WireId int_n_{};
     unsigned changed_ = 0;  // axes whose law of motion changed in the present event
+    std::array<double, axes_of_chip> told_rate_{};  // what their listeners heard last, or what it has drifted to since
 };
 
 }  // namespace motionrack::mcx314

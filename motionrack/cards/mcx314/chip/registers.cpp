@@ -32,6 +32,7 @@ void Chip::reset() {
 void Chip::write(std::uint32_t offset, std::uint16_t value) {
     const Instant now = kernel_.now();
     advance_to(tick_of(now));
+    note_rates();
     for (int a = 0; a < axes_of_chip; ++a) {
         if (!(state_.selected >> a & 1u)) continue;
         Axis& axis = state_.axis[a];

@@ -124,8 +124,12 @@ Result<void> Driver::AutoDec(unsigned axes) {
     return {};
 }
 
+Result<void> Driver::SetDecPoint(unsigned axes, std::int64_t point) {
+    return checked(axes, cmd::DP, point, 0, 268'435'455, "The manual deceleration point DP");
+}
+
 Result<void> Driver::ManualDec(unsigned axes, std::int64_t point) {
-    MOTIONRACK_CHECK(checked(axes, cmd::DP, point, 0, 268'435'455, "The manual deceleration point DP"));
+    MOTIONRACK_CHECK(SetDecPoint(axes, point));
     for (int i = 0; i < 4; ++i)
         if (axes >> i & 1) write_mode(1u << i, 3, static_cast<std::uint16_t>(mode_[i][2] | 0x0001u));
     return {};

@@ -61,6 +61,8 @@ class Driver {
     Result<void> AutoDec(unsigned axes);
     /// Decelerates after `point` pulses, 0 .. 268,435,455.
     Result<void> ManualDec(unsigned axes, std::int64_t point);
+    /// The point alone, also while driving with manual deceleration.
+    Result<void> SetDecPoint(unsigned axes, std::int64_t point);
     /// S-curve or T-curve for the next drives (WR3 SACC).
     void SetSCurve(unsigned axes, bool on);
 
