@@ -53,6 +53,42 @@ class Edges final : public sim::EdgeListener {
     int axis_;
 };
 
+// Writes down the changes of the interrupt line.
+class Requests final : public sim::Kernel::WireObserver {
+  public:
+    void wire_changed(sim::WireId changed, int level, Instant now) override {
+        if (changed == wire) list.push_back({now / (one_tick / 2), level == 0});
+    }
+    sim::WireId wire{};
+    std::vector<Request> list;
+};
+
+// Watches range after range of one axis' count.
+class Watcher final : public sim::MotionListener {
+  public:
+    void begin(sim::Motion& motion, int axis) {
+        motion_ = &motion;
+        axis_ = axis;
+        slot_ = motion.listen(*this);
+    }
+    void watch(std::int64_t count) {
+        const std::int64_t far = reach(axis_, list.size());
+        motion_->watch(slot_, count - far, count + far);
+    }
+    void crossed(Instant now) override {
+        const std::int64_t count = motion_->count(now);
+        list.push_back({now % one_tick == Duration{0} ? now / one_tick : -1, axis_, count});
+        watch(count);
+    }
+    void rate_changed(double, double, Instant) override {}
+    std::vector<Crossing> list;
+
+  private:
+    sim::Motion* motion_ = nullptr;
+    int axis_ = 0;
+    int slot_ = 0;
+};
+
 // A kernel with one chip, its wires and, perhaps, somebody who listens to its edges.
 class Bench {
   public:
@@ -61,9 +97,12 @@ class Bench {
         for (int a = 0; a < axis_count; ++a)
             for (int p = 0; p < pin_count; ++p) wires_[a][p] = kernel_.find_wire(std::string("c.") + "xyzu"[a] + pins[p]);
         emgn_ = kernel_.find_wire("c.emgn");
+        requests_.wire = chip_.interrupt_wire();
+        kernel_.observe_wires(&requests_);
+        for (int a = 0; a < axis_count && way.watch; ++a) watchers_[a].begin(chip_.pulses(a), a);
         kernel_.start();
+        for (int a = 0; a < axis_count && way.watch; ++a) watchers_[a].watch(0);
         for (int a = 0; a < axis_count && way.listen; ++a) chip_.pulses(a).listen_edges(&edges_[static_cast<std::size_t>(a)]);
-        for (int a = 0; a < axis_count; ++a) start_[a] = chip_.pulses(a).count(kernel_.now());
     }
 
     Outcome run() {
@@ -74,6 +113,8 @@ class Bench {
             if (i + 1 >= way_.snapshot_at && way_.snapshot_at != 0 && !disturbed_ && hand_.idle()) disturb(op);
         }
         sort_pulses(out_.pulses);
+        out_.requests = std::move(requests_.list);
+        for (int a = 0; a < axis_count; ++a) out_.crossings[a] = std::move(watchers_[a].list);
         return std::move(out_);
     }
 
@@ -112,7 +153,7 @@ class Bench {
             sight.value = read(op.offset);
         kernel_.settle();
         sight.interrupt = kernel_.level(chip_.interrupt_wire()) == 0;
-        for (int a = 0; a < axis_count; ++a) sight.count[a] = chip_.pulses(a).count(kernel_.now()) - start_[a];
+        for (int a = 0; a < axis_count; ++a) sight.count[a] = chip_.pulses(a).count(kernel_.now());
         return sight;
     }
 
@@ -126,25 +167,27 @@ class Bench {
     void disturb(const Op& op) {
         disturbed_ = true;
         const sim::Snapshot snapshot = kernel_.snapshot();
-        const std::size_t pulses = out_.pulses.size();
+        const std::size_t pulses = out_.pulses.size(), requests = requests_.list.size();
         chip_.write(14, 0), chip_.write(12, 100), chip_.write(0, 0x0F06), chip_.write(0, 0x0F20);
         run_on(kernel_.now() + 5000 * one_tick);
         chip_.write(0, 0x0F27);
         run_on(kernel_.now() + one_tick * (1 + op.tick % 700));
         kernel_.restore(snapshot);
         out_.pulses.resize(pulses);
+        requests_.list.resize(requests);
     }
 
     const Program& program_;
     const Way& way_;
     Random random_;
     Outcome out_;
+    Requests requests_;
     sim::Kernel kernel_;
     Hand hand_{kernel_};
     Chip chip_{kernel_, "c"};
     std::array<Edges, axis_count> edges_{Edges{out_.pulses, 0}, Edges{out_.pulses, 1}, Edges{out_.pulses, 2}, Edges{out_.pulses, 3}};
     std::array<std::array<sim::WireId, pin_count>, axis_count> wires_{};
-    std::array<std::int64_t, axis_count> start_{};
+    std::array<Watcher, axis_count> watchers_;
     sim::WireId emgn_{};
     bool disturbed_ = false;
 };

@@ -27,7 +27,7 @@ class Maker {
 
     Program make() {
         static constexpr std::int64_t lengths[] = {2'000, 2'000, 2'000, 2'000, 4'000, 4'000, 8'000, 8'000};
-        program_.ticks = random_.one_in(40) ? 200'000 : random_.of(lengths);
+        program_.ticks = random_.one_in(16) ? 200'000 : random_.of(lengths);
         long_ = program_.ticks > 100'000;
         static constexpr std::int64_t busyness[] = {300, 30, 6};
         busy_ = random_.of(busyness);
@@ -36,6 +36,7 @@ class Maker {
         nasty_ = random_.one_in(4);
         const std::int64_t theme = random_.between(0, 3);  // single axes, interpolation, both, everything
         initial();
+        if (random_.one_in(4)) retarget();
         while (now_ < program_.ticks) {
             action(theme);
             gap();
@@ -193,6 +194,30 @@ class Maker {
         if (random_.one_in(3)) data(some, 0x07, pulses());
         command(some, static_cast<int>(random_.one_in(4) ? random_.between(0x22, 0x23) : random_.between(0x20, 0x21)));
     }
+    // One drive whose speed, pulses and offset are rewritten again and again while it runs, with little else.
+    void retarget() {
+        const unsigned axis = 1u << random_.between(0, 3);
+        const std::int64_t start = start_speed(), r = range();
+        data(axis, 0x00, r);
+        data(axis, 0x04, start);
+        data(axis, 0x05, speed(start));
+        const std::int64_t most = program_.ticks * start / std::max<std::int64_t>(r, 16'000) + 2;  // pulses at the start speed
+        data(axis, 0x06, random_.between(0, most));
+        data(axis, 0x07, random_.between(0, most));
+        mode(axis, 3, drive_mode());
+        command(axis, random_.one_in(3) ? 0x22 : 0x20);
+        for (std::int64_t n = random_.between(1, 12); n > 0; --n) {
+            now_ += random_.between(0, program_.ticks / 10);
+            between_ = random_.one_in(2);
+            switch (random_.between(0, 7)) {
+                case 0: data(axis, 0x06, random_.between(0, most)); break;
+                case 1: data(axis, 0x0D, random_.between(0, 50)); break;
+                case 2: data(axis, 0x02, accel()); break;
+                case 3: command(axis, random_.one_in(2) ? 0x26 : 0x12), read(12); break;
+                default: data(axis, 0x05, speed(start)); break;
+            }
+        }
+    }
     void choose_axes() {
         int order[4] = {0, 1, 2, 3};
         for (int i = 3; i > 0; --i) std::swap(order[i], order[random_.between(0, i)]);
@@ -293,8 +318,15 @@ class Maker {
     }
     void look() {
         const unsigned axis = 1u << random_.between(0, 3);
-        switch (random_.between(0, 5)) {
+        switch (random_.between(0, 6)) {
             case 0: read(0); break;
+            case 6:  // as an interrupt handler does
+                for (unsigned a = 0; a < 4; ++a) {
+                    command(1u << a, 0x0F);
+                    read(6);
+                }
+                if (random_.one_in(2)) command(0, 0x3D);
+                break;
             case 1:
                 command(axis, 0x0F);
                 read(2 * static_cast<int>(random_.between(1, 3)));

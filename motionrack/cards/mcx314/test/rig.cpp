@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 namespace motionrack::mcx314::twin {
 
@@ -11,14 +12,43 @@ void sort_pulses(std::vector<Pulse>& pulses) {
                      [](const Pulse& a, const Pulse& b) { return a.tick != b.tick ? a.tick < b.tick : a.axis < b.axis; });
 }
 
+namespace {
+
+// Where watched ranges are left, from the pulses.
+void find_crossings(Outcome& out) {
+    std::array<std::int64_t, axis_count> count{}, middle{};
+    for (const Pulse& pulse : out.pulses) {
+        const int a = pulse.axis;
+        std::vector<Crossing>& crossings = out.crossings[static_cast<std::size_t>(a)];
+        count[a] += pulse.direction;
+        if (std::abs(count[a] - middle[a]) < reach(a, crossings.size())) continue;
+        crossings.push_back({pulse.tick, a, count[a]});
+        middle[a] = count[a];
+    }
+}
+
+}  // namespace
+
 Outcome run_on_twin(const Program& program) {
     Twin twin;
     Outcome out;
+    bool requested = false;
+    const auto note_request = [&](std::int64_t half_tick) {
+        if (twin.interrupt() == requested) return;
+        requested = !requested;
+        out.requests.push_back({half_tick, requested});
+    };
+    const auto run_to = [&](std::int64_t tick) {
+        while (twin.now() < tick) {
+            twin.tick();
+            note_request(2 * twin.now());
+        }
+    };
     out.sights.reserve(program.ops.size());
     for (const Op& op : program.ops) {
         const bool wire = op.kind == Op::Kind::input || op.kind == Op::Kind::emergency;
         const std::int64_t before = op.tick - (wire && !op.between ? 1 : 0);  // a wire at the instant of a tick counts for it
-        if (before > twin.now()) twin.run(before - twin.now());
+        run_to(before);
         Sight sight;
         switch (op.kind) {
             case Op::Kind::write: twin.write(op.offset, op.value); break;
@@ -30,11 +60,13 @@ Outcome run_on_twin(const Program& program) {
             sight.interrupt = twin.interrupt();
             for (int a = 0; a < axis_count; ++a) sight.count[a] = twin.count(a);
         }
+        note_request(2 * op.tick + op.between);
         out.sights.push_back(sight);
     }
-    if (!program.ops.empty()) twin.run(std::max<std::int64_t>(program.ops.back().tick - twin.now(), 0));
+    if (!program.ops.empty()) run_to(program.ops.back().tick);
     out.pulses = twin.pulses();
     sort_pulses(out.pulses);
+    find_crossings(out);
     return out;
 }
 
@@ -51,11 +83,31 @@ std::string first_pulse_difference(const std::vector<Pulse>& twin, const std::ve
            (b == chip.end() ? "has no more" : text_of(*b)) + "\n";
 }
 
+std::string first_request_difference(const std::vector<Request>& twin, const std::vector<Request>& chip) {
+    const auto [a, b] = std::mismatch(twin.begin(), twin.end(), chip.begin(), chip.end());
+    if (a == twin.end() && b == chip.end()) return "";
+    const auto text = [](const Request& r) {
+        return std::string(r.active ? "requested" : "cleared") + " at tick " + std::to_string(r.half_tick / 2) + (r.half_tick & 1 ? ".5" : "");
+    };
+    return "interrupt: twin " + (a == twin.end() ? "no more" : text(*a)) + ", chip " + (b == chip.end() ? "no more" : text(*b)) + "\n";
+}
+
+std::string first_crossing_difference(const std::vector<Crossing>& twin, const std::vector<Crossing>& chip) {
+    const auto [a, b] = std::mismatch(twin.begin(), twin.end(), chip.begin(), chip.end());
+    if (a == twin.end() && b == chip.end()) return "";
+    const auto text = [](const Crossing& c) {
+        return std::string(1, "XYZU"[c.axis]) + " = " + std::to_string(c.count) + " at tick " + std::to_string(c.tick);
+    };
+    return "watched count: twin " + (a == twin.end() ? "no more" : text(*a)) + ", chip " + (b == chip.end() ? "no more" : text(*b)) + "\n";
+}
+
 }  // namespace
 
-std::string difference(const Program& program, const Outcome& twin, const Outcome& chip, bool pulses) {
+std::string difference(const Program& program, const Outcome& twin, const Outcome& chip, const Way& way) {
     std::string out;
-    if (pulses) out = first_pulse_difference(twin.pulses, chip.pulses);
+    for (int a = 0; a < axis_count && way.watch; ++a) out += first_crossing_difference(twin.crossings[a], chip.crossings[a]);
+    if (way.listen) out = first_pulse_difference(twin.pulses, chip.pulses);
+    out += first_request_difference(twin.requests, chip.requests);
     for (std::size_t i = 0; i < program.ops.size(); ++i) {
         const Sight &t = twin.sights[i], &c = chip.sights[i];
         if (t == c) continue;

@@ -17,14 +17,35 @@ struct Sight {
     friend bool operator==(const Sight&, const Sight&) = default;
 };
 
+/// A change of the interrupt line, in half ticks.
+struct Request {
+    std::int64_t half_tick = 0;
+    bool active = false;
+    friend bool operator==(const Request&, const Request&) = default;
+};
+
+/// Somebody watched a range of an axis' count and was told that it was left.
+struct Crossing {
+    std::int64_t tick = 0;
+    int axis = 0;
+    std::int64_t count = 0;
+    friend bool operator==(const Crossing&, const Crossing&) = default;
+};
+
+/// How far the watched range number `n` of an axis reaches to both sides of the count at which it is set.
+constexpr std::int64_t reach(int axis, std::size_t n) { return 1 + static_cast<std::int64_t>((n * 29 + static_cast<std::size_t>(axis) * 7) % 61); }
+
 struct Outcome {
     std::vector<Sight> sights;   ///< one an op
     std::vector<Pulse> pulses;   ///< by tick, then axis; only if they were listened to
+    std::vector<Request> requests;
+    std::array<std::vector<Crossing>, axis_count> crossings;  ///< only if somebody watched
 };
 
 /// How a program is run: all ways must give the same outcome.
 struct Way {
     bool listen = true;              ///< somebody listens to the edges
+    bool watch = false;              ///< somebody watches ranges of the counts
     std::uint64_t slices = 0;        ///< seed of random cuts of the run between ops; 0: none
     std::size_t snapshot_at = 0;     ///< after this op the chip is saved, disturbed and restored; 0: never
 };
@@ -34,7 +55,7 @@ void sort_pulses(std::vector<Pulse>& pulses);
 
 Outcome run_on_twin(const Program& program);
 
-/// The first difference in words, or "" if there is none. Pulses are compared if both listened.
-std::string difference(const Program& program, const Outcome& twin, const Outcome& chip, bool pulses);
+/// The first difference in words, or "" if there is none; of pulses and crossings only if they were listened to.
+std::string difference(const Program& program, const Outcome& twin, const Outcome& chip, const Way& way);
 
 }  // namespace motionrack::mcx314::twin
