@@ -100,9 +100,10 @@ struct Arc {
     std::int64_t r2 = 0;
     std::int32_t octant = 0;
     std::int32_t finish_octant = 0;
-    bool clockwise = false;
-    bool lap = false;
-    bool finished = true;
+    std::int32_t clockwise = 0;
+    std::int32_t lap = 0;       ///< the start is past the finish in the finish's octant
+    std::int32_t finished = 1;
+    std::int32_t reserved = 0;  ///< no padding in a state that is compared by its bytes
 
     /// Centre and finish point relative to the start, 24-bit range.
     void begin(std::int64_t cx, std::int64_t cy, std::int64_t fx, std::int64_t fy, bool cw) {
@@ -149,7 +150,7 @@ struct Arc {
             finished = octant == finish_octant && !lap;  // its octant is behind: the finish point lies beyond the circle
             if (finished) break;
             octant = (octant + 1) % 8;
-            lap = false;
+            lap = 0;
             finished = octant == finish_octant && past_finish();
         }
         if (clockwise) steps[1] = -steps[1];

@@ -11,16 +11,6 @@ namespace {
 constexpr std::int64_t far = std::numeric_limits<std::int64_t>::max() / 4;
 constexpr const char* axis_letters = "xyzu";
 constexpr std::array<const char*, 10> input_names = {"in0", "in1", "in2", "in3", "expp", "expm", "inpos", "alarm", "lmtp", "lmtm"};
-constexpr int emergency_pin = 100;
-constexpr int output_pin = 200;  // + 16 * axis + (0 xpp, 1 xpm, 8 + n: nOUTn)
-
-std::int64_t floor_div(std::int64_t a, std::int64_t b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
-
-/// Encoder counts for one count of EP (WR2 PINMD, PIND).
-std::int64_t counts_per_ep(const Axis& axis) {
-    if (bit(axis.wr2, 9)) return 1;
-    return std::int64_t{1} << std::min(axis.wr2 >> 10 & 3, 2);
-}
 
 }  // namespace
 
@@ -49,8 +39,12 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name) : kernel_(kernel), id_(
             inputs_[a][i] = kernel_.add_wire(prefix + input_names[i], 1);
             kernel_.listen(inputs_[a][i], id_, 16 * a + static_cast<int>(i));
         }
-        kernel_.drive_lazily(kernel_.add_wire(prefix + "pp", 0), id_, output_pin + 16 * a);
-        kernel_.drive_lazily(kernel_.add_wire(prefix + "pm", 0), id_, output_pin + 16 * a + 1);
+        for (int i = 0; i < 2; ++i) {
+            pulse_wires_[a][i] = kernel_.add_wire(prefix + (i == 0 ? "pp" : "pm"), 0);
+            kernel_.drive_lazily(pulse_wires_[a][i], id_, output_pin + 16 * a + i);
+            encoder_wires_[a][i] = kernel_.add_wire(prefix + (i == 0 ? "eca" : "ecb"), 1);
+            kernel_.listen(encoder_wires_[a][i], id_, encoder_pin + 2 * a + i);
+        }
         for (int i = 0; i < 8; ++i) {
             general_outputs_[a][i] = kernel_.add_wire(prefix + "out" + std::to_string(i), 0);
             if (i >= 4) kernel_.drive_lazily(general_outputs_[a][i], id_, output_pin + 16 * a + 8 + i);
@@ -60,11 +54,9 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name) : kernel_(kernel), id_(
     kernel_.listen(emgn_, id_, emergency_pin);
     kernel_.add_wire(name + ".expls_n", 1);
     int_n_ = kernel_.add_wire(name + ".int_n", 1);
-    for (int a = 0; a < axes_of_chip; ++a) {
-        set_wants(a);
-        compare(a);
-    }
+    for (int a = 0; a < axes_of_chip; ++a) compare(a);
     state_.next_event = far;
+    kernel_.schedule(id_, Instant{0});
 }
 
 int Chip::Output::listen(sim::MotionListener& listener) {
@@ -73,62 +65,68 @@ int Chip::Output::listen(sim::MotionListener& listener) {
     return listener_count++;
 }
 
-void Chip::connect_encoder(int axis, sim::Motion& counts) {
-    EncoderEar& ear = ears_[axis];
-    ear.motion = &counts;
-    ear.slot = counts.listen(ear);
-    set_encoder_position(axis, state_.axis[axis].ep);
-}
-
-/// Inputs that are not enabled are not wanted, so that a wire that is made on demand (an index) costs nothing.
-void Chip::set_wants(int a) {
-    Axis& axis = state_.axis[a];
-    auto set = [&](Pin pin, bool wanted) {
-        const int i = static_cast<int>(pin);
-        kernel_.want(inputs_[a][i], id_, wanted);
-        const unsigned mask = 1u << i;
-        const bool high = !wanted || kernel_.level(inputs_[a][i]) != 0;
-        axis.levels = static_cast<std::uint16_t>(high ? axis.levels | mask : axis.levels & ~mask);
-    };
-    for (int i = 0; i < 4; ++i) set(static_cast<Pin>(i), bit(axis.wr1, 2 * i + 1));
-    set(Pin::exp_plus, false);
-    set(Pin::exp_minus, false);
-    set(Pin::in_position, bit(axis.wr2, 15));
-    set(Pin::alarm, bit(axis.wr2, 13));
-}
-
 // ---- time ---------------------------------------------------------------------------------------------------------------------
 
 void Chip::advance_to(std::int64_t to) {
     while (state_.tick < to) {
         if (state_.next_event > to) return skip(to - state_.tick);
-        skip(state_.next_event - 1 - state_.tick);
-        note_rates();
-        tick();
+        work_off(state_.next_event);
         reschedule();
     }
 }
 
 /// Finds the next interesting tick.
 void Chip::reschedule() {
-    std::int64_t ticks = far;
-    for (int a = 0; a < axes_of_chip; ++a)
-        if (state_.axis[a].gen.drive != Drive::idle) ticks = std::min(ticks, ticks_to_event(a));
-    state_.next_event = ticks >= far ? far : state_.tick + ticks;
+    std::int64_t next = far;
+    for (int a = 0; a < axes_of_chip; ++a) {
+        const Axis& axis = state_.axis[a];
+        if (axis.gen.drive != Drive::idle) {
+            if (axis.gen.next_tick <= state_.tick || axis.gen.look || !axis.gen.special_known) find_next_tick(a);
+            next = std::min(next, axis.gen.next_tick);
+        }
+        if (axis.pulses_wanted && axis.mark.active(state_.tick)) next = std::min(next, axis.mark.end());
+    }
+    state_.next_event = next;
+    stale_ = false;
 }
 
 /// After anything happened: everyone hears of it, and the kernel of the next event.
 void Chip::settle(Instant now) {
     tell_listeners(now);
     update_interrupt();
-    update_outputs();
-    reschedule();
-    kernel_.schedule(id_, state_.next_event >= far ? never : Instant{state_.next_event * rules::tick_100ps});
+    if (following_ != 0) show_wires(now);
+    if (stale_) reschedule();
+    Instant next = state_.next_event >= far ? never : Instant{state_.next_event * rules::tick_100ps};
+    for (const Axis& axis : state_.axis)
+        if (axis.crossed_now) next = now + Duration{1};  // a watch that is left already, told at the next instant
+    kernel_.schedule(id_, next);
 }
 
 void Chip::act(Instant now) {
+    if (!state_.begun) begin();
     advance_to(tick_of(now));
     settle(now);
+}
+
+/// Everybody has joined his wires: which of them matter, and how they stand.
+void Chip::begin() {
+    state_.begun = true;
+    for (int a = 0; a < axes_of_chip; ++a) {
+        set_wants(a);
+        watch_encoder(a);
+    }
+    kernel_.want(emgn_, id_, true);
+    state_.emergency_high = kernel_.level(emgn_) != 0;
+    note_followers();
+    stale_ = true;
+}
+
+/// What must be done before the chip's state is touched from outside at `now`: everything up to there.
+void Chip::catch_up(Instant now) {
+    if (!state_.begun) begin();
+    advance_to(tick_of(now));
+    note_rates();
+    stale_ = true;
 }
 
 void Chip::sync(Instant now) {
@@ -139,8 +137,11 @@ void Chip::sync(Instant now) {
 
 void Chip::on_wire(int pin, int wire_level, Instant now) {
     // A level that changes at the very instant of a tick counts for that tick.
+    if (!state_.begun) begin();
     advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
     note_rates();
+    stale_ = true;
+    if (pin >= encoder_pin) return encoder_lines((pin - encoder_pin) / 2, now);
     if (pin == emergency_pin) {
         state_.emergency_high = wire_level != 0;
     } else {
@@ -159,36 +160,6 @@ void Chip::update_interrupt() {
     state_.interrupt = active;
     kernel_.set_wire(int_n_, active ? 0 : 1);
     if (active) kernel_.break_run();
-}
-
-void Chip::update_outputs() {
-    for (int a = 0; a < axes_of_chip; ++a)
-        for (int i = 0; i < 4; ++i)
-            if (const int out = state_.wr4 >> (4 * a + i) & 1; kernel_.level(general_outputs_[a][i]) != out)
-                kernel_.set_wire(general_outputs_[a][i], out);
-}
-
-/// Levels that are looked at rather than followed: pulses, directions, nOUT4..7.
-int Chip::level_at(int pin, Instant now) const {
-    const int a = (pin - output_pin) / 16, which = (pin - output_pin) % 16;
-    const Axis& axis = state_.axis[a];
-    if (which >= 8) {
-        const int out = which - 8;
-        if (!bit(axis.wr3, 7)) return axis.wr3 >> (4 + out) & 1;
-        static constexpr std::array<int, 4> status_bits = {0, 1, 2, 4};  // CMP+, CMP-, ASND, DSND
-        return status1(a) >> status_bits[out - 4] & 1;
-    }
-    const bool one_pulse = bit(axis.wr2, 6), negative_pulses = bit(axis.wr2, 7), high_is_plus = bit(axis.wr2, 8);
-    if (one_pulse && which == 1) return (axis.direction > 0) == high_is_plus;
-    const Generator& gen = state_.axis[state_.chain >> a & 1u ? state_.master : a].gen;
-    bool active = false;
-    if (gen.drive != Drive::idle && gen.wait == 0 && gen.n > 0 && (one_pulse || (axis.direction > 0) == (which == 0))) {
-        // Half a period from the last basic pulse on, if this axis stepped with it.
-        const std::int64_t age = gen.acc / gen.speed, width = std::max<std::int64_t>(1, gen.range_now / gen.speed / 2);
-        const std::int64_t ago = (age + 1) * rules::tick_100ps;
-        active = age < width && (gen.drive != Drive::path || count_at(a, now) != count_at(a, now - Duration{ago}));
-    }
-    return active != negative_pulses;
 }
 
 // ---- motions ------------------------------------------------------------------------------------------------------------------
@@ -236,9 +207,12 @@ void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {
     Axis& axis = state_.axis[a];
     axis.watch[slot] = {below, above};
     for (Axis& each : state_.axis) each.gen.special_known = false;
-    if (axis.count <= below || axis.count >= above) axis.crossed_now = true;
-    // Told at once, but not from inside the call: the kernel comes back at this very instant.
-    kernel_.schedule(id_, kernel_.now());
+    stale_ = true;
+    const Instant now = kernel_.now();
+    const std::int64_t count = count_at(a, now);
+    if ((count <= below && below != sim::unwatched_below) || (count >= above && above != sim::unwatched_above)) axis.crossed_now = true;
+    // In an event of the chip's own settle() comes afterwards anyhow; else it is asked for, at this very instant.
+    kernel_.schedule(id_, axis.crossed_now ? now + Duration{1} : now);
 }
 
 std::int64_t Chip::count_at(int a, Instant t) const {
@@ -290,44 +264,5 @@ double Chip::rate_of(int a) const {
 std::int64_t Chip::pulses_made(int axis) { return state_.axis[axis].made; }
 std::int32_t Chip::lp(int axis) { return state_.axis[axis].lp; }
 std::int32_t Chip::ep(int axis) const { return encoder_position(state_.axis[axis], axis); }
-
-// ---- encoders -------------------------------------------------------------------------------------------------------------------
-
-std::int32_t Chip::encoder_position(const Axis& axis, int a) const {
-    if (!ears_[a].motion) return axis.ep;
-    const std::int64_t moved = ears_[a].motion->count(kernel_.now()) - axis.encoder_base;
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.ep) + static_cast<std::uint32_t>(floor_div(moved, counts_per_ep(axis))));
-}
-
-void Chip::set_encoder_position(int a, std::int32_t value) {
-    state_.axis[a].ep = value;
-    state_.axis[a].encoder_base = ears_[a].motion ? ears_[a].motion->count(kernel_.now()) : 0;
-}
-
-/// Where EP is compared, the encoder tells when a comparison may change.
-void Chip::watch_encoder(int a) {
-    const Axis& axis = state_.axis[a];
-    const EncoderEar& ear = ears_[a];
-    if (!ear.motion) return;
-    std::int64_t below = sim::unwatched_below, above = sim::unwatched_above;
-    if (bit(axis.wr2, 5) && ((axis.wr2 & 3u) != 0 || (axis.wr1 & 0x1E00u) != 0)) {
-        const std::int64_t ep_now = encoder_position(axis, a), ratio = counts_per_ep(axis);
-        const std::int64_t plus = axis.comp_plus, minus = axis.comp_minus;
-        for (const std::int64_t change : {plus, plus + 1, minus}) {  // comparisons differ below and from `change` on
-            const std::int64_t counts = axis.encoder_base + (change - axis.ep) * ratio;
-            if (change > ep_now) above = std::min(above, counts);
-            if (change <= ep_now) below = std::max(below, counts - 1);
-        }
-    }
-    ear.motion->watch(ear.slot, below, above);
-}
-
-void Chip::encoder_crossed(int a, Instant now) {
-    advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
-    compare(a);
-    watch_encoder(a);
-    for (Axis& axis : state_.axis) axis.gen.look = true;
-    settle(now);
-}
 
 }  // namespace motionrack::mcx314

@@ -53,10 +53,15 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void act(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;
     int level_at(int pin, Instant now) const override;
+    void wanted_changed(int pin, bool wanted, Instant now) override;
     void sync(Instant now) override;
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
   private:
+    static constexpr int emergency_pin = 100;
+    static constexpr int encoder_pin = 120;  // + 2 * axis + (0 xeca, 1 xecb)
+    static constexpr int output_pin = 200;   // + 16 * axis + (0 xpp, 1 xpm, 8 + n: nOUTn)
+
     /// One axis' pulses.
     class Output final : public sim::Motion {
       public:
@@ -89,8 +94,9 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void advance_to(std::int64_t tick);
     void reschedule();
     void settle(Instant now);
+    void begin();
+    void catch_up(Instant now);
     void update_interrupt();
-    void update_outputs();
     void law_changed(int a) { changed_ |= 1u << a; }
     void law_changed_of(int generator);
     void note_rates();
@@ -99,14 +105,25 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     double rate_of(int axis) const;
     void watch(int axis, int slot, std::int64_t below, std::int64_t above);
     void listen_edges(int axis, sim::EdgeListener* listener);
-    void encoder_crossed(int axis, Instant now);
-    void watch_encoder(int axis);
+
+    // wires.cpp: inputs and outputs
     void set_wants(int axis);
+    void update_outputs();
+    PulseMark mark_at(int a, std::int64_t tick) const;
+    int pulse_level(int a, int which, bool pulse, int direction) const;
+    int output_level(int a, int output) const;
+    void note_followers();
+    void show_wires(Instant now);
+
+    // encoder.cpp: EP
+    void encoder_crossed(int axis, Instant now);
+    void encoder_lines(int axis, Instant now);
+    void watch_encoder(int axis);
     std::int32_t encoder_position(const Axis& axis, int a) const;
     void set_encoder_position(int a, std::int32_t value);
 
     // tick.cpp: one tick by the rules
-    void tick();
+    void work_off(std::int64_t tick);
     void work(int a);
     bool inputs(int a);
     std::uint16_t active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const;
@@ -121,6 +138,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void compare(int a);
     std::uint32_t moved_by(int generator) const;
     void begin_segment(const PathCommand& command);
+    void mark_pulse(int a, unsigned stepped, std::int64_t tick);
     bool path_finished() const;
     int path_direction(int i) const;
 
@@ -134,20 +152,24 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void s_advance(int a);
 
     // horizon.cpp: closed form between interesting ticks
-    std::int64_t ticks_to_event(int a);
+    void find_next_tick(int a);
     std::int64_t ticks_to_speed_event(const Axis& axis) const;
     std::int64_t pulses_to_special(int a) const;
     std::int64_t pulses_until_steps(int generator, int axis, std::int64_t steps) const;
     std::int64_t pulses_to_final(int a) const;
     std::int64_t steps_to_threshold(int a, int direction) const;
+    bool compares(const Axis& axis) const;
+    std::int64_t steps_to_comparison(const Axis& axis, std::int32_t counter, int direction) const;
     bool walks_pulses(int a) const;
     std::int64_t phase_for(const Generator& gen, std::int64_t pulses) const;
     std::int64_t extra_steps(std::int64_t pulses) const;
     std::int64_t pulses_in(const Generator& gen, std::int64_t ticks) const;
     std::array<std::int64_t, 3> path_steps(std::int64_t pulses) const;
     void skip(std::int64_t ticks);
-    void skip_generator(int a, std::int64_t ticks);
-    void skip_pulses(int a, std::int64_t pulses);
+    void skip_phase(int a, std::int64_t ticks);
+    void skip_speed(Axis& axis, std::int64_t ticks) const;
+    void skip_pulses(int a, std::int64_t pulses, std::int64_t tick);
+    void look_at_in_position();
 
     // edges.cpp
     bool edges_wanted(int a) const;
@@ -180,13 +202,18 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
 
     sim::Kernel& kernel_;
     sim::DeviceId id_;
-    State state_;
+    State state_{};
     std::array<Output, axes_of_chip> outputs_;
     std::array<EncoderEar, axes_of_chip> ears_;
     std::array<std::array<sim::WireId, 10>, axes_of_chip> inputs_{};
     std::array<std::array<sim::WireId, 8>, axes_of_chip> general_outputs_{};
+    std::array<std::array<sim::WireId, 2>, axes_of_chip> pulse_wires_{};
+    std::array<std::array<sim::WireId, 2>, axes_of_chip> encoder_wires_{};
     sim::WireId emgn_{};
     sim::WireId int_n_{};
+    unsigned following_ = 0;  // axes whose lazily driven wires somebody follows
+    bool stale_ = false;      // the next interesting tick must be looked for again
+    unsigned moved_last_ = 0;  // axes that stepped in the basic pulse at hand
     unsigned changed_ = 0;  // axes whose law of motion changed in the present event
     std::array<double, axes_of_chip> told_rate_{};  // what their listeners heard last, or what it has drifted to since
 };

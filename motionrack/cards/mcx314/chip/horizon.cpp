@@ -11,27 +11,45 @@ namespace {
 
 constexpr std::int64_t far = std::numeric_limits<std::int64_t>::max() / 4;
 
+/// Ticks until va reaches 64,000; small numbers, divided as such.
+std::int64_t ticks_to_carry(std::int64_t speed_part, std::int64_t rate) {
+    const auto left = static_cast<std::uint32_t>(rules::speed_carry - speed_part), each = static_cast<std::uint32_t>(rate);
+    return (left + each - 1) / each;
+}
+
+/// In an S-ramp whose rate stays, ja goes round without effect.
+bool keeps_rate(const Generator& gen) {
+    return gen.phase == Phase::constant || (gen.phase == Phase::decreasing && gen.rate <= 1);
+}
+
 }  // namespace
 
 // ---- the next interesting tick ------------------------------------------------------------------------------------------------
 
-/// Ticks until generator `a` needs a tick worked in full (>= 1), far if never.
-std::int64_t Chip::ticks_to_event(int a) {
-    Axis& axis = state_.axis[a];
-    Generator& gen = axis.gen;
-    if (gen.drive == Drive::idle) return far;
-    if (gen.wait > 0) return gen.wait + 1;
-    if (gen.look) return 1;
-    const std::int64_t ticks = ticks_to_speed_event(axis);
+/// The next tick at which generator `a` does more than add up, and whether that is a step of its speed only.
+void Chip::find_next_tick(int a) {
+    Generator& gen = state_.axis[a].gen;
+    gen.plain = false;
+    if (gen.wait > 0 || gen.look) {
+        gen.next_tick = state_.tick + gen.wait + 1;
+        if (gen.special_known) return;
+    }
     if (!gen.special_known) {
         const std::int64_t pulses = pulses_to_special(a);
         gen.next_special = pulses >= far ? far : gen.n + pulses;
         gen.special_known = true;
+        if (gen.wait > 0 || gen.look) return;
     }
-    if (gen.next_special >= far) return ticks;
+    const std::int64_t ticks = ticks_to_speed_event(state_.axis[a]);
+    gen.next_tick = state_.tick + ticks;
+    if (gen.next_special >= far) {
+        gen.plain = true;
+        if (ticks >= far) gen.next_tick = far;
+        return;
+    }
     const std::int64_t phase = phase_for(gen, gen.next_special - gen.n) - gen.acc;
-    if (ticks < far && ticks * gen.speed < phase) return ticks;
-    return std::max<std::int64_t>(1, std::min(ticks, rules::ceil_div(phase, gen.speed)));
+    gen.plain = ticks < far && ticks * gen.speed < phase;
+    if (!gen.plain) gen.next_tick = state_.tick + std::max<std::int64_t>(1, rules::ceil_div(phase, gen.speed));
 }
 
 std::int64_t Chip::ticks_to_speed_event(const Axis& axis) const {
@@ -43,13 +61,13 @@ std::int64_t Chip::ticks_to_speed_event(const Axis& axis) const {
         if (want != gen.ramp) return 1;
         if (gen.ramp == 0) return far;
         const bool own = gen.ramp < 0 && gen.own_deceleration;
-        return rules::ceil_div(rules::speed_carry - gen.speed_part, rules::used_speed(own ? axis.decel : axis.accel));
+        return ticks_to_carry(gen.speed_part, rules::used_speed(own ? axis.decel : axis.accel));
     }
     if (gen.final && !gen.final_seen) return 1;
     if (gen.ramp == 0) return gen.speed != to ? 1 : far;
-    const std::int64_t jerk = rules::jerk_ticks_per_k * rules::used_jerk(axis.jerk) - gen.rate_part;
-    const std::int64_t step = gen.rate > 0 ? rules::ceil_div(rules::speed_carry - gen.speed_part, gen.rate) : far;
-    return std::max<std::int64_t>(1, std::min(jerk, step));
+    const std::int64_t step = gen.rate > 0 ? ticks_to_carry(gen.speed_part, gen.rate) : far;
+    if (keeps_rate(gen)) return step;
+    return std::max<std::int64_t>(1, std::min(rules::jerk_ticks_per_k * rules::used_jerk(axis.jerk) - gen.rate_part, step));
 }
 
 /// Basic pulses until one does more than step its axes (>= 1), far if never.
@@ -103,24 +121,29 @@ std::int64_t Chip::pulses_to_final(int a) const {
 /// Steps of an axis in `direction` until a limit, a comparison or a watched count is passed (>= 1), far if never.
 std::int64_t Chip::steps_to_threshold(int a, int direction) const {
     const Axis& axis = state_.axis[a];
+    if (axis.pulses_wanted || (bit(axis.wr1, 8) && !(axis.flags & 1u))) return 1;
     std::int64_t steps = far;
-    auto at = [&steps](std::int64_t distance) {
-        if (distance >= 1) steps = std::min(steps, distance);
-    };
-    for (const Watch& watch : axis.watch) {
-        if (direction > 0 && watch.above != sim::unwatched_above) at(std::max<std::int64_t>(1, watch.above - axis.count));
-        if (direction < 0 && watch.below != sim::unwatched_below) at(std::max<std::int64_t>(1, axis.count - watch.below));
+    for (int i = 0; i < outputs_[a].listener_count; ++i) {
+        const Watch& watch = axis.watch[i];
+        if (direction > 0 && watch.above != sim::unwatched_above) steps = std::min(steps, watch.above - axis.count);
+        if (direction < 0 && watch.below != sim::unwatched_below) steps = std::min(steps, axis.count - watch.below);
     }
-    if (bit(axis.wr1, 8) && !(axis.flags & 1u)) at(1);
-    const bool compares = (axis.wr1 & 0x1E00u) != 0 || (axis.wr2 & 3u) != 0;
-    if (!compares || bit(axis.wr2, 5)) return steps;
-    const std::int64_t lp = axis.lp, plus = axis.comp_plus, minus = axis.comp_minus;
-    if (direction > 0) {
-        for (const std::int64_t value : {plus, plus + 1, minus}) at(value - lp);
-        at((std::int64_t{1} << 31) - lp);
-    } else {
-        for (const std::int64_t value : {plus - 1, minus - 1}) at(lp - value);
-        at(lp + (std::int64_t{1} << 31) + 1);
+    if (compares(axis) && !bit(axis.wr2, 5)) steps = std::min(steps, steps_to_comparison(axis, axis.lp, direction));
+    return std::max<std::int64_t>(1, steps);
+}
+
+/// Whether anything hangs on the comparisons with COMP+ and COMP-: interrupts, software limits, outputs.
+bool Chip::compares(const Axis& axis) const {
+    return (axis.wr1 & 0x1E00u) != 0 || (axis.wr2 & 3u) != 0 || (axis.outputs_wanted && bit(axis.wr3, 7));
+}
+
+/// Steps in `direction` until a comparison may turn out differently (>= 1); counters wrap at 32 bits.
+std::int64_t Chip::steps_to_comparison(const Axis& axis, std::int32_t counter, int direction) const {
+    const std::int64_t at = counter, plus = axis.comp_plus, minus = axis.comp_minus;
+    std::int64_t steps = direction > 0 ? (std::int64_t{1} << 31) - at : at + (std::int64_t{1} << 31) + 1;
+    for (const std::int64_t first : {plus, plus + 1, minus}) {  // comparisons differ below and from `first` on
+        const std::int64_t distance = direction > 0 ? first - at : at - first + 1;
+        if (distance >= 1) steps = std::min(steps, distance);
     }
     return steps;
 }
@@ -210,37 +233,45 @@ void Chip::skip(std::int64_t ticks) {
     if (ticks <= 0) return;
     for (int a = 0; a < axes_of_chip; ++a) {
         Axis& axis = state_.axis[a];
-        if (axis.gen.drive != Drive::idle) skip_generator(a, ticks);
-        if (axis.waits_position && (!bit(axis.wr2, 15) || level(axis, Pin::in_position) == bit(axis.wr2, 14)))
-            axis.waits_position = false;
+        if (axis.gen.drive == Drive::idle) continue;
+        skip_speed(axis, ticks);
+        skip_phase(a, ticks);
     }
+    look_at_in_position();
     state_.tick += ticks;
 }
 
-void Chip::skip_generator(int a, std::int64_t ticks) {
-    Axis& axis = state_.axis[a];
+/// `ticks` of the third step, in which the speed does not change; before skip_phase, which lets the start ticks pass.
+void Chip::skip_speed(Axis& axis, std::int64_t ticks) const {
     Generator& gen = axis.gen;
-    const std::int64_t waited = std::min<std::int64_t>(gen.wait, ticks);
-    gen.wait -= static_cast<std::int32_t>(waited);
-    ticks -= waited;
-    if (ticks == 0) return;
-    const std::int64_t pulses = pulses_in(gen, ticks);
-    if (pulses > 0 && edges_wanted(a)) make_edges(a, waited, pulses);
-    gen.acc += ticks * gen.speed;
-    if (pulses > 0) {
-        gen.acc -= phase_for(gen, pulses);
-        skip_pulses(a, pulses);
-    }
     if (gen.ramp == 0) return;
+    ticks -= std::min<std::int64_t>(gen.wait, ticks);
     if (gen.s_curve) {
         gen.rate_part += ticks;
-    } else {
+        const std::int64_t jerk = rules::jerk_ticks_per_k * rules::used_jerk(axis.jerk);
+        if (gen.rate_part >= jerk && ticks > 0) gen.rate_part = (std::min(gen.rate_part - ticks, jerk - 1) + ticks) % jerk;
+    } else if (ticks > 0)
         gen.rate = rules::used_speed(gen.ramp < 0 && gen.own_deceleration ? axis.decel : axis.accel);
-    }
     gen.speed_part += ticks * gen.rate;
 }
 
-void Chip::skip_pulses(int a, std::int64_t pulses) {
+/// `ticks` of the second step, of which none but perhaps the last has a pulse that does more than step its axes.
+void Chip::skip_phase(int a, std::int64_t ticks) {
+    Generator& gen = state_.axis[a].gen;
+    const std::int64_t waited = std::min<std::int64_t>(gen.wait, ticks);
+    gen.wait -= static_cast<std::int32_t>(waited);
+    ticks -= waited;
+    if (ticks <= 0) return;
+    const std::int64_t pulses = pulses_in(gen, ticks);
+    if (pulses > 0 && edges_wanted(a)) make_edges(a, waited, pulses);
+    gen.acc += ticks * gen.speed;
+    if (pulses == 0) return;
+    gen.acc -= phase_for(gen, pulses);
+    skip_pulses(a, pulses, state_.tick + waited + ticks);
+}
+
+/// The next `pulses` basic pulses, acc being what it is at tick `at`, after them.
+void Chip::skip_pulses(int a, std::int64_t pulses, std::int64_t at) {
     Generator& gen = state_.axis[a].gen;
     auto add = [this](int i, std::int64_t steps) {
         if (steps == 0) return;
@@ -251,14 +282,18 @@ void Chip::skip_pulses(int a, std::int64_t pulses) {
         compare(i);
         if (bit(axis.wr1, 8)) axis.flags |= 1u;
     };
+    unsigned stepped = 1u << a;
     if (gen.drive == Drive::path) {
         const std::array<std::int64_t, 3> steps = path_steps(pulses);
         const std::array<std::int64_t, 3> before = path_steps(pulses - 1);
-        int stepped = 0;
-        for (int i = 0; i < state_.path.command.count; ++i) stepped += steps[i] != before[i];
-        state_.stepped = stepped;
-        gen.range_now = state_.path.range_for[static_cast<std::size_t>(stepped - 1)];
-        for (int i = 0; i < state_.path.command.count; ++i) add(state_.path.command.axis[i], steps[i]);
+        stepped = 0;
+        int count = 0;
+        for (int i = 0; i < state_.path.command.count; ++i) {
+            if (steps[i] != before[i]) ++count, stepped |= 1u << state_.path.command.axis[i];
+            add(state_.path.command.axis[i], steps[i]);
+        }
+        state_.stepped = count;
+        gen.range_now = state_.path.range_for[static_cast<std::size_t>(count - 1)];
         if (state_.path.command.arc()) state_.path.arc.at = state_.path.arc.after(pulses);
     } else {
         add(a, pulses * state_.axis[a].direction);
@@ -266,6 +301,7 @@ void Chip::skip_pulses(int a, std::int64_t pulses) {
     gen.n += pulses;
     if (gen.ramp > 0) gen.accel_pulses += pulses;
     if (gen.ramp < 0 && !gen.final) gen.accel_pulses = std::max<std::int64_t>(0, gen.accel_pulses - pulses);
+    mark_pulse(a, stepped, at);
 }
 
 }  // namespace motionrack::mcx314

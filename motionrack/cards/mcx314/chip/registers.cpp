@@ -16,27 +16,36 @@ void Chip::reset() {
         fresh.count = axis.count;
         fresh.made = axis.made;
         fresh.watch = axis.watch;
+        fresh.pulses_wanted = axis.pulses_wanted;
+        fresh.outputs_wanted = axis.outputs_wanted;
+        fresh.encoder_lines = axis.encoder_lines;
+        fresh.shown = axis.shown;
+        fresh.mark = axis.mark;
         axis = fresh;
         set_encoder_position(a, 0);
         set_wants(a);
+        watch_encoder(a);
     }
     state_.selected = 1;
     state_.wr4 = state_.wr5 = state_.wr6 = state_.wr7 = state_.rr6 = state_.rr7 = 0;
     state_.chain = 0;
     state_.queued = state_.decel_enabled = state_.path_interrupt = false;
     for (int a = 0; a < axes_of_chip; ++a) compare(a);
+    update_outputs();
 }
 
 // ---- writing ------------------------------------------------------------------------------------------------------------------
 
 void Chip::write(std::uint32_t offset, std::uint16_t value) {
     const Instant now = kernel_.now();
-    advance_to(tick_of(now));
-    note_rates();
+    catch_up(now);
     for (int a = 0; a < axes_of_chip; ++a) {
         if (!(state_.selected >> a & 1u)) continue;
         Axis& axis = state_.axis[a];
-        if (offset == r1) axis.wr1 = value;
+        if (offset == r1) {
+            if (bit(axis.wr2, 5)) compare(a);  // EP may have moved unwatched: only what comes from now on counts
+            axis.wr1 = value;
+        }
         if (offset == r2) {
             const std::int32_t ep_now = encoder_position(axis, a);
             axis.wr2 = value;
@@ -51,7 +60,10 @@ void Chip::write(std::uint32_t offset, std::uint16_t value) {
     }
     switch (offset) {
         case r0: command(value); break;
-        case r4: state_.wr4 = value; break;
+        case r4:
+            state_.wr4 = value;
+            update_outputs();
+            break;
         case r5: state_.wr5 = value; break;
         case r6: state_.wr6 = value; break;
         case r7: state_.wr7 = value; break;
@@ -277,7 +289,7 @@ int Chip::first_selected() const {
 
 std::uint16_t Chip::read(std::uint32_t offset) {
     const Instant now = kernel_.now();
-    advance_to(tick_of(now));
+    catch_up(now);
     const std::uint16_t value = peek(offset);
     if (offset == r3) {
         state_.axis[first_selected()].flags = 0;

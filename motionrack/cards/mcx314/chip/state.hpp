@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <motionrack/cards/mcx314/arithmetic.hpp>
+#include <motionrack/sim/blocks/quadrature_counter.hpp>
 #include <motionrack/sim/motion.hpp>
+#include <type_traits>
 
 namespace motionrack::mcx314 {
 
@@ -50,6 +52,8 @@ struct Generator {
     bool ask_decelerating = false, ask_immediate = false;
     bool look = false;            ///< the next working tick must be worked in full (inputs, limits or commands changed)
     bool special_known = false;   ///< next_special is up to date
+    bool plain = false;           ///< what comes at next_tick is a step of the speed and nothing else
+    std::array<std::uint8_t, 2> reserved{};
     std::int32_t wait = 0;
     std::int32_t ramp = 0;
     std::int64_t range = 0, range_now = 0, acc = 0;
@@ -58,12 +62,28 @@ struct Generator {
     std::int64_t speed_steps = 0, aim = 0;   ///< dvup
     std::int64_t n = 0, accel_pulses = 0;
     std::int64_t next_special = 0;           ///< the next n at which more happens than a plain pulse
+    std::int64_t next_tick = 0;              ///< the next tick that is not plain closed form
 };
 
 /// A range of counts that a listener watches.
 struct Watch {
     std::int64_t below = sim::unwatched_below;
     std::int64_t above = sim::unwatched_above;
+};
+
+/// The last pulse on an axis' wires, as phases: it came at tick - acc / speed.
+struct PulseMark {
+    std::int64_t tick = 0;
+    std::int64_t acc = 0;
+    std::int32_t speed = 0;      ///< 0: it is over
+    std::int32_t range = 0;      ///< Rnow after it
+    std::int32_t direction = 0;
+    std::int32_t reserved = 0;
+
+    std::int64_t width() const { return std::max<std::int64_t>(1, range / speed / 2); }
+    /// The tick at which it ends.
+    std::int64_t end() const { return tick - acc / speed + width(); }
+    bool active(std::int64_t at) const { return speed > 0 && at < end(); }
 };
 
 struct Axis {
@@ -73,11 +93,16 @@ struct Axis {
     std::uint16_t causes = 0, finished = 0, flags = 0, compared = 0;
     std::uint16_t levels = 0x3FF;  ///< input pins as last heard, bit Pin
     std::int32_t lp = 0, comp_plus = 0, comp_minus = 0;
-    std::int32_t ep = 0;           ///< where no encoder is connected; else EP at encoder_base
-    std::int64_t encoder_base = 0; ///< the encoder's count when EP was `ep`
+    std::int32_t ep = 0;           ///< EP where no encoder is connected
+    sim::ClosedFormCounter encoder;  ///< EP behind a connected one
     std::int32_t direction = 1;
     std::int32_t held_command = 0;
     bool hold = false, waits_position = false, crossed_now = false;
+    bool pulses_wanted = false, outputs_wanted = false;  ///< somebody follows xpp, xpm; nOUT4..7
+    std::uint8_t encoder_lines = 3;                      ///< xeca, xecb as last heard
+    std::array<std::uint8_t, 2> reserved{};
+    std::int64_t shown = 0;        ///< `made` when the pulse wires were set last
+    PulseMark mark;
     std::int64_t count = 0;        ///< net pulses since the start
     std::int64_t made = 0;         ///< pulses of both directions
     std::array<Watch, sim::Motion::max_listeners> watch{};
@@ -93,12 +118,15 @@ struct State {
     std::uint16_t selected = 1;
     bool emergency_high = true;
     bool queued = false, decel_enabled = false, path_interrupt = false, interrupt = false;
+    bool begun = false;       ///< the wires have been looked at since the world began
     std::uint32_t chain = 0;  ///< axes of the interpolation that runs
     std::int32_t master = 0;
     std::int32_t stepped = 1; ///< axes stepped in the last basic pulse
     Path path;
     PathCommand queue;
 };
+
+static_assert(std::has_unique_object_representations_v<State>, "equal chips have equal bytes: no padding");
 
 /// Input pins of an axis, in the order of RR4 and RR5, then the limits.
 enum class Pin : std::uint8_t { in0, in1, in2, in3, exp_plus, exp_minus, in_position, alarm, limit_plus, limit_minus };

@@ -8,10 +8,36 @@ constexpr unsigned flag_pulse = 1u << 0;
 constexpr unsigned flag_drive_end = 1u << 7;
 }  // namespace
 
-void Chip::tick() {
-    ++state_.tick;
-    for (int a = 0; a < axes_of_chip; ++a)
-        if (state_.axis[a].gen.drive != Drive::idle) work(a);
+/// Everything up to and including tick `to`, the next interesting one: generators that only change their speed there, or nothing,
+/// do so in closed form, the others work that tick by the rules.
+void Chip::work_off(std::int64_t to) {
+    const std::int64_t from = state_.tick;
+    for (int a = 0; a < axes_of_chip; ++a) {
+        Axis& axis = state_.axis[a];
+        if (axis.gen.drive == Drive::idle) continue;
+        state_.tick = from;
+        if (axis.gen.next_tick > to) {
+            skip_speed(axis, to - from);
+            skip_phase(a, to - from);
+        } else if (axis.gen.plain) {
+            skip_speed(axis, to - from - 1);
+            skip_phase(a, to - from);
+            state_.tick = to;
+            speed_step(a);
+        } else {
+            skip_speed(axis, to - from - 1);
+            skip_phase(a, to - from - 1);
+            state_.tick = to - 1;
+            if (axis.gen.drive == Drive::path) note_rates();
+            state_.tick = to;
+            work(a);
+        }
+    }
+    state_.tick = to;
+    look_at_in_position();
+}
+
+void Chip::look_at_in_position() {
     for (Axis& axis : state_.axis)
         if (axis.waits_position && (!bit(axis.wr2, 15) || level(axis, Pin::in_position) == bit(axis.wr2, 14)))
             axis.waits_position = false;
@@ -125,6 +151,7 @@ void Chip::end(int a) {
 bool Chip::pulse(int a) {
     Generator& gen = state_.axis[a].gen;
     ++gen.n;
+    moved_last_ = 0;
     const int stepped = step_axes(a);
     if (gen.drive == Drive::path) {
         state_.stepped = stepped;
@@ -133,6 +160,7 @@ bool Chip::pulse(int a) {
     if (gen.ramp > 0) ++gen.accel_pulses;
     if (gen.ramp < 0 && !gen.final && gen.accel_pulses > 0) --gen.accel_pulses;
     if (gen.n >= gen.next_special) gen.special_known = false;
+    mark_pulse(a, moved_last_, state_.tick);
     bool beyond = false;
     const std::uint32_t moved = moved_by(a);
     for (int i = 0; i < axes_of_chip; ++i) beyond = beyond || ((moved >> i & 1) && beyond_software_limit(i));
@@ -179,10 +207,23 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
     axis.count += direction;
     ++axis.made;
     axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & flag_pulse));
+    moved_last_ |= 1u << a;
     compare(a);
     if (outputs_[a].edge_listener) add_edge(a, tick_now, direction);
     for (const Watch& watch : axis.watch)
         if (axis.count <= watch.below || axis.count >= watch.above) axis.crossed_now = true;
+}
+
+/// The wires of the generator's axes after a basic pulse: `stepped` have a new pulse, the others' last one is over.
+void Chip::mark_pulse(int a, unsigned stepped, std::int64_t tick_now) {
+    const Generator& gen = state_.axis[a].gen;
+    const std::uint32_t moved = moved_by(a);
+    for (int i = 0; i < axes_of_chip; ++i) {
+        if (!(moved >> i & 1)) continue;
+        Axis& axis = state_.axis[i];
+        axis.mark = {tick_now, gen.acc, stepped >> i & 1 ? static_cast<std::int32_t>(gen.speed) : 0,
+                     static_cast<std::int32_t>(gen.range_now), axis.direction, 0};
+    }
 }
 
 bool Chip::path_finished() const {

@@ -1,0 +1,88 @@
+// EP: a counter behind the encoder that is connected, in closed form, or behind whatever moves the lines xeca and xecb.
+#include <motionrack/cards/mcx314/chip/chip.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+/// The edges that EP counts (WR2 PINMD, PIND1,0); up/down pulses and the undefined 11 count all.
+sim::Edges edges_of(const Axis& axis) {
+    if (bit(axis.wr2, 9)) return sim::Edges::all;
+    switch (axis.wr2 >> 10 & 3) {
+        case 1: return sim::Edges::both_of_a;
+        case 2: return sim::Edges::rising_a;
+        default: return sim::Edges::all;
+    }
+}
+
+}  // namespace
+
+void Chip::connect_encoder(int a, sim::Motion& counts) {
+    EncoderEar& ear = ears_[a];
+    MOTIONRACK_ASSERT(ear.motion == nullptr);
+    ear.motion = &counts;
+    ear.slot = counts.listen(ear);
+    set_encoder_position(a, state_.axis[a].ep);
+}
+
+std::int32_t Chip::encoder_position(const Axis& axis, int a) const {
+    if (!ears_[a].motion) return axis.ep;
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.encoder.value(*ears_[a].motion, kernel_.now())));
+}
+
+/// Writes EP; also takes up the edges that WR2 asks for.
+void Chip::set_encoder_position(int a, std::int32_t value) {
+    Axis& axis = state_.axis[a];
+    axis.ep = value;
+    axis.encoder = sim::ClosedFormCounter(edges_of(axis), false);
+    if (ears_[a].motion) axis.encoder.set(value, *ears_[a].motion, kernel_.now());
+}
+
+/// Where EP is compared, the encoder tells when a comparison may change.
+void Chip::watch_encoder(int a) {
+    const Axis& axis = state_.axis[a];
+    const EncoderEar& ear = ears_[a];
+    if (!ear.motion) return;
+    if (!bit(axis.wr2, 5) || !compares(axis)) {
+        ear.motion->watch(ear.slot, sim::unwatched_below, sim::unwatched_above);
+        return;
+    }
+    const std::int64_t position = axis.encoder.value(*ear.motion, kernel_.now());
+    const auto counter = static_cast<std::int32_t>(static_cast<std::uint32_t>(position));
+    axis.encoder.watch(*ear.motion, ear.slot, position - steps_to_comparison(axis, counter, -1),
+                       position + steps_to_comparison(axis, counter, +1));
+}
+
+void Chip::encoder_crossed(int a, Instant now) {
+    advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
+    note_rates();
+    stale_ = true;
+    compare(a);
+    watch_encoder(a);
+    for (Axis& axis : state_.axis) axis.gen.look = true;
+    settle(now);
+}
+
+/// The lines of an encoder that nobody connected as a whole: every change is counted by itself.
+void Chip::encoder_lines(int a, Instant now) {
+    Axis& axis = state_.axis[a];
+    if (ears_[a].motion) return;
+    const unsigned lines = (kernel_.level(encoder_wires_[a][0]) != 0 ? 1u : 0u) | (kernel_.level(encoder_wires_[a][1]) != 0 ? 2u : 0u);
+    const unsigned before = axis.encoder_lines;
+    axis.encoder_lines = static_cast<std::uint8_t>(lines);
+    int change = 0;
+    if (bit(axis.wr2, 9)) {
+        const unsigned risen = lines & ~before;  // up/down pulses: A counts up, B counts down
+        change = static_cast<int>(risen & 1u) - static_cast<int>(risen >> 1);
+    } else {
+        sim::QuadratureDecoder decoder(edges_of(axis), static_cast<std::uint8_t>(before));
+        change = decoder.lines(static_cast<std::uint8_t>(lines));
+    }
+    if (change == 0) return;
+    axis.ep = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.ep) + static_cast<std::uint32_t>(change));
+    compare(a);
+    for (Axis& each : state_.axis) each.gen.look = true;
+    settle(now);
+}
+
+}  // namespace motionrack::mcx314

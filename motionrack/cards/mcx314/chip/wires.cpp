@@ -1,0 +1,130 @@
+// The pins: inputs that matter are followed, outputs are looked at unless somebody follows them.
+//
+//   xpp   ____/~~\____/~~\____   two-pulse mode: + on xpp, - on xpm; one-pulse mode: pulses on xpp, direction on xpm
+//             |<>| half a period, but over at the axis' next basic pulse
+#include <motionrack/cards/mcx314/chip/chip.hpp>
+
+namespace motionrack::mcx314 {
+
+// ---- inputs -------------------------------------------------------------------------------------------------------------------
+
+/// Inputs that are not enabled are not wanted, so that a wire that is made on demand (an index) costs nothing.
+void Chip::set_wants(int a) {
+    Axis& axis = state_.axis[a];
+    auto set = [&](Pin pin, bool wanted) {
+        const int i = static_cast<int>(pin);
+        kernel_.want(inputs_[a][i], id_, wanted);
+        const unsigned mask = 1u << i;
+        const bool high = !wanted || kernel_.level(inputs_[a][i]) != 0;
+        axis.levels = static_cast<std::uint16_t>(high ? axis.levels | mask : axis.levels & ~mask);
+    };
+    for (int i = 0; i < 4; ++i) set(static_cast<Pin>(i), bit(axis.wr1, 2 * i + 1));
+    set(Pin::exp_plus, false);
+    set(Pin::exp_minus, false);
+    set(Pin::in_position, bit(axis.wr2, 15));
+    set(Pin::alarm, bit(axis.wr2, 13));
+    set(Pin::limit_plus, true);
+    set(Pin::limit_minus, true);
+    for (int i = 0; i < 2; ++i) kernel_.want(encoder_wires_[a][i], id_, ears_[a].motion == nullptr);
+}
+
+// ---- outputs ------------------------------------------------------------------------------------------------------------------
+
+void Chip::update_outputs() {
+    for (int a = 0; a < axes_of_chip; ++a)
+        for (int i = 0; i < 4; ++i) kernel_.set_wire(general_outputs_[a][i], state_.wr4 >> (4 * a + i) & 1);
+}
+
+/// The axis' last pulse as it stands at tick `to`.
+PulseMark Chip::mark_at(int a, std::int64_t to) const {
+    const Axis& axis = state_.axis[a];
+    const bool on_path = (state_.chain >> a & 1u) != 0;
+    const Generator& gen = state_.axis[on_path ? state_.master : a].gen;
+    const std::int64_t ticks = to - state_.tick - gen.wait;
+    if (gen.drive == Drive::idle || ticks <= 0) return axis.mark;
+    const std::int64_t pulses = pulses_in(gen, ticks);
+    if (pulses == 0) return axis.mark;
+    PulseMark mark{to, gen.acc + ticks * gen.speed - phase_for(gen, pulses), static_cast<std::int32_t>(gen.speed),
+                   static_cast<std::int32_t>(gen.range_now), axis.direction, 0};
+    if (!on_path) return mark;
+    const auto after = path_steps(pulses), before = path_steps(pulses - 1);
+    int stepped = 0;
+    bool own = false;
+    for (int i = 0; i < state_.path.command.count; ++i) {
+        if (after[i] == before[i]) continue;
+        ++stepped;
+        if (state_.path.command.axis[i] == a) own = true;
+    }
+    if (!own) return state_.path.command.mask() >> a & 1u ? PulseMark{} : axis.mark;
+    mark.range = static_cast<std::int32_t>(state_.path.range_for[static_cast<std::size_t>(stepped - 1)]);
+    return mark;
+}
+
+int Chip::pulse_level(int a, int which, bool pulse, int direction) const {
+    const Axis& axis = state_.axis[a];
+    const bool one_pulse = bit(axis.wr2, 6), negative = bit(axis.wr2, 7), high_is_plus = bit(axis.wr2, 8);
+    if (one_pulse && which == 1) return (axis.direction > 0) == high_is_plus;
+    return (pulse && (one_pulse || (direction > 0) == (which == 0))) != negative;
+}
+
+/// nOUT4..7: bits of WR3, or the drive's status: CMP+, CMP-, ASND, DSND.
+int Chip::output_level(int a, int output) const {
+    static constexpr std::array<int, 4> status_bits = {0, 1, 2, 4};
+    const Axis& axis = state_.axis[a];
+    return bit(axis.wr3, 7) ? status1(a) >> status_bits[output - 4] & 1 : axis.wr3 >> (4 + output) & 1;
+}
+
+int Chip::level_at(int pin, Instant now) const {
+    const int a = (pin - output_pin) / 16, which = (pin - output_pin) % 16;
+    if (which >= 8) return output_level(a, which - 8);
+    const std::int64_t at = tick_of(now);
+    const PulseMark mark = mark_at(a, at);
+    return pulse_level(a, which, mark.active(at), mark.direction);
+}
+
+void Chip::wanted_changed(int, bool, Instant now) {
+    if (!state_.begun) return;
+    catch_up(now);
+    note_followers();
+    settle(now);
+}
+
+/// Whose wires are followed, so that every pulse is an event there.
+void Chip::note_followers() {
+    following_ = 0;
+    for (int a = 0; a < axes_of_chip; ++a) {
+        Axis& axis = state_.axis[a];
+        const bool pulses = kernel_.wanted(pulse_wires_[a][0]) || kernel_.wanted(pulse_wires_[a][1]);
+        bool outputs = false;
+        for (int i = 4; i < 8; ++i) outputs = outputs || kernel_.wanted(general_outputs_[a][i]);
+        if (pulses != axis.pulses_wanted || outputs != axis.outputs_wanted) {
+            for (Axis& each : state_.axis) each.gen.special_known = false;
+            axis.shown = axis.made;
+        }
+        axis.pulses_wanted = pulses;
+        axis.outputs_wanted = outputs;
+        if (pulses || outputs) following_ |= 1u << a;
+    }
+}
+
+/// Sets the wires that are followed.
+void Chip::show_wires(Instant now) {
+    const std::int64_t at = tick_of(now);
+    for (int a = 0; a < axes_of_chip; ++a) {
+        Axis& axis = state_.axis[a];
+        if (axis.pulses_wanted) {
+            const bool fresh = axis.shown != axis.made;
+            axis.shown = axis.made;
+            for (int which = 0; which < 2; ++which) {
+                const int level = pulse_level(a, which, axis.mark.active(at), axis.mark.direction);
+                const int idle = pulse_level(a, which, false, axis.mark.direction);
+                if (fresh && level != idle) kernel_.set_wire(pulse_wires_[a][which], idle);  // two pulses never melt into one
+                kernel_.set_wire(pulse_wires_[a][which], level);
+            }
+        }
+        if (axis.outputs_wanted)
+            for (int i = 4; i < 8; ++i) kernel_.set_wire(general_outputs_[a][i], output_level(a, i));
+    }
+}
+
+}  // namespace motionrack::mcx314
