@@ -1,0 +1,199 @@
+// The path, from above and in perspective: programmed (wide and pale) under driven (thin and dark).
+const [frameLow, frameHigh] = drawing.frame;
+const [travelLow, travelHigh] = drawing.travel;
+const frameMiddle = frameLow.map((low, i) => (low + frameHigh[i]) / 2);
+const frameSize = Math.max(1e-6, Math.hypot(...frameLow.map((low, i) => frameHigh[i] - low)));
+
+// Speed along each driven edge, and the colour for it: slow is blue, fast is orange.
+const edgeSpeed = new Float64Array(driven.t.length);
+let topEdgeSpeed = 0;
+for (let i = 1; i < driven.t.length; ++i) {
+  const span = driven.t[i] - driven.t[i - 1];
+  edgeSpeed[i] = span > 0 ? Math.hypot(driven.x[i] - driven.x[i - 1], driven.y[i] - driven.y[i - 1], driven.z[i] - driven.z[i - 1]) / span : 0;
+  topEdgeSpeed = Math.max(topEdgeSpeed, edgeSpeed[i]);
+}
+const shades = 24;
+const shadeOf = (speed) => topEdgeSpeed > 0 ? Math.min(shades - 1, Math.floor(speed / topEdgeSpeed * shades)) : 0;
+const shade = (k) => `hsl(${225 - 210 * k / (shades - 1)} 75% 48%)`;
+
+const start = () => ({ yaw: -0.61, tilt: 0.55, zoom: 1, shiftX: 0, shiftY: 0 });
+
+const projector = (view, width, height) => {
+  const { yaw, tilt, zoom, shiftX, shiftY } = view.look;
+  const plan = view.kind === "plan", far = frameSize * 2;
+  const cy = Math.cos(yaw), sy = Math.sin(yaw), ct = Math.cos(tilt), st = Math.sin(tilt);
+  const flat = (px, py, pz) => {
+    const x = px - frameMiddle[0], y = py - frameMiddle[1], z = pz - frameMiddle[2];
+    if (plan) return [x, y];
+    const deep = x * sy + y * cy;
+    const shrink = far / Math.max(far * 0.05, far + deep * ct - z * st);
+    return [(x * cy - y * sy) * shrink, (z * ct + deep * st) * shrink];
+  };
+  let across = 1e-9, up = 1e-9;
+  const fit = plan ? frameSize / 2 : frameSize / 1.9;
+  if (plan) { across = (frameHigh[0] - frameLow[0]) / 2; up = (frameHigh[1] - frameLow[1]) / 2; } else { across = fit; up = fit * 0.72; }
+  const scale = Math.min((width / 2 - 34) / Math.max(across, 1e-9), (height / 2 - 30) / Math.max(up, 1e-9)) * zoom;
+  const to = (px, py, pz) => { const [a, b] = flat(px, py, pz); return [width / 2 + shiftX + a * scale, height / 2 + shiftY - b * scale]; };
+  to.scale = scale;
+  return to;
+};
+
+const trace = (pen, points) => { points.forEach(([x, y], i) => { if (i === 0) pen.moveTo(x, y); else pen.lineTo(x, y); }); };
+
+const drawGround = (pen, view, to, width, height, colours) => {
+  pen.lineWidth = 1;
+  pen.strokeStyle = colours.grid;
+  pen.fillStyle = colours.soft;
+  if (view.kind === "plan") {
+    const reachX = [(0 - width / 2 - view.look.shiftX) / to.scale + frameMiddle[0], (width / 2 - view.look.shiftX) / to.scale + frameMiddle[0]];
+    const reachY = [frameMiddle[1] - (height / 2 - view.look.shiftY) / to.scale, frameMiddle[1] + (height / 2 + view.look.shiftY) / to.scale];
+    pen.beginPath();
+    pen.textAlign = "center";
+    for (const tick of ticks(...reachX, width / 90)) {
+      const [x] = to(tick.value, 0, 0);
+      pen.moveTo(Math.round(x) + 0.5, 0); pen.lineTo(Math.round(x) + 0.5, height);
+      if (x > 40 && x < width - 44) pen.fillText(tick.text.replace("-", "\u2212"), x, height - 5);
+    }
+    pen.textAlign = "left";
+    for (const tick of ticks(...reachY, width / 90)) {
+      const [, y] = to(0, tick.value, 0);
+      pen.moveTo(0, Math.round(y) + 0.5); pen.lineTo(width, Math.round(y) + 0.5);
+      if (y > 24 && y < height - 16) pen.fillText(tick.text.replace("-", "\u2212"), 4, y - 3);
+    }
+    pen.stroke();
+    pen.fillText("Y, mm", 4, 12);
+    pen.textAlign = "right";
+    pen.fillText("X, mm", width - 4, height - 5);
+  } else {
+    pen.beginPath();
+    for (const [i, other] of [[0, 1], [1, 0]]) {
+      for (const tick of ticks(frameLow[i], frameHigh[i], 8)) {
+        const from = [...frameLow], end = [...frameLow];
+        from[i] = end[i] = tick.value;
+        end[other] = frameHigh[other];
+        trace(pen, [to(...from), to(...end)]);
+      }
+    }
+    pen.stroke();
+    drawTripod(pen, view, height, colours);
+  }
+  const corner = (bits) => to(...[0, 1, 2].map((i) => (bits >> i & 1 ? travelHigh : travelLow)[i]));
+  pen.strokeStyle = colours.box;
+  pen.setLineDash([2, 4]);
+  pen.beginPath();
+  for (let from = 0; from < (view.kind === "plan" ? 4 : 8); ++from) {
+    for (const bit of view.kind === "plan" ? [1, 2] : [1, 2, 4]) if (!(from & bit)) trace(pen, [corner(from), corner(from | bit)]);
+  }
+  pen.stroke();
+  pen.setLineDash([]);
+};
+
+// Which way X, Y and Z point, in the corner of the perspective view.
+const drawTripod = (pen, view, height, colours) => {
+  const { yaw, tilt } = view.look;
+  const arms = [["X", Math.cos(yaw), Math.sin(yaw) * Math.sin(tilt), colours.x],
+    ["Y", -Math.sin(yaw), Math.cos(yaw) * Math.sin(tilt), colours.y], ["Z", 0, Math.cos(tilt), colours.z]];
+  pen.textAlign = "center";
+  for (const [name, dx, dy, ink] of arms) {
+    pen.strokeStyle = pen.fillStyle = ink;
+    pen.lineWidth = 2;
+    pen.beginPath();
+    pen.moveTo(42, height - 36);
+    pen.lineTo(42 + dx * 24, height - 36 - dy * 24);
+    pen.stroke();
+    pen.fillText(name, 42 + dx * 33, height - 32 - dy * 33);
+  }
+  pen.lineWidth = 1;
+};
+
+const drawPlanned = (pen, to, colours) => {
+  for (const traverse of [0, 1]) {
+    pen.strokeStyle = colours.planned;
+    pen.lineWidth = traverse ? 2 : 5;
+    pen.lineJoin = pen.lineCap = traverse ? "butt" : "round";
+    pen.lineJoin = "round";
+    pen.setLineDash(traverse ? [6, 5] : []);
+    pen.beginPath();
+    let joined = false;
+    for (let i = 1; i < planned.x.length; ++i) {
+      if (Math.round(planned.kind[i]) !== traverse) { joined = false; continue; }
+      if (!joined) pen.moveTo(...to(planned.x[i - 1], planned.y[i - 1], planned.z[i - 1]));
+      pen.lineTo(...to(planned.x[i], planned.y[i], planned.z[i]));
+      joined = true;
+    }
+    pen.stroke();
+  }
+  pen.setLineDash([]);
+};
+
+const drawDriven = (pen, view, to, colours) => {
+  const points = view.points = driven.t.length ? Array.from(driven.t, (_, i) => to(driven.x[i], driven.y[i], driven.z[i])) : [];
+  pen.lineJoin = pen.lineCap = "round";
+  pen.lineWidth = state.bySpeed ? 2.5 : 1.5;
+  if (state.bySpeed) {
+    const paths = Array.from({ length: shades }, () => new Path2D());
+    for (let i = 1; i < points.length; ++i) {
+      const path = paths[shadeOf(edgeSpeed[i])];
+      path.moveTo(...points[i - 1]);
+      path.lineTo(...points[i]);
+    }
+    paths.forEach((path, k) => { pen.strokeStyle = shade(k); pen.stroke(path); });
+  } else {
+    pen.strokeStyle = colours.driven;
+    pen.beginPath();
+    trace(pen, points);
+    pen.stroke();
+  }
+  const span = state.block >= 0 ? blocks[state.block] : state.from > whole.from || state.to < whole.to ? [0, state.from, state.to] : null;
+  if (!span || points.length === 0) return;
+  const inside = [to(...drivenAt(span[1]))];
+  for (let i = indexAt(driven.t, span[1]) + 1; i < driven.t.length && driven.t[i] < span[2]; ++i) inside.push(points[i]);
+  inside.push(to(...drivenAt(span[2])));
+  pen.strokeStyle = colours.hot;
+  pen.lineWidth = 4;
+  pen.beginPath();
+  trace(pen, inside);
+  pen.stroke();
+};
+
+const drawMarks = (pen, view, to, colours) => {
+  pen.lineWidth = 1.5;
+  pen.strokeStyle = colours.card;
+  const last = view.points.length - 1;
+  if (last >= 0) {
+    const [sx, sy] = view.points[0], [ex, ey] = view.points[last];
+    pen.fillStyle = colours.ink;
+    pen.beginPath(); pen.rect(ex - 5, ey - 5, 10, 10); pen.fill(); pen.stroke();
+    pen.fillStyle = colours.good;
+    pen.beginPath(); pen.arc(sx, sy, 5, 0, 7); pen.fill(); pen.stroke();
+  }
+  pen.strokeStyle = colours.wrong;
+  pen.lineWidth = 3;
+  for (const place3 of [drawing.worst, drawing.stop]) {
+    if (!place3) continue;
+    const [x, y] = to(...place3.at);
+    pen.beginPath();
+    trace(pen, [[x - 6, y - 6], [x + 6, y + 6]]);
+    trace(pen, [[x - 6, y + 6], [x + 6, y - 6]]);
+    pen.stroke();
+  }
+  if (state.time !== null && last >= 0) {
+    const [x, y] = to(...drivenAt(state.time));
+    pen.fillStyle = colours.hot;
+    pen.strokeStyle = colours.card;
+    pen.lineWidth = 2;
+    pen.beginPath(); pen.arc(x, y, 6.5, 0, 7); pen.fill(); pen.stroke();
+  }
+};
+
+const drawPath = (view, colours) => {
+  const { pen, width, height } = prepared(view.canvas);
+  if (width < 60) return;
+  const to = projector(view, width, height);
+  drawGround(pen, view, to, width, height, colours);
+  drawPlanned(pen, to, colours);
+  drawDriven(pen, view, to, colours);
+  drawMarks(pen, view, to, colours);
+  const point = state.time === null || driven.t.length === 0 ? null : drivenAt(state.time);
+  view.output.textContent = point ? ["X", "Y", "Z"].map((name, i) => name + " " + shownNumber(point[i])).join("  ") : "";
+};

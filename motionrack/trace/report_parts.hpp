@@ -1,0 +1,37 @@
+// The parts of the report's page: texts and tables as HTML, the drawings' numbers as JSON.
+#pragma once
+
+#include <motionrack/trace/report.hpp>
+#include <motionrack/trace/svg.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::trace {
+
+inline constexpr std::size_t most_blocks = 2000;    ///< rows of the table of blocks
+inline constexpr std::size_t most_warnings = 500;  ///< rows of the table of warnings
+inline constexpr std::size_t most_axes = 16;        ///< axes with charts
+inline constexpr std::size_t longest_text = 2000;   ///< bytes of any text of the run that are shown
+
+/// `text` cut to `most` bytes with "..." and escaped.
+std::string shown(const std::string& text, std::size_t most = longest_text);
+
+/// The charts of the page: position, speed and acceleration of each axis that has them, then the deviation.
+struct PageChart {
+    int axis = -1;  ///< in ReportData::axes; -1: the deviation
+    SvgChart chart;
+};
+std::vector<PageChart> charts_of(const ReportData& data);
+
+std::string header_html(const ReportData& data);
+std::string charts_html(const ReportData& data, const std::vector<PageChart>& charts);
+std::string deviation_html(const ReportData& data, const std::vector<PageChart>& charts);
+std::string axes_html(const ReportData& data);
+std::string blocks_html(const ReportData& data);
+std::string warnings_html(const ReportData& data);
+std::string notes_html(const ReportData& data);
+
+/// What the script draws: series, paths and blocks, thinned, as whole numbers that tell the step to the one before.
+std::string drawing_json(const ReportData& data, const std::vector<PageChart>& charts);
+
+}  // namespace motionrack::trace

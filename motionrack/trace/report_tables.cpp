@@ -1,0 +1,167 @@
+// Header, tables and lists of the report's page.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/trace/report_parts.hpp>
+#include <motionrack/trace/text.hpp>
+
+namespace motionrack::trace {
+
+namespace {
+
+std::string cell(const std::string& html, const char* kind = "n") {
+    return std::string("<td class=\"") + kind + "\">" + html + "</td>";
+}
+
+/// Words at the end of the text are worth more than a character cut in half.
+std::string cut(const std::string& text, std::size_t most) {
+    if (text.size() <= most) return text;
+    std::size_t end = most;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+    return text.substr(0, end) + "...";
+}
+
+/// A value, its limit and a bar of the share of it; red and a word where it is above.
+std::string against(double value, double limit, const std::string& unit) {
+    std::string out = number(value) + " <small>" + unit + "</small>";
+    if (!(limit > 0) || !std::isfinite(limit) || !std::isfinite(value)) return out;
+    const double percent = std::abs(value) / limit * 100;
+    const bool over = percent > 100.05;
+    out += fmt::format("<div class=\"bar{}\"><i style=\"width:{}%\"></i></div><small>{}&nbsp;% of {}{}</small>",
+                       over ? " over" : "", number(std::min(percent, 100.0), 1), number(percent, percent < 10 ? 1 : 0),
+                       number(limit), over ? " &mdash; <b>above the limit</b>" : "");
+    return out;
+}
+
+std::string pair(long long first, long long second) {
+    std::string out = grouped(first) + "<br><small>of " + grouped(second) + "</small>";
+    return first == second ? out : "<b class=\"bad\">" + out + "</b>";
+}
+
+std::string axis_row(const ReportAxis& axis) {
+    const std::string unit = shown(axis.unit, 20);
+    const bool same = axis.pulses_sent == axis.pulse_counter;
+    const std::string lost =
+        axis.lost_steps == 0 ? "none" : "<b class=\"bad\">" + grouped(axis.lost_steps) + " lost</b>";
+    std::string out = "<tr><th scope=\"row\">" + shown(axis.name, 40) + "</th>";
+    out += cell(grouped(axis.pulses_sent) +
+                (same ? "<br><small>card says the same</small>"
+                      : "<br><b class=\"bad\">card says " + grouped(axis.pulse_counter) + "</b>"));
+    out += cell(pair(axis.counts_read, axis.counts_expected)) + cell(lost);
+    out += cell(against(axis.top_speed, axis.max_speed, unit + "/s")) +
+           cell(against(axis.top_accel, axis.max_accel, unit + "/s\xC2\xB2"));
+    out += cell(number(axis.top_jump) + " <small>" + unit + "/s</small>");
+    out += cell(number(axis.real_end, 4) + " <small>" + unit + "</small><br><small>planned " +
+                number(axis.planned_end, 4) + "</small>");
+    return out + "</tr>\n";
+}
+
+std::string block_row(const ReportBlock& block, std::size_t index) {
+    const std::string unit = shown(block.unit, 20);
+    std::string out = fmt::format("<tr data-block=\"{}\">", index);
+    out += cell(block.line > 0 ? std::to_string(block.line) : "");
+    out += cell("<code>" + shown(block.text, 120) + "</code>", "t") + cell(shown(block.kind, 40), "t");
+    out += cell(number(block.length, 3) + " <small>" + unit + "</small>");
+    out += cell(number(block.start, 3)) + cell(number(block.duration, 3));
+    out += cell(number(block.entry_speed, 2)) + cell(number(block.top_speed, 2)) + cell(number(block.exit_speed, 2));
+    return out + cell(number(block.deviation_mm, 4)) + "</tr>\n";
+}
+
+std::string table(const char* id, const char* caption, const std::vector<std::string>& heads, const std::string& rows) {
+    std::string out = fmt::format(
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table id=\"{}\">"
+        "<caption>{}</caption><thead><tr>",
+        caption, id, caption);
+    for (const std::string& head : heads) out += "<th scope=\"col\">" + head + "</th>";
+    return out + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
+}
+
+std::string section(const char* id, const char* title, const std::string& inside) {
+    return fmt::format("<section id=\"{}\"><h2>{}</h2>\n{}</section>\n", id, title, inside);
+}
+
+}  // namespace
+
+std::string shown(const std::string& text, std::size_t most) {
+    return escaped(cut(text, most));
+}
+
+std::string header_html(const ReportData& data) {
+    std::string out = "<h1>" + shown(data.title.empty() ? "Motionrack run" : data.title) + "</h1>\n<p class=\"from\">";
+    if (!data.program_name.empty()) out += "Program <b>" + shown(data.program_name) + "</b>";
+    if (!data.program_name.empty() && !data.rack_name.empty()) out += " on ";
+    if (!data.rack_name.empty()) out += "rack <b>" + shown(data.rack_name) + "</b>";
+    out += fmt::format(
+        "</p>\n<p class=\"verdict {}\"><span class=\"sign\" aria-hidden=\"true\">{}</span><span>{}</span></p>\n",
+        data.verdict.ok ? "good" : "wrong", data.verdict.ok ? "&#10003;" : "!", shown(data.verdict.text));
+    if (data.numbers.empty()) return out;
+    out += "<dl class=\"numbers\">\n";
+    for (std::size_t i = 0; i < std::min<std::size_t>(data.numbers.size(), 40); ++i) {
+        const ReportNumber& n = data.numbers[i];
+        out += "<div><dt>" + shown(n.label, 200) + "</dt><dd>" + shown(n.value, 200);
+        if (!n.unit.empty()) out += "&nbsp;<small>" + shown(n.unit, 40) + "</small>";
+        out += "</dd></div>\n";
+    }
+    return out + "</dl>\n";
+}
+
+std::string axes_html(const ReportData& data) {
+    if (data.axes.empty()) return {};
+    std::string rows;
+    for (std::size_t i = 0; i < std::min<std::size_t>(data.axes.size(), 64); ++i) rows += axis_row(data.axes[i]);
+    const std::vector<std::string> heads = {"Axis",      "Pulses sent",      "Encoder counts", "Steps lost",
+                                            "Top speed", "Top acceleration", "Speed jump",     "Ends at"};
+    return section("axes", "Axes", table("axis-table", "What each axis was sent and what it did", heads, rows));
+}
+
+std::string blocks_html(const ReportData& data) {
+    if (data.blocks.empty()) return {};
+    std::string rows;
+    const std::size_t count = std::min(data.blocks.size(), most_blocks);
+    for (std::size_t i = 0; i < count; ++i) rows += block_row(data.blocks[i], i);
+    std::string note;
+    if (count < data.blocks.size()) {
+        note = "<p class=\"hint\">The first " + grouped(static_cast<long long>(count)) + " of " +
+               grouped(static_cast<long long>(data.blocks.size())) +
+               " blocks are listed; the path and the charts show all.</p>\n";
+    }
+    const std::vector<std::string> heads = {"Line",        "Program",   "Kind",    "Length",   "Start, s",
+                                            "Duration, s", "Entry, /s", "Top, /s", "Exit, /s", "Deviation, mm"};
+    return section("blocks", "Blocks", note + table("block-table", "Each block as it was driven", heads, rows));
+}
+
+std::string warnings_html(const ReportData& data) {
+    if (data.warnings.empty()) return {};
+    std::string rows;
+    const std::size_t count = std::min(data.warnings.size(), most_warnings);
+    for (std::size_t i = 0; i < count; ++i) {
+        const ReportWarning& warning = data.warnings[i];
+        const bool instant = warning.seconds >= 0 && std::isfinite(warning.seconds);
+        rows += instant ? fmt::format("<tr data-time=\"{}\">", warning.seconds) : "<tr>";
+        rows += cell(instant ? number(warning.seconds, 4) : "") +
+                cell(warning.line > 0 ? std::to_string(warning.line) : "");
+        rows += cell(shown(warning.text, 400), "t") + "</tr>\n";
+    }
+    std::string note;
+    if (count < data.warnings.size()) {
+        note = "<p class=\"hint\">The first " + grouped(static_cast<long long>(count)) + " of " +
+               grouped(static_cast<long long>(data.warnings.size())) + " warnings are listed.</p>\n";
+    }
+    return section(
+        "warnings", "Warnings",
+        note + table("warning-table", "Warnings, in the order they came", {"Time, s", "Line", "What happened"}, rows));
+}
+
+std::string notes_html(const ReportData& data) {
+    std::string items;
+    for (std::size_t i = 0; i < std::min<std::size_t>(data.notes.size(), 50); ++i) {
+        items += "<li>" + shown(data.notes[i]) + "</li>\n";
+    }
+    items +=
+        "<li>Lines in the pictures are drawn from fewer points than were recorded; the least and greatest values "
+        "stay. The tables hold the numbers as recorded.</li>\n";
+    return section("notes", "What this report does not show", "<ul class=\"card\">\n" + items + "</ul>\n");
+}
+
+}  // namespace motionrack::trace

@@ -1,0 +1,141 @@
+// Values over time as SVG.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/trace/svg_parts.hpp>
+#include <motionrack/trace/text.hpp>
+#include <motionrack/trace/thin.hpp>
+
+namespace motionrack::trace {
+
+namespace {
+
+constexpr double left = 56, right = 12, top = 24, bottom = 22;
+constexpr std::size_t buckets = 220;
+
+/// Seconds and values to pixels.
+struct Frame {
+    double begin = 0;
+    double end = 1;
+    ChartRange range;
+    SvgLook look;
+
+    double x(double seconds) const { return left + (seconds - begin) / (end - begin) * (look.width - left - right); }
+    double y(double value) const {
+        return look.height - bottom - (value - range.low) / (range.high - range.low) * (look.height - top - bottom);
+    }
+};
+
+Frame frame_for(const SvgChart& chart, const SvgLook& look) {
+    Frame frame;
+    frame.look = look;
+    frame.range = range_of(chart);
+    bool some = false;
+    for (const SvgSeries& series : chart.series) {
+        for (const double t : series.seconds) {
+            if (!std::isfinite(t)) continue;
+            frame.begin = some ? std::min(frame.begin, t) : t;
+            frame.end = some ? std::max(frame.end, t) : t;
+            some = true;
+        }
+    }
+    if (!(frame.end > frame.begin)) frame.end = frame.begin + 1;
+    return frame;
+}
+
+std::string straight(double x1, double y1, double x2, double y2, const char* kind) {
+    return fmt::format("<polyline class=\"{}\" points=\"{},{} {},{}\"/>\n", kind, coordinate(x1), coordinate(y1),
+                       coordinate(x2), coordinate(y2));
+}
+
+std::string scales(const Frame& frame) {
+    std::string out;
+    const double width = frame.look.width, height = frame.look.height;
+    const double step = nice_step(frame.range.high - frame.range.low, std::max(2, static_cast<int>(height / 36)));
+    for (int i = 0; i < 100; ++i) {
+        const double value = (std::ceil(frame.range.low / step - 1e-9) + i) * step;
+        if (value > frame.range.high + step * 1e-9) break;
+        out += straight(left, frame.y(value), width - right, frame.y(value), "grid");
+        out += svg_text(left - 6, frame.y(value) + 4, "end", number(value));
+    }
+    const double second = nice_step(frame.end - frame.begin, std::max(2, static_cast<int>(width / 90)));
+    for (int i = 0; i < 100; ++i) {
+        const double value = (std::ceil(frame.begin / second - 1e-9) + i) * second;
+        if (value > frame.end + second * 1e-9) break;
+        out += straight(frame.x(value), top, frame.x(value), height - bottom, "grid");
+        out += svg_text(frame.x(value), height - 6, "middle", number(value, 6));
+    }
+    return out;
+}
+
+std::string limit_lines(const SvgChart& chart, const Frame& frame) {
+    std::string out;
+    for (const SvgLimit& limit : chart.limits) {
+        if (!(limit.value >= frame.range.low && limit.value <= frame.range.high)) continue;
+        out += straight(left, frame.y(limit.value), frame.look.width - right, frame.y(limit.value), "limit");
+        if (!limit.name.empty()) {
+            out += svg_text(frame.look.width - right - 4, frame.y(limit.value) + 12, "end", limit.name);
+        }
+    }
+    return out;
+}
+
+std::string line_of(const SvgSeries& series, const Frame& frame) {
+    const std::vector<std::size_t> kept = thin_series(series.seconds, series.values, buckets);
+    if (kept.empty()) return {};
+    std::string out = fmt::format("<polyline class=\"line {}\" points=\"", escaped(series.look));
+    for (const std::size_t i : kept) {
+        out += coordinate(frame.x(series.seconds[i])) + ',' +
+               coordinate(frame.y(static_cast<double>(series.values[i]))) + ' ';
+    }
+    out.back() = '"';
+    out += "/>\n";
+    if (!series.name.empty()) {
+        out += svg_text(frame.x(series.seconds[kept.back()]) - 4,
+                        frame.y(static_cast<double>(series.values[kept.back()])) - 5, "end", series.name);
+    }
+    return out;
+}
+
+}  // namespace
+
+ChartRange range_of(const SvgChart& chart) {
+    double low = 0, high = 0;
+    bool some = false;
+    for (const SvgSeries& series : chart.series) {
+        for (const float value : series.values) {
+            if (!std::isfinite(value)) continue;
+            low = some ? std::min(low, static_cast<double>(value)) : static_cast<double>(value);
+            high = some ? std::max(high, static_cast<double>(value)) : static_cast<double>(value);
+            some = true;
+        }
+    }
+    if (low > 0 && low < 0.4 * high) low = 0;
+    if (high < 0 && high > 0.4 * low) high = 0;
+    const double data_low = low, data_high = high;
+    for (const SvgLimit& limit : chart.limits) {
+        if (!std::isfinite(limit.value)) continue;
+        const double reach = limit.value >= 0 ? data_high : -data_low;
+        if (some && reach < 0.25 * std::abs(limit.value)) continue;
+        low = std::min(low, limit.value);
+        high = std::max(high, limit.value);
+    }
+    const double span = high - low;
+    const double air = span > 0 ? 0.06 * span : std::max(1e-3, 0.1 * std::abs(high));
+    return {low == 0 && span > 0 ? 0 : low - air, high == 0 && span > 0 ? 0 : high + air};
+}
+
+std::string svg_chart(const SvgChart& chart, const SvgLook& look) {
+    const Frame frame = frame_for(chart, look);
+    std::string out = svg_head(look, chart.title + " over time");
+    out += scales(frame) + limit_lines(chart, frame);
+    for (const SvgSeries& series : chart.series) out += line_of(series, frame);
+    if (look.standalone) {
+        out += fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", left, escaped(chart.title));
+        out += svg_text(look.width - right, 15, "end", "time in s");
+    }
+    return out + "</svg>\n";
+}
+
+}  // namespace motionrack::trace

@@ -1,0 +1,155 @@
+// What the pictures of this room share.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <motionrack/trace/svg_parts.hpp>
+#include <motionrack/trace/text.hpp>
+#include <motionrack/trace/thin.hpp>
+#include <system_error>
+
+namespace motionrack::trace {
+
+namespace {
+
+constexpr const char* style =
+    "<style>svg{background:#fff;font:11px system-ui,sans-serif}text{fill:#3c4a57}polyline,path{fill:none}"
+    ".grid{stroke:#e3e8ed}.box{stroke:#8a97a3;stroke-dasharray:2 3}.planned{stroke:#b9cbe0;stroke-width:5;"
+    "stroke-linejoin:round}.planned.traverse{stroke-width:2;stroke-dasharray:6 5}.driven{stroke:#0b5cab;"
+    "stroke-width:1.5}.mark *{stroke:#fff;stroke-width:1.5}.start *{fill:#1a7f37}.end *{fill:#1f2933}"
+    ".worst *,.stop *{stroke:#b3261e;stroke-width:3}.limit{stroke:#b3261e;stroke-dasharray:6 4}"
+    ".line{stroke-width:1.5;stroke:#0b5cab}.line.x{stroke:#b3261e}.line.y{stroke:#1a7f37}.line.z{stroke:#0b5cab}"
+    ".line.a{stroke:#7a3fb0}.line.b{stroke:#8a5a00}.line.c{stroke:#00707a}.title{font-weight:600;font-size:13px}"
+    "</style>";
+
+bool same(const Xyz& a, const Xyz& b) {
+    return a == b;
+}
+
+}  // namespace
+
+std::string svg_head(const SvgLook& look, const std::string& title) {
+    const char* space = look.standalone ? " xmlns=\"http://www.w3.org/2000/svg\"" : "";
+    return fmt::format("<svg{} viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{}\n", space, look.width,
+                       look.height, escaped(title), look.standalone ? style : "");
+}
+
+std::string svg_text(double x, double y, const char* anchor, const std::string& text) {
+    return fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\">{}</text>\n", coordinate(x), coordinate(y), anchor,
+                       escaped(text));
+}
+
+void Extent::add(const Xyz& point) {
+    for (const double v : point) {
+        if (!std::isfinite(v)) return;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        low[i] = some ? std::min(low[i], point[i]) : point[i];
+        high[i] = some ? std::max(high[i], point[i]) : point[i];
+    }
+    some = true;
+}
+
+double Extent::diagonal() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) sum += (high[i] - low[i]) * (high[i] - low[i]);
+    return std::isfinite(sum) ? std::sqrt(sum) : 0;
+}
+
+Extent extent_of_path(const ReportData& data) {
+    Extent extent;
+    for (const ReportSegment& segment : data.planned) {
+        for (const Xyz& point : segment.points) extent.add(point);
+    }
+    for (const Xyz& point : data.driven) extent.add(point);
+    return extent;
+}
+
+Extent extent_of_travel(const ReportData& data) {
+    Extent extent = extent_of_path(data);
+    for (const ReportAxis& axis : data.axes) {
+        const std::size_t i = axis.name == "X" ? 0 : axis.name == "Y" ? 1 : axis.name == "Z" ? 2 : 3;
+        if (i == 3 || !(axis.min_position < axis.max_position)) continue;
+        if (!std::isfinite(axis.min_position) || !std::isfinite(axis.max_position)) continue;
+        extent.low[i] = axis.min_position;
+        extent.high[i] = axis.max_position;
+    }
+    return extent;
+}
+
+Extent frame_of(const ReportData& data) {
+    Extent path = extent_of_path(data);
+    const Extent travel = extent_of_travel(data);
+    const double wide = path.high[0] - path.low[0], high = path.high[1] - path.low[1];
+    const bool lost = wide < 0.4 * (travel.high[0] - travel.low[0]) && high < 0.4 * (travel.high[1] - travel.low[1]);
+    Extent frame = lost ? path : travel;
+    frame.low[2] = path.low[2];
+    frame.high[2] = path.high[2];
+    for (std::size_t i = 0; i < 2; ++i) {  // a picture needs some size
+        const double small = std::max(1e-3, 0.02 * frame.diagonal());
+        if (frame.high[i] - frame.low[i] < small) frame.low[i] -= small, frame.high[i] += small;
+    }
+    return frame;
+}
+
+PlannedPath thin_planned(const ReportData& data, std::size_t most, double tolerance) {
+    PlannedPath all;
+    std::vector<bool> corner;
+    for (const ReportSegment& segment : data.planned) {
+        for (std::size_t i = 0; i < segment.points.size(); ++i) {
+            const Xyz& point = segment.points[i];
+            const bool joined = i == 0 && !all.points.empty() && same(all.points.back(), point);
+            if (i == 0 && !corner.empty()) corner.back() = true;
+            if (joined) continue;
+            all.points.push_back(point);
+            all.line.push_back(segment.line);
+            all.traverse.push_back(segment.traverse);
+            all.starts.push_back(i == 0);
+            corner.push_back(i == 0);
+        }
+    }
+    std::vector<PathPoint> points;
+    points.reserve(all.points.size());
+    for (const Xyz& p : all.points) points.push_back({p[0], p[1], p[2], 0});
+    PlannedPath thin;
+    std::size_t before = 0;
+    for (const std::size_t i : thin_path(points, corner, tolerance, most)) {
+        bool starts = all.starts[i];
+        for (std::size_t k = before + 1; k < i && !thin.points.empty(); ++k) starts = starts && !all.starts[k];
+        thin.points.push_back(all.points[i]);
+        thin.line.push_back(all.line[i]);
+        thin.traverse.push_back(all.traverse[i]);
+        thin.starts.push_back(starts || thin.points.size() == 1);
+        before = i;
+    }
+    return thin;
+}
+
+double nice_step(double span, int parts) {
+    const double rough = span / parts;
+    if (!(rough > 1e-12) || !(rough < 1e12)) return 1;
+    double power = 1e-12;
+    while (power * 10 <= rough) power *= 10;
+    for (const double factor : {1.0, 2.0, 5.0}) {
+        if (power * factor >= rough * 0.999) return power * factor;
+    }
+    return power * 10;
+}
+
+Result<void> write_text(const std::string& text, const std::string& path) {
+    std::FILE* file = std::fopen(path.c_str(), "wb");
+    int trouble = file == nullptr ? errno : 0;
+    if (file != nullptr) {
+        if (std::fwrite(text.data(), 1, text.size(), file) != text.size()) trouble = errno;
+        if (std::fclose(file) != 0 && trouble == 0) trouble = errno;
+    }
+    if (trouble == 0) return {};
+    return fail(Trouble::io,
+                fmt::format("The file of {} bytes could not be written: {}. Make room or choose another place.",
+                            text.size(), std::generic_category().message(trouble)),
+                {}, path);
+}
+
+}  // namespace motionrack::trace

@@ -1,0 +1,27 @@
+// What the pictures of this room share: the head with its style, texts, and the thinned planned path.
+#pragma once
+
+#include <motionrack/trace/svg.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::trace {
+
+/// The opening tag, with `title` for those who cannot see the picture.
+std::string svg_head(const SvgLook& look, const std::string& title);
+
+/// `anchor`: "start", "middle" or "end". The text is escaped here.
+std::string svg_text(double x, double y, const char* anchor, const std::string& text);
+
+/// The planned segments as one row of points; the edge that ends in points[i] has line[i] and traverse[i].
+struct PlannedPath {
+    std::vector<Xyz> points;
+    std::vector<int> line;
+    std::vector<bool> traverse;
+    std::vector<bool> starts;  ///< the path begins anew here: no edge ends in this point
+};
+
+/// The planned path with at most `most` points, ends of segments kept where they fit.
+PlannedPath thin_planned(const ReportData& data, std::size_t most, double tolerance);
+
+}  // namespace motionrack::trace

@@ -1,0 +1,191 @@
+// The path as SVG, from above and in perspective.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/trace/svg.hpp>
+#include <motionrack/trace/svg_parts.hpp>
+#include <motionrack/trace/text.hpp>
+#include <motionrack/trace/thin.hpp>
+
+namespace motionrack::trace {
+
+namespace {
+
+constexpr std::size_t most_points = 4000;
+
+struct Flat {
+    double x = 0;
+    double y = 0;
+};
+
+/// Machine coordinates to pixels.
+class Projection {
+  public:
+    Projection(const Extent& frame, PathView view, const SvgLook& look) : view_(view) {
+        for (std::size_t i = 0; i < 3; ++i) centre_[i] = (frame.low[i] + frame.high[i]) / 2;
+        middle_ = {look.width / 2.0, look.height / 2.0};
+        const SinCos yaw = sin_cos(-0.61), tilt = sin_cos(0.55);
+        turn_ = {yaw.cos, yaw.sin, tilt.cos, tilt.sin};
+        far_ = std::max(frame.diagonal(), 1e-6) * 2;
+        const double wide = look.width - 2 * edge, high = look.height - 2 * edge;
+        double across = 1e-9, up = 1e-9;
+        for (int corner = 0; corner < 8; ++corner) {
+            const Flat at = (*this)({(corner & 1 ? frame.low : frame.high)[0], (corner & 2 ? frame.low : frame.high)[1],
+                                     (corner & 4 ? frame.low : frame.high)[2]});
+            across = std::max(across, std::abs(at.x - middle_.x));
+            up = std::max(up, std::abs(at.y - middle_.y));
+        }
+        scale_ = std::min(wide / 2 / across, high / 2 / up);
+    }
+
+    Flat operator()(const Xyz& point) const {
+        const double x = point[0] - centre_[0], y = point[1] - centre_[1], z = point[2] - centre_[2];
+        if (view_ == PathView::plan) return {middle_.x + x * scale_, middle_.y - y * scale_};
+        const double across = x * turn_[0] - y * turn_[1], deep = x * turn_[1] + y * turn_[0];
+        const double up = z * turn_[2] + deep * turn_[3], away = deep * turn_[2] - z * turn_[3];
+        const double shrink = far_ / (far_ + away);
+        return {middle_.x + across * shrink * scale_, middle_.y - up * shrink * scale_};
+    }
+
+    double scale() const { return scale_; }
+    const Xyz& centre() const { return centre_; }
+
+  private:
+    static constexpr double edge = 34;
+    PathView view_;
+    Xyz centre_{};
+    Flat middle_;
+    std::array<double, 4> turn_{};
+    double far_ = 1;
+    double scale_ = 1;
+};
+
+std::string line_through(const std::vector<Flat>& points, const char* look) {
+    if (points.size() < 2) return {};
+    std::string out = fmt::format("<polyline class=\"{}\" points=\"", look);
+    for (const Flat& p : points) {
+        out += coordinate(p.x) + ',' + coordinate(p.y) + ' ';
+    }
+    out.back() = '"';
+    return out + "/>\n";
+}
+
+std::string grid(const Extent& frame, const Projection& at, PathView view, const SvgLook& look) {
+    const double reach_x = look.width / at.scale() / 2, reach_y = look.height / at.scale() / 2;
+    const double step = nice_step(std::max(frame.high[0] - frame.low[0], frame.high[1] - frame.low[1]), 6);
+    const bool plan = view == PathView::plan;
+    Xyz low = frame.low, high = frame.high;
+    if (plan) {
+        low = {at.centre()[0] - reach_x, at.centre()[1] - reach_y, 0};
+        high = {at.centre()[0] + reach_x, at.centre()[1] + reach_y, 0};
+    }
+    std::string out;
+    for (const int axis : {0, 1}) {
+        const auto i = static_cast<std::size_t>(axis), other = 1 - i;
+        if (!((high[i] - low[i]) / step < 100)) continue;
+        for (double k = std::ceil(low[i] / step); k * step <= high[i]; k += 1) {
+            Xyz from = low, to = low;
+            from[i] = to[i] = k * step;
+            to[other] = high[other];
+            out += line_through({at(from), at(to)}, "grid");
+            if (!plan) continue;
+            const Flat label = at(from);
+            out += axis == 0 ? svg_text(label.x, look.height - 6.0, "middle", number(k * step))
+                             : svg_text(6, label.y - 3, "start", number(k * step));
+        }
+    }
+    return out;
+}
+
+std::string travel_box(const Extent& box, const Projection& at, PathView view) {
+    std::string out;
+    const auto corner = [&](int bits) {
+        return at({(bits & 1 ? box.high : box.low)[0], (bits & 2 ? box.high : box.low)[1],
+                   (bits & 4 ? box.high : box.low)[2]});
+    };
+    for (int from = 0; from < (view == PathView::plan ? 4 : 8); ++from) {
+        for (const int bit : {1, 2, 4}) {
+            if ((from & bit) != 0 || (view == PathView::plan && bit == 4)) continue;
+            out += line_through({corner(from), corner(from | bit)}, "box");
+        }
+    }
+    return out;
+}
+
+std::string mark(const Flat& at, const char* kind, const std::string& title) {
+    const std::string place = fmt::format("<g class=\"mark {}\" transform=\"translate({} {})\"><title>{}</title>", kind,
+                                          coordinate(at.x), coordinate(at.y), escaped(title));
+    const std::string_view which = kind;
+    if (which == "start") return place + "<circle r=\"6\"/></g>\n";
+    if (which == "end") return place + "<path d=\"M-5-5H5V5H-5Z\"/></g>\n";
+    return place + "<path d=\"M-6-6L6 6M-6 6L6-6\"/></g>\n";
+}
+
+std::string driven_line(const ReportData& data, const Projection& at) {
+    std::vector<PathPoint> points;
+    points.reserve(data.driven.size());
+    for (const Xyz& p : data.driven) points.push_back({p[0], p[1], p[2], 0});
+    std::vector<Flat> flat;
+    for (const std::size_t i : thin_path(points, {}, extent_of_path(data).diagonal() / 3000, most_points)) {
+        flat.push_back(at(data.driven[i]));
+    }
+    return line_through(flat, "driven");
+}
+
+std::string planned_lines(const ReportData& data, const Projection& at) {
+    const PlannedPath path = thin_planned(data, most_points, extent_of_path(data).diagonal() / 3000);
+    std::string out;
+    std::vector<Flat> flat;
+    for (std::size_t i = 0; i < path.points.size(); ++i) {
+        if (i > 0 && path.starts[i]) {
+            out += line_through(flat, path.traverse[i - 1] ? "planned traverse" : "planned");
+            flat.clear();
+        } else if (i > 1 && path.traverse[i] != path.traverse[i - 1]) {
+            const Flat joint = flat.back();
+            out += line_through(flat, path.traverse[i - 1] ? "planned traverse" : "planned");
+            flat = {joint};
+        }
+        flat.push_back(at(path.points[i]));
+    }
+    if (!flat.empty()) out += line_through(flat, path.traverse.back() ? "planned traverse" : "planned");
+    return out;
+}
+
+std::string place_text(const Xyz& p) {
+    return "X " + number(p[0], 3) + "  Y " + number(p[1], 3) + "  Z " + number(p[2], 3) + " mm";
+}
+
+std::string marks(const ReportData& data, const Projection& at) {
+    std::string out;
+    const auto finite = [](const Xyz& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); };
+    const std::vector<Xyz>& path = data.driven;
+    if (!path.empty() && finite(path.front()))
+        out += mark(at(path.front()), "start", "Start: " + place_text(path.front()));
+    if (!path.empty() && finite(path.back())) out += mark(at(path.back()), "end", "End: " + place_text(path.back()));
+    if (data.worst && finite(data.worst->at)) {
+        out += mark(at(data.worst->at), "worst",
+                    fmt::format("Worst deviation {} mm at {} s", number(data.worst->mm), number(data.worst->seconds)));
+    }
+    if (data.stop && finite(data.stop->at)) out += mark(at(data.stop->at), "stop", "Stopped: " + data.stop->text);
+    return out;
+}
+
+}  // namespace
+
+std::string svg_path(const ReportData& data, PathView view, const SvgLook& look) {
+    const Extent frame = frame_of(data);
+    const Projection at(frame, view, look);
+    const bool plan = view == PathView::plan;
+    std::string out = svg_head(look, plan ? "The path from above: X to the right, Y up" : "The path in perspective");
+    out += grid(frame, at, view, look);
+    out += travel_box(extent_of_travel(data), at, view);
+    out += planned_lines(data, at) + driven_line(data, at) + marks(data, at);
+    if (plan) {
+        out += svg_text(look.width - 8.0, look.height - 6.0, "end", "X, mm") + svg_text(6, 14, "start", "Y, mm");
+    }
+    return out + "</svg>\n";
+}
+
+}  // namespace motionrack::trace
