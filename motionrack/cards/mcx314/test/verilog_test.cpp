@@ -1,5 +1,7 @@
-// The axis generator written in Verilog (tests/verilog/mcx314_axis.v, run by iverilog) against the twin: a third writing of the rules.
+// The axis generator written in Verilog (tests/verilog/mcx314_axis.v, run by iverilog) against the twin and the event-driven chip: a
+// third writing of the rules.
 #include <gtest/gtest.h>
+#include <motionrack/cards/mcx314/test/chip_rig.hpp>
 #include <motionrack/cards/mcx314/test/twin_host.hpp>
 #include <unistd.h>
 
@@ -21,12 +23,12 @@ struct Drive {
     std::int64_t change_tick = -1, new_speed = 1, stop_tick = -1;
 };
 
-struct Outcome {
+struct Course {
     std::vector<std::int64_t> pulses;
     std::int64_t end = 0;
 };
 
-Outcome run_twin(const Drive& drive) {
+Course run_twin(const Drive& drive) {
     Host host;
     host.speeds(1, drive.r, drive.v, drive.sv, drive.a, drive.d, drive.k, drive.ao);
     host.data(1, 0x06, drive.p);
@@ -38,9 +40,32 @@ Outcome run_twin(const Drive& drive) {
         if (host.twin.now() == drive.change_tick) host.data(1, 0x05, drive.new_speed);
         if (host.twin.now() == drive.stop_tick) host.command(1, 0x26);
     }
-    Outcome out;
+    Course out;
     for (const Pulse& pulse : host.twin.pulses()) out.pulses.push_back(pulse.tick);
     out.end = host.twin.now();
+    return out;
+}
+
+// The same traffic on the event-driven chip; `end`: how long to run.
+std::vector<std::int64_t> pulses_of_chip(const Drive& drive, std::int64_t end) {
+    Program program;
+    const auto write = [&](std::int64_t tick, int offset, std::int64_t value) {
+        Op op;
+        op.tick = tick, op.kind = Op::Kind::write;
+        op.offset = static_cast<std::uint8_t>(offset), op.value = static_cast<std::uint16_t>(value);
+        program.ops.push_back(op);
+    };
+    const auto data = [&](std::int64_t tick, int code, std::int64_t value) {
+        write(tick, 14, value >> 16), write(tick, 12, value), write(tick, 0, 0x100 | code);
+    };
+    data(0, 0x00, drive.r), data(0, 0x05, drive.v), data(0, 0x04, drive.sv), data(0, 0x02, drive.a), data(0, 0x03, drive.d);
+    data(0, 0x01, drive.k), data(0, 0x0D, drive.ao), data(0, 0x06, drive.p), data(0, 0x07, drive.dp);
+    write(0, 0, 0x10F), write(0, 6, drive.mode), write(0, 0, drive.continuous ? 0x122 : 0x120);
+    if (drive.change_tick >= 0) data(drive.change_tick, 0x05, drive.new_speed);
+    if (drive.stop_tick >= 0) write(drive.stop_tick, 0, 0x126);
+    write(end + 100'000, 14, 0);
+    std::vector<std::int64_t> out;
+    for (const Pulse& pulse : run_on_chip(program, Way{true, false, 0, 0}).pulses) out.push_back(pulse.tick);
     return out;
 }
 
@@ -53,8 +78,8 @@ std::string plus_arguments(const Drive& d) {
     return out;
 }
 
-Outcome run_verilog(const std::string& program, const Drive& drive) {
-    Outcome out;
+Course run_verilog(const std::string& program, const Drive& drive) {
+    Course out;
     std::FILE* pipe = popen(("vvp " + program + plus_arguments(drive)).c_str(), "r");
     if (!pipe) return out;
     std::array<char, 80> line{};
@@ -69,7 +94,7 @@ Outcome run_verilog(const std::string& program, const Drive& drive) {
     return out;
 }
 
-TEST(Mcx314Verilog, MakesTheTwinsPulsesInTheTwinsTicks) {
+TEST(Mcx314Verilog, MakesTheSamePulsesInTheSameTicksAsTheTwinAndTheChip) {
     if (std::system("command -v iverilog >/dev/null && command -v vvp >/dev/null") != 0)
         GTEST_SKIP() << "iverilog is not installed (Debian package iverilog); the Verilog referee did not run";
     const std::string folder = std::string(MOTIONRACK_SOURCE_DIR) + "/tests/verilog/";
@@ -95,10 +120,11 @@ TEST(Mcx314Verilog, MakesTheTwinsPulsesInTheTwinsTicks) {
         {16'000, 8000, 8000, 1, 1, 1, 0, 0, 0, 0},                                       // no pulses
     };
     for (std::size_t i = 0; i < drives.size(); ++i) {
-        const Outcome twin = run_twin(drives[i]), verilog = run_verilog(program, drives[i]);
+        const Course twin = run_twin(drives[i]), verilog = run_verilog(program, drives[i]);
         EXPECT_EQ(twin.end, verilog.end) << "drive " << i << plus_arguments(drives[i]);
         EXPECT_LT(twin.end, 1'000'000) << "drive " << i;
         EXPECT_EQ(twin.pulses, verilog.pulses) << "drive " << i << plus_arguments(drives[i]);
+        EXPECT_EQ(pulses_of_chip(drives[i], verilog.end), verilog.pulses) << "drive " << i << plus_arguments(drives[i]);
     }
     std::filesystem::remove(program);
 }
