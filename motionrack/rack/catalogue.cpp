@@ -22,6 +22,8 @@ class Mcx314Card final : public Card {
     const std::string& name() const override { return name_; }
     sim::DeviceId device() const override { return chip_.id(); }
     sim::RegisterDevice* registers() override { return &chip_; }
+    int channel_count() const override { return mcx314::channel_count; }
+    std::string channel_name(int channel) const override { return std::string(1, "xyzu"[channel]); }
     int channel_number(std::string_view channel) const override { return static_cast<int>(std::string_view("xyzu").find(channel)); }
     sim::Motion& pulses(int channel) override { return chip_.pulses(channel); }
     void connect_encoder(int channel, sim::Motion& counts) override { chip_.connect_encoder(channel, counts); }

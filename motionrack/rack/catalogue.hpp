@@ -25,6 +25,8 @@ class Card {
     virtual sim::DeviceId device() const = 0;
     /// Registers as the host sees them; nullptr if the card has none.
     virtual sim::RegisterDevice* registers() = 0;
+    virtual int channel_count() const = 0;
+    virtual std::string channel_name(int channel) const = 0;
     /// Number of a channel by its name in the rack file.
     virtual int channel_number(std::string_view channel) const = 0;
     /// Pulses of a channel, as a function of time.

@@ -1,0 +1,37 @@
+// Everything that is declared of a card, for documents, inspectors, traces and tests.
+#pragma once
+
+#include <motionrack/base/commands.hpp>
+#include <motionrack/base/registers.hpp>
+#include <motionrack/base/states.hpp>
+#include <span>
+#include <string_view>
+
+namespace motionrack {
+
+enum class PinDirection : std::uint8_t { input, output };
+
+struct PinInfo {
+    std::string_view name;  ///< per axis: with '*' for the axis letter ("*lmtp")
+    PinDirection direction = PinDirection::input;
+    bool active_low = false;
+    std::string_view meaning;
+};
+
+constexpr bool pins_are_sound(std::span<const PinInfo> pins) {
+    for (std::size_t i = 0; i < pins.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (pins[i].name == pins[j].name) return false;
+    return true;
+}
+
+struct CardMap {
+    std::string_view name;
+    std::string_view title;
+    std::span<const RegisterInfo> registers;
+    std::span<const CommandInfo> commands;
+    std::span<const MachineInfo> machines;
+    std::span<const PinInfo> pins;
+};
+
+}  // namespace motionrack

@@ -1,0 +1,84 @@
+// How a card's registers are declared: once, as constexpr tables that the compiler checks and everyone else reads.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace motionrack {
+
+enum class Access : std::uint8_t {
+    read,        ///< the host reads it
+    write,       ///< the host writes it
+    read_clears  ///< reading it clears it
+};
+
+struct FieldInfo {
+    std::string_view name;
+    std::uint32_t mask = 0;
+    std::string_view meaning;  ///< one line
+};
+
+struct RegisterInfo {
+    std::string_view name;
+    std::uint32_t offset = 0;  ///< byte offset on the bus
+    int width = 16;            ///< bits
+    Access access = Access::read;
+    bool per_axis = false;     ///< exists once an axis; the axis is chosen by the last command
+    std::string_view bank;     ///< registers of different banks may share an offset ("" : always there)
+    std::string_view meaning;
+    std::span<const FieldInfo> fields;
+};
+
+/// No two fields of a register share a bit, none lies outside it, none is empty, no name twice.
+constexpr bool fields_are_sound(const RegisterInfo& reg) {
+    std::uint64_t used = 0;
+    for (std::size_t i = 0; i < reg.fields.size(); ++i) {
+        const FieldInfo& field = reg.fields[i];
+        if (field.mask == 0 || (std::uint64_t{field.mask} >> reg.width) != 0 || (used & field.mask) != 0) return false;
+        used |= field.mask;
+        for (std::size_t j = 0; j < i; ++j)
+            if (reg.fields[j].name == field.name) return false;
+    }
+    return true;
+}
+
+/// Every register's fields are sound; no name twice; no two registers at one offset in one direction and bank.
+constexpr bool registers_are_sound(std::span<const RegisterInfo> registers) {
+    for (std::size_t i = 0; i < registers.size(); ++i) {
+        if (!fields_are_sound(registers[i])) return false;
+        for (std::size_t j = 0; j < i; ++j) {
+            const RegisterInfo &a = registers[i], &b = registers[j];
+            if (a.name == b.name) return false;
+            const bool same_direction = (a.access == Access::write) == (b.access == Access::write);
+            if (a.offset == b.offset && same_direction && a.bank == b.bank) return false;
+        }
+    }
+    return true;
+}
+
+/// The register of that name; asking for one that is not declared does not compile.
+consteval const RegisterInfo& register_named(std::span<const RegisterInfo> registers, std::string_view name) {
+    for (const RegisterInfo& reg : registers)
+        if (reg.name == name) return reg;
+    throw "there is no register of that name";
+}
+
+/// The mask of a field; asking for one that is not declared does not compile.
+consteval std::uint16_t mask_of(const RegisterInfo& reg, std::string_view field) {
+    for (const FieldInfo& info : reg.fields)
+        if (info.name == field) return static_cast<std::uint16_t>(info.mask);
+    throw "the register has no field of that name";
+}
+
+/// A field of a word: constants of this type cost nothing at run time.
+struct Field {
+    std::uint16_t mask = 0;
+    constexpr bool test(unsigned word) const { return (word & mask) != 0; }
+    constexpr unsigned get(unsigned word) const { return (word & mask) / (mask & (~mask + 1u)); }
+    constexpr std::uint16_t set(unsigned word, unsigned value) const {
+        return static_cast<std::uint16_t>((word & ~unsigned{mask}) | ((value * (mask & (~mask + 1u))) & mask));
+    }
+};
+
+}  // namespace motionrack

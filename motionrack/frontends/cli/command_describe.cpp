@@ -1,0 +1,50 @@
+// describe: a card's registers, commands, states and pins, or the keys of a rack file.
+#include <fmt/format.h>
+
+#include <memory>
+#include <motionrack/base/describe.hpp>
+#include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/rack/catalogue.hpp>
+#include <motionrack/rack/config.hpp>
+
+namespace motionrack::cli {
+
+namespace {
+
+struct DescribeOptions {
+    std::string what;
+    bool markdown = false, json = false;
+};
+
+int describe(const DescribeOptions& options) {
+    if (options.what == "rack-file") {
+        fmt::print("{}", rack::rack_file_reference());
+        return exit_done;
+    }
+    const rack::CardKind* kind = rack::find_card_kind(options.what);
+    if (!kind) {
+        std::string known = "rack-file";
+        for (const rack::CardKind& each : rack::card_kinds()) known += fmt::format(", {}", each.type);
+        print_error(fmt::format("There is nothing called '{}' to describe; there are: {}.", options.what, known));
+        return exit_usage;
+    }
+    const CardMap& map = kind->map();
+    fmt::print("{}", options.json ? describe_json(map) : options.markdown ? describe_markdown(map) : describe_text(map));
+    return exit_done;
+}
+
+}  // namespace
+
+void add_describe(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<DescribeOptions>();
+    CLI::App* command = app.add_subcommand("describe", "Tell a card's registers, commands, states and pins, or the keys of a rack file");
+    command->add_option("CARD", options->what, "mcx314, or rack-file")->required();
+    auto* markdown = command->add_flag("--markdown", options->markdown, "as Markdown, as in docs/reference");
+    command->add_flag("--json", options->json, "as JSON")->excludes(markdown);
+    command->footer("Example: motionrack describe mcx314 | less");
+    command->callback([options, &chosen] { chosen = [options] { return describe(*options); }; });
+}
+
+}  // namespace motionrack::cli

@@ -1,0 +1,152 @@
+// run and trace: a part program on a rack, with progress, summary, report and recordings.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <csignal>
+#include <memory>
+#include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/rack/job.hpp>
+#include <motionrack/rack/job_report.hpp>
+#include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/trace/report.hpp>
+#include <vector>
+
+namespace motionrack::cli {
+
+namespace {
+
+/// Set by Ctrl-C; the axes then come to rest along the path and everything recorded is kept.
+std::atomic<bool> stop_asked{false};
+
+void on_interrupt(int) { stop_asked.store(true); }
+
+struct RunOptions {
+    std::string program, rack, report = "report.html", vcd, csv;
+    std::vector<std::string> signals;
+    double timescale_ns = 100;
+    bool json = false, quiet = false, no_report = false, block_delete = false;
+};
+
+int prepare_recorder(rack::Rack& rack, const RunOptions& options, std::unique_ptr<rack::WaveRecorder>& recorder) {
+    if (options.vcd.empty()) return exit_done;
+    rack::WaveSettings settings;
+    settings.path = options.vcd;
+    settings.signals = options.signals;
+    settings.timescale = from_seconds(options.timescale_ns * 1e-9);
+    auto made = rack::WaveRecorder::create(rack, settings);
+    if (!made) return report(made.error());
+    recorder = std::move(*made);
+    return exit_done;
+}
+
+int write_results(rack::Rack& rack, const rack::Job& job, const rack::JobOutcome& outcome, const RunOptions& options,
+                  const std::string& text, const std::string& name) {
+    int code = exit_done;
+    std::vector<std::string> written;
+    if (!options.no_report) {
+        if (const Result<void> done = trace::write_report(rack::report_of(rack, job, outcome, text, name), options.report); !done)
+            code = report(done.error());
+        else
+            written.push_back(options.report);
+    }
+    if (!options.csv.empty()) {
+        if (const Result<void> done = rack::write_samples_csv(rack, job, options.csv); !done)
+            code = report(done.error());
+        else
+            written.push_back(options.csv);
+    }
+    if (!options.vcd.empty()) written.push_back(options.vcd);
+    if (!options.json && !written.empty() && !options.quiet) fmt::print("\nwritten: {}\n", fmt::join(written, ", "));
+    return code;
+}
+
+int run(const RunOptions& options) {
+    int code = exit_done;
+    const auto config = load_rack(options.rack, code);
+    if (!config) return code;
+    std::string text = example_program(), name = "built-in example";
+    if (!options.program.empty()) {
+        Result<std::string> read = read_text(options.program);
+        if (!read) return report(read.error());
+        text = std::move(*read);
+        name = options.program;
+    }
+    const control::gcode::Settings settings = reader_settings(*config, options.block_delete);
+    if (const Result<void> good = control::gcode::check_settings(settings); !good) return report(good.error());
+    if (const int bad = print_problems(control::gcode::check_program(text, settings, 20, name), name); bad != exit_done) return bad;
+
+    rack::Rack rack(*config);
+    std::unique_ptr<rack::WaveRecorder> recorder;
+    if (const int bad = prepare_recorder(rack, options, recorder); bad != exit_done) return bad;
+    ProgressLine progress(options.quiet || options.json);
+    rack::JobSettings job_settings;
+    job_settings.program = text;
+    job_settings.program_name = name;
+    job_settings.block_delete = options.block_delete;
+    job_settings.stop = &stop_asked;
+    job_settings.progress = [&progress](const rack::JobProgress& p) {
+        progress.show(static_cast<double>(p.line) / static_cast<double>(p.lines), fmt::format("line {} of {}, {:.2f} s", p.line, p.lines, p.seconds));
+    };
+    if (recorder) job_settings.on_slice = [&recorder] { recorder->drain(); };
+    rack::Job job(rack, job_settings);
+    rack.start();
+    if (recorder) recorder->begin();
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    const rack::JobOutcome outcome = job.run();
+    progress.clear();
+    if (recorder)
+        if (const Result<void> done = recorder->finish(); !done) code = report(done.error());
+    if (!outcome.ended) code = report(outcome.ended.error());
+    fmt::print("{}", options.json ? rack::summary_json(*config, outcome) + "\n" : rack::summary_of(*config, outcome));
+    if (!options.json) {
+        static constexpr std::size_t warnings_shown = 12;
+        for (std::size_t i = 0; i < outcome.warnings.size() && i < warnings_shown; ++i) print_warning(outcome.warnings[i].text);
+        if (outcome.warnings.size() > warnings_shown)
+            print_warning(fmt::format("{} more are in the report", outcome.warnings.size() - warnings_shown));
+    }
+    const int wrote = write_results(rack, job, outcome, options, text, name);
+    if (code == exit_done) code = wrote;
+    return code == exit_done && !outcome.position_trusted ? static_cast<int>(exit_machine) : code;
+}
+
+void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
+    command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
+    command->add_option("--signals", options->signals, "signals for the VCD file, patterns with * and ? (default: all): X.step, X.enc_?, motion.*");
+    command->add_option("--timescale-ns", options->timescale_ns, "time unit of the VCD file: 0.1, 1, 10, 100 or 1000 ns")->capture_default_str();
+    command->add_option("--csv", options->csv, "write the samples (position, speed, deviation every ms) as CSV");
+    command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
+    command->add_flag("--json", options->json, "print the summary as JSON");
+    command->add_flag("-q,--quiet", options->quiet, "no progress");
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<RunOptions>();
+    CLI::App* command = app.add_subcommand("run", "Run a part program on a rack: progress, summary, report.html");
+    command->add_option("PROGRAM", options->program, "part program, '-': standard input (default: the built-in example)");
+    command->add_option("--report", options->report, "where the report goes")->capture_default_str();
+    command->add_flag("--no-report", options->no_report, "write no report");
+    command->add_option("--vcd", options->vcd, "write the waves as a VCD file");
+    add_common(command, options);
+    command->footer("Example: motionrack run part.ngc --rack my.toml --report part.html\nCtrl-C brings the axes to rest along the path and keeps "
+                    "what was recorded.");
+    command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+void add_trace(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<RunOptions>();
+    options->no_report = true;
+    CLI::App* command = app.add_subcommand("trace", "Run a part program and write wires, pulses and encoder lines as a VCD file (GTKWave, sigrok)");
+    command->add_option("PROGRAM", options->program, "part program")->required();
+    command->add_option("VCD", options->vcd, "the file to write")->required();
+    add_common(command, options);
+    command->footer("Example: motionrack trace part.ngc part.vcd --signals 'X.*'");
+    command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace motionrack::cli

@@ -1,0 +1,201 @@
+// A job's numbers in the forms people read: report data, summary, JSON, CSV.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/geometry.hpp>
+#include <motionrack/rack/job_report.hpp>
+#include <nlohmann/json.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+constexpr std::size_t most_segments = 20'000;
+
+const char* kind_text(control::MoveKind kind) {
+    switch (kind) {
+        case control::MoveKind::traverse: return "traverse";
+        case control::MoveKind::feed: return "line";
+        case control::MoveKind::arc: return "arc";
+        case control::MoveKind::dwell: return "dwell";
+    }
+    return "";
+}
+
+/// The lines of a text, found again by number.
+class LineIndex {
+  public:
+    explicit LineIndex(std::string_view text) {
+        std::size_t begin = 0;
+        for (std::size_t i = 0; i <= text.size(); ++i) {
+            if (i < text.size() && text[i] != '\n') continue;
+            std::string_view line = text.substr(begin, i - begin);
+            while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.remove_suffix(1);
+            lines_.push_back(line.substr(0, 120));
+            begin = i + 1;
+        }
+    }
+    std::string operator[](int line) const {
+        return line >= 1 && static_cast<std::size_t>(line) <= lines_.size() ? std::string(lines_[static_cast<std::size_t>(line) - 1]) : "";
+    }
+
+  private:
+    std::vector<std::string_view> lines_;
+};
+
+trace::ReportSegment planned_segment(const control::PlannedMove& planned) {
+    trace::ReportSegment segment;
+    segment.line = planned.move.line;
+    segment.traverse = planned.move.kind == control::MoveKind::traverse;
+    const control::Geometry path = control::geometry_of(planned.move, planned.start);
+    const double pieces = path.shape == control::PathShape::arc ? std::clamp(std::ceil(std::fabs(path.sweep) / 0.06), 2.0, 2000.0) : 1;
+    for (double i = 0; i <= pieces; ++i) {
+        const control::Point at = control::position_at(path, path.length * i / pieces);
+        segment.points.push_back({at[0], at[1], at[2]});
+    }
+    return segment;
+}
+
+void add_axes(trace::ReportData& data, const Rack& rack, const Job& job, const JobOutcome& outcome) {
+    const std::vector<Sample>& samples = job.monitor().samples();
+    for (const AxisOutcome& axis : outcome.axes) {
+        trace::ReportAxis out;
+        const auto i = static_cast<std::size_t>(axis.index);
+        out.name = std::string(1, control::axis_letters[i]);
+        out.unit = axis.unit;
+        out.min_position = axis.limits.min_position;
+        out.max_position = axis.limits.max_position;
+        out.max_speed = axis.limits.max_speed;
+        out.max_accel = axis.limits.max_accel;
+        out.pulses_sent = axis.pulses_sent;
+        out.pulse_counter = axis.pulse_position;
+        out.counts_read = axis.counts_read;
+        out.counts_expected = axis.counts_expected;
+        out.lost_steps = axis.lost_pulses;
+        out.top_speed = axis.top.top_speed;
+        out.top_accel = axis.top.top_accel;
+        out.top_jump = axis.top.top_jump;
+        out.planned_end = axis.planned_end;
+        out.real_end = axis.real_end;
+        for (std::size_t s = 0; s < samples.size(); ++s) {
+            out.position.push_back(static_cast<float>(samples[s].position[i]));
+            out.speed.push_back(static_cast<float>(samples[s].speed[i]));
+            const std::size_t before = s >= 4 ? s - 4 : 0;
+            const double seconds = to_seconds(samples[s].at - samples[before].at);
+            out.accel.push_back(seconds > 0 ? static_cast<float>((samples[s].speed[i] - samples[before].speed[i]) / seconds) : 0.0F);
+        }
+        data.axes.push_back(std::move(out));
+    }
+    (void)rack;
+}
+
+std::string verdict_text(const JobOutcome& outcome) {
+    if (!outcome.ended) return outcome.ended.error().message;
+    if (!outcome.position_trusted)
+        return "The program ended, but motors lost steps: the machine is not where the controller believes it is. Lower speed or acceleration.";
+    return "The program ended; every axis stands exactly where it was sent.";
+}
+
+}  // namespace
+
+trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcome, std::string_view program,
+                            const std::string& program_name) {
+    trace::ReportData data;
+    data.title = program_name;
+    data.program_name = program_name;
+    data.rack_name = rack.config().name;
+    data.verdict = {outcome.ended.has_value() && outcome.position_trusted, verdict_text(outcome)};
+    data.numbers = {{"Time of the job", fmt::format("{:.3f}", to_seconds(outcome.time)), "s"},
+                    {"Path", fmt::format("{:.1f}", outcome.path_mm), "mm"},
+                    {"Moves", fmt::format("{}", outcome.run.plan.moves), ""},
+                    {"Worst deviation", fmt::format("{:.4f}", outcome.worst.mm), "mm"},
+                    {"Chip segments", fmt::format("{}", outcome.chip_segments), ""}};
+    add_axes(data, rack, job, outcome);
+    const std::vector<Sample>& samples = job.monitor().samples();
+    const Instant began = samples.empty() ? Instant{0} : samples.front().at;
+    for (const Sample& sample : samples) {
+        data.seconds.push_back(to_seconds(sample.at - began));
+        data.driven.push_back({sample.position[0], sample.position[1], sample.position[2]});
+    }
+    for (const double off : job.monitor().deviations()) data.deviation_mm.push_back(static_cast<float>(off));
+    data.tolerance_mm = outcome.tolerance_mm;
+    for (const control::PlannedMove& planned : job.planned())
+        if (data.planned.size() < most_segments && planned.move.kind != control::MoveKind::dwell) data.planned.push_back(planned_segment(planned));
+    if (outcome.worst.mm > 0)
+        data.worst = trace::ReportWorst{outcome.worst.mm, to_seconds(outcome.worst.at - began), outcome.worst.line, outcome.worst.place};
+    if (!outcome.ended && !samples.empty())
+        data.stop = trace::ReportStop{data.seconds.back(), outcome.ended.error().place.line, data.driven.back(), outcome.ended.error().message};
+    const LineIndex lines(program);
+    for (const DrivenBlock& block : job.monitor().blocks())
+        data.blocks.push_back({block.line, lines[block.line], kind_text(block.kind), block.length, "mm", to_seconds(block.start - began),
+                               to_seconds(block.end - block.start), block.entry, block.cruise, block.exit, block.deviation_mm});
+    for (const JobWarning& warning : outcome.warnings)
+        data.warnings.push_back({to_seconds(warning.at - began), warning.line, warning.text});
+    data.notes = {
+        fmt::format("Positions are those of the motors' rotors, looked at every {:.3g} ms; what happens between two looks is not drawn.",
+                    to_seconds(job.monitor().period()) * 1e3),
+        "Speeds are those of the pulse train; acceleration is taken over four looks, so a jump at a corner shows as a short peak.",
+        "The machine is stiff: no vibration, no bending, no play unless the rack file says so.",
+        "Deviation is the distance of X, Y, Z from the programmed path; a rotary axis that lags behind does not show in it."};
+    return data;
+}
+
+// ---- summary --------------------------------------------------------------------------------------------------------------------
+
+std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
+    std::string out = fmt::format("{}\n", verdict_text(outcome));
+    out += fmt::format("  rack        {}\n", config.name);
+    out += fmt::format("  time        {:.3f} s (planned {:.3f} s), {} moves, {} dwells, {} stops\n", to_seconds(outcome.time),
+                       outcome.run.plan.seconds, outcome.run.plan.moves, outcome.run.plan.dwells, outcome.run.plan.stops);
+    out += fmt::format("  path        {:.3f} mm, worst deviation {:.4f} mm", outcome.path_mm, outcome.worst.mm);
+    if (outcome.worst.line > 0) out += fmt::format(" in line {} at {:.3f} s", outcome.worst.line, to_seconds(outcome.worst.at));
+    if (outcome.tolerance_mm > 0) out += fmt::format(" (tolerance {:.4f} mm)", outcome.tolerance_mm);
+    out += fmt::format("\n\n  {:<5}{:>12}{:>12}{:>12}{:>8}{:>14}{:>22}{:>24}\n", "axis", "pulses", "counts", "expected", "lost", "ends at",
+                       "top speed / limit", "top accel / limit");
+    for (const AxisOutcome& axis : outcome.axes)
+        out += fmt::format("  {:<5}{:>12}{:>12}{:>12}{:>8}{:>10.4f} {:<3}{:>13.3f} /{:>7.4g}{:>15.1f} /{:>7.4g}\n",
+                           control::axis_letters[static_cast<std::size_t>(axis.index)], axis.pulses_sent, axis.counts_read,
+                           axis.counts_expected, axis.lost_pulses, axis.real_end, axis.unit, axis.top.top_speed, axis.limits.max_speed,
+                           axis.top.top_accel, axis.limits.max_accel);
+    return out;
+}
+
+std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
+    nlohmann::ordered_json json;
+    json["ok"] = outcome.ended.has_value() && outcome.position_trusted;
+    json["verdict"] = verdict_text(outcome);
+    if (!outcome.ended) json["error"] = {{"message", outcome.ended.error().message}, {"line", outcome.ended.error().place.line}};
+    json["rack"] = config.name;
+    json["seconds"] = to_seconds(outcome.time);
+    json["planned_seconds"] = outcome.run.plan.seconds;
+    json["path_mm"] = outcome.path_mm;
+    json["moves"] = outcome.run.plan.moves;
+    json["lines"] = outcome.run.lines;
+    json["chip_segments"] = outcome.chip_segments;
+    json["events"] = outcome.events;
+    json["trace_hash"] = fmt::format("{:016x}", outcome.trace_hash);
+    json["position_trusted"] = outcome.position_trusted;
+    json["worst_deviation"] = {{"mm", outcome.worst.mm}, {"line", outcome.worst.line}, {"seconds", to_seconds(outcome.worst.at)}};
+    json["axes"] = nlohmann::ordered_json::array();
+    for (const AxisOutcome& axis : outcome.axes)
+        json["axes"].push_back({{"axis", std::string(1, control::axis_letters[static_cast<std::size_t>(axis.index)])},
+                                {"unit", axis.unit},
+                                {"pulses_sent", axis.pulses_sent},
+                                {"pulse_position", axis.pulse_position},
+                                {"counts_read", axis.counts_read},
+                                {"counts_expected", axis.counts_expected},
+                                {"lost_pulses", axis.lost_pulses},
+                                {"end", axis.real_end},
+                                {"top_speed", axis.top.top_speed},
+                                {"max_speed", axis.limits.max_speed},
+                                {"top_accel", axis.top.top_accel},
+                                {"max_accel", axis.limits.max_accel},
+                                {"top_jump", axis.top.top_jump}});
+    json["warnings"] = nlohmann::ordered_json::array();
+    for (const JobWarning& warning : outcome.warnings)
+        json["warnings"].push_back({{"seconds", to_seconds(warning.at)}, {"line", warning.line}, {"text", warning.text}});
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace motionrack::rack

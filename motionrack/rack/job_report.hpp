@@ -1,0 +1,22 @@
+// What a job was, as a report, a summary and a table of samples.
+#pragma once
+
+#include <motionrack/rack/job.hpp>
+#include <motionrack/trace/report.hpp>
+#include <string>
+
+namespace motionrack::rack {
+
+/// Everything the HTML report shows. `program` is the text that was run.
+trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcome, std::string_view program, const std::string& program_name);
+
+/// The summary that a person reads at the end of a run, without colours, the same for the same job.
+std::string summary_of(const RackConfig& config, const JobOutcome& outcome);
+
+/// The summary as JSON.
+std::string summary_json(const RackConfig& config, const JobOutcome& outcome);
+
+/// The samples as CSV (RFC 4180): seconds, position and speed of each axis, deviation.
+Result<void> write_samples_csv(const Rack& rack, const Job& job, const std::string& path);
+
+}  // namespace motionrack::rack
