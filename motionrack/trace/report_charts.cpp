@@ -64,7 +64,10 @@ std::string chart_json(const ReportData& data, const PageChart& entry, std::size
     }
     const ChartRange range = range_of(entry.chart);
     std::string limits;
-    for (const SvgLimit& limit : entry.chart.limits) limits += (limits.empty() ? "" : ",") + json_number(limit.value);
+    for (const SvgLimit& limit : entry.chart.limits) {
+        if (!limits.empty()) limits += ',';
+        limits += json_number(limit.value);
+    }
     const std::string name = entry.axis < 0 ? "deviation" : data.axes[static_cast<std::size_t>(entry.axis)].name;
     return fmt::format(
         "{{\"name\":{},\"title\":{},\"look\":\"{}\",\"range\":[{},{}],\"limits\":[{}],\"t\":{},\"v\":{}}}",
@@ -73,7 +76,13 @@ std::string chart_json(const ReportData& data, const PageChart& entry, std::size
 }
 
 std::string xyz_json(const Xyz& p) {
-    return "[" + json_number(p[0]) + "," + json_number(p[1]) + "," + json_number(p[2]) + "]";
+    return fmt::format("[{},{},{}]", json_number(p[0]), json_number(p[1]), json_number(p[2]));
+}
+
+/// What the drawn paths may be off: a fifth of the worst deviation, so that zooming in shows it, within reason.
+double path_tolerance(const ReportData& data, double size) {
+    const double worst = data.worst && data.worst->mm > 0 ? data.worst->mm : size;
+    return std::clamp(worst / 5, size / 2'000'000, size / 20'000);
 }
 
 std::string driven_json(const ReportData& data, double second) {
@@ -86,19 +95,22 @@ std::string driven_json(const ReportData& data, double second) {
         const Xyz& p = data.driven[i];
         points.push_back({p[0], p[1], p[2], data.seconds[i] * per_second});
     }
+    const double tolerance = path_tolerance(data, size);
+    const ThinnedPath path = thin_path(points, {}, tolerance, most_driven);
     std::array<std::vector<double>, 4> columns;
-    for (const std::size_t i : thin_path(points, {}, size / 20'000, most_driven)) {
+    for (const std::size_t i : path.kept) {
         for (std::size_t c = 0; c < 3; ++c) columns[c].push_back(points[i][c]);
         columns[3].push_back(data.seconds[i]);
     }
-    const double step = size / 200'000;
-    return "{\"x\":" + packed(columns[0], step) + ",\"y\":" + packed(columns[1], step) +
-           ",\"z\":" + packed(columns[2], step) + ",\"t\":" + packed(columns[3], second) + "}";
+    const double step = tolerance / 5;
+    return fmt::format("{{\"within\":{},\"x\":{},\"y\":{},\"z\":{},\"t\":{}}}", json_number(path.within),
+                       packed(columns[0], step), packed(columns[1], step), packed(columns[2], step),
+                       packed(columns[3], second));
 }
 
 std::string planned_json(const ReportData& data) {
-    const double size = extent_of_path(data).diagonal();
-    const PlannedPath path = thin_planned(data, most_planned, size / 20'000);
+    const double tolerance = path_tolerance(data, extent_of_path(data).diagonal());
+    const PlannedPath path = thin_planned(data, most_planned, tolerance);
     std::array<std::vector<double>, 3> columns;
     std::vector<double> lines, kinds;
     for (std::size_t i = 0; i < path.points.size(); ++i) {
@@ -106,14 +118,14 @@ std::string planned_json(const ReportData& data) {
         lines.push_back(path.line[i]);
         kinds.push_back(path.starts[i] ? 2 : path.traverse[i] ? 1 : 0);
     }
-    const double step = size / 200'000;
-    return "{\"x\":" + packed(columns[0], step) + ",\"y\":" + packed(columns[1], step) +
-           ",\"z\":" + packed(columns[2], step) + ",\"line\":" + packed(lines, 1) + ",\"kind\":" + packed(kinds, 1) +
-           "}";
+    const double step = tolerance / 5;
+    return fmt::format("{{\"within\":{},\"x\":{},\"y\":{},\"z\":{},\"line\":{},\"kind\":{}}}", json_number(path.within),
+                       packed(columns[0], step), packed(columns[1], step), packed(columns[2], step), packed(lines, 1),
+                       packed(kinds, 1));
 }
 
 std::string extent_json(const Extent& extent) {
-    return "[" + xyz_json(extent.low) + "," + xyz_json(extent.high) + "]";
+    return fmt::format("[{},{}]", xyz_json(extent.low), xyz_json(extent.high));
 }
 
 SvgChart chart(std::string title, std::string look, const ReportData& data, const std::vector<float>& values) {

@@ -8,10 +8,10 @@
 
 namespace motionrack::trace {
 
-inline constexpr std::size_t most_blocks = 2000;    ///< rows of the table of blocks
+inline constexpr std::size_t most_blocks = 2000;   ///< rows of the table of blocks
 inline constexpr std::size_t most_warnings = 500;  ///< rows of the table of warnings
-inline constexpr std::size_t most_axes = 16;        ///< axes with charts
-inline constexpr std::size_t longest_text = 2000;   ///< bytes of any text of the run that are shown
+inline constexpr std::size_t most_axes = 16;       ///< axes with charts
+inline constexpr std::size_t longest_text = 2000;  ///< bytes of any text of the run that are shown
 
 /// `text` cut to `most` bytes with "..." and escaped.
 std::string shown(const std::string& text, std::size_t most = longest_text);

@@ -11,7 +11,7 @@ namespace motionrack::trace {
 namespace {
 
 std::string cell(const std::string& html, const char* kind = "n") {
-    return std::string("<td class=\"") + kind + "\">" + html + "</td>";
+    return fmt::format("<td class=\"{}\">{}</td>", kind, html);
 }
 
 /// Words at the end of the text are worth more than a character cut in half.
@@ -95,6 +95,10 @@ std::string header_html(const ReportData& data) {
     out += fmt::format(
         "</p>\n<p class=\"verdict {}\"><span class=\"sign\" aria-hidden=\"true\">{}</span><span>{}</span></p>\n",
         data.verdict.ok ? "good" : "wrong", data.verdict.ok ? "&#10003;" : "!", shown(data.verdict.text));
+    if (!data.warnings.empty()) {
+        out += fmt::format("<p class=\"from\"><a href=\"#warnings\">{} {}</a></p>\n", data.warnings.size(),
+                           data.warnings.size() == 1 ? "warning" : "warnings");
+    }
     if (data.numbers.empty()) return out;
     out += "<dl class=\"numbers\">\n";
     for (std::size_t i = 0; i < std::min<std::size_t>(data.numbers.size(), 40); ++i) {

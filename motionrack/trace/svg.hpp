@@ -40,8 +40,8 @@ Extent frame_of(const ReportData& data);
 std::string svg_path(const ReportData& data, PathView view, const SvgLook& look = {});
 
 struct SvgSeries {
-    std::string name;  ///< empty: not named in the picture
-    std::string look;  ///< class of the line: "x", "y", "z", "a", "b", "c" or "d"
+    std::string name;                 ///< empty: not named in the picture
+    std::string look;                 ///< class of the line: "x", "y", "z", "a", "b", "c" or "d"
     std::span<const double> seconds;  ///< what it points to must outlive the picture
     std::span<const float> values;    ///< as long as seconds
 };

@@ -17,7 +17,7 @@ namespace {
 constexpr const char* style =
     "<style>svg{background:#fff;font:11px system-ui,sans-serif}text{fill:#3c4a57}polyline,path{fill:none}"
     ".grid{stroke:#e3e8ed}.box{stroke:#8a97a3;stroke-dasharray:2 3}.planned{stroke:#b9cbe0;stroke-width:5;"
-    "stroke-linejoin:round}.planned.traverse{stroke-width:2;stroke-dasharray:6 5}.driven{stroke:#0b5cab;"
+    "stroke-linejoin:round}.planned.traverse{stroke-dasharray:7 7}.driven{stroke:#0b5cab;"
     "stroke-width:1.5}.mark *{stroke:#fff;stroke-width:1.5}.start *{fill:#1a7f37}.end *{fill:#1f2933}"
     ".worst *,.stop *{stroke:#b3261e;stroke-width:3}.limit{stroke:#b3261e;stroke-dasharray:6 4}"
     ".line{stroke-width:1.5;stroke:#0b5cab}.line.x{stroke:#b3261e}.line.y{stroke:#1a7f37}.line.z{stroke:#0b5cab}"
@@ -85,8 +85,6 @@ Extent frame_of(const ReportData& data) {
     const double wide = path.high[0] - path.low[0], high = path.high[1] - path.low[1];
     const bool lost = wide < 0.4 * (travel.high[0] - travel.low[0]) && high < 0.4 * (travel.high[1] - travel.low[1]);
     Extent frame = lost ? path : travel;
-    frame.low[2] = path.low[2];
-    frame.high[2] = path.high[2];
     for (std::size_t i = 0; i < 2; ++i) {  // a picture needs some size
         const double small = std::max(1e-3, 0.02 * frame.diagonal());
         if (frame.high[i] - frame.low[i] < small) frame.low[i] -= small, frame.high[i] += small;
@@ -115,7 +113,9 @@ PlannedPath thin_planned(const ReportData& data, std::size_t most, double tolera
     for (const Xyz& p : all.points) points.push_back({p[0], p[1], p[2], 0});
     PlannedPath thin;
     std::size_t before = 0;
-    for (const std::size_t i : thin_path(points, corner, tolerance, most)) {
+    const ThinnedPath path = thin_path(points, corner, tolerance, most);
+    thin.within = path.within;
+    for (const std::size_t i : path.kept) {
         bool starts = all.starts[i];
         for (std::size_t k = before + 1; k < i && !thin.points.empty(); ++k) starts = starts && !all.starts[k];
         thin.points.push_back(all.points[i]);

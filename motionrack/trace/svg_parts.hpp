@@ -19,6 +19,7 @@ struct PlannedPath {
     std::vector<int> line;
     std::vector<bool> traverse;
     std::vector<bool> starts;  ///< the path begins anew here: no edge ends in this point
+    double within = 0;         ///< what was left out lies no farther than this from the edges, mm; < 0: not known
 };
 
 /// The planned path with at most `most` points, ends of segments kept where they fit.

@@ -72,11 +72,13 @@ std::string line_through(const std::vector<Flat>& points, const char* look) {
     return out + "/>\n";
 }
 
-std::string grid(const Extent& frame, const Projection& at, PathView view, const SvgLook& look) {
+/// `floor`: the height in mm of the grid in perspective.
+std::string grid(const Extent& frame, double floor, const Projection& at, PathView view, const SvgLook& look) {
     const double reach_x = look.width / at.scale() / 2, reach_y = look.height / at.scale() / 2;
     const double step = nice_step(std::max(frame.high[0] - frame.low[0], frame.high[1] - frame.low[1]), 6);
     const bool plan = view == PathView::plan;
     Xyz low = frame.low, high = frame.high;
+    low[2] = floor;
     if (plan) {
         low = {at.centre()[0] - reach_x, at.centre()[1] - reach_y, 0};
         high = {at.centre()[0] + reach_x, at.centre()[1] + reach_y, 0};
@@ -128,7 +130,7 @@ std::string driven_line(const ReportData& data, const Projection& at) {
     points.reserve(data.driven.size());
     for (const Xyz& p : data.driven) points.push_back({p[0], p[1], p[2], 0});
     std::vector<Flat> flat;
-    for (const std::size_t i : thin_path(points, {}, extent_of_path(data).diagonal() / 3000, most_points)) {
+    for (const std::size_t i : thin_path(points, {}, extent_of_path(data).diagonal() / 3000, most_points).kept) {
         flat.push_back(at(data.driven[i]));
     }
     return line_through(flat, "driven");
@@ -179,7 +181,7 @@ std::string svg_path(const ReportData& data, PathView view, const SvgLook& look)
     const Projection at(frame, view, look);
     const bool plan = view == PathView::plan;
     std::string out = svg_head(look, plan ? "The path from above: X to the right, Y up" : "The path in perspective");
-    out += grid(frame, at, view, look);
+    out += grid(frame, extent_of_path(data).low[2], at, view, look);
     out += travel_box(extent_of_travel(data), at, view);
     out += planned_lines(data, at) + driven_line(data, at) + marks(data, at);
     if (plan) {

@@ -96,27 +96,29 @@ Indices thin_series(std::span<const double> seconds, std::span<const float> valu
     return kept;
 }
 
-Indices thin_path(const std::vector<PathPoint>& points, const std::vector<bool>& fixed, double tolerance,
-                  std::size_t most) {
-    Indices kept;
+ThinnedPath thin_path(const std::vector<PathPoint>& points, const std::vector<bool>& fixed, double tolerance,
+                      std::size_t most) {
+    ThinnedPath path;
+    Indices& kept = path.kept;
     std::size_t bound = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const bool finite = std::all_of(points[i].begin(), points[i].end(), [](double v) { return std::isfinite(v); });
         if (finite) kept.push_back(i);
         if (finite && !fixed.empty() && fixed[i]) ++bound;
     }
-    if (kept.size() < 3) return kept;
+    if (kept.size() < 3) return path;
     const std::vector<bool> none;
     const std::vector<bool>& corners = bound + 2 <= most ? fixed : none;
     for (int round = 0; round < 60; ++round) {
         kept = thin_once(points, kept, corners, tolerance);
-        if (kept.size() <= most) return kept;
+        path.within += tolerance;
+        if (kept.size() <= most) return path;
         tolerance = tolerance > 0 ? tolerance * 1.6 : 1e-9;
     }
     Indices some;  // coordinates too wild for any tolerance
     for (std::size_t i = 0; i + 1 < most; ++i) some.push_back(kept[i * (kept.size() - 1) / (most - 1)]);
     some.push_back(kept.back());
-    return some;
+    return {some, -1};
 }
 
 }  // namespace motionrack::trace

@@ -1,5 +1,5 @@
-// One axis generator of the MCX314 in Verilog, from motionrack/cards/mcx314/RULES.md: fixed-pulse and continuous drives with T- and
-// S-curve, automatic or manual deceleration and the decelerating stop. One clock is one tick (8 MHz).
+// One axis generator of the MCX314 in Verilog, from motionrack/cards/mcx314/RULES.md: fixed-pulse and continuous drives
+// with T- and S-curve, automatic or manual deceleration and the decelerating stop. One clock is one tick (8 MHz).
 //
 //   start ─┐ two clocks ┌ each clock: stop ─► acc + CV >= R: pulse ─► CV one step nearer to its target
 //

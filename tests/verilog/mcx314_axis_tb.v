@@ -1,5 +1,6 @@
-// Drives mcx314_axis once with the parameters of its command line (+R=16000 +V=8000 ..) and prints the tick of every pulse, then "end"
-// and the tick at which the drive ended. +TV=n +V2=v: V becomes v after tick n; +TS=n: 26h after tick n. The command comes after tick 0.
+// Drives mcx314_axis once with the parameters of its command line (+R=16000 +V=8000 ..) and prints the tick of every
+// pulse, then "end" and the tick at which the drive ended. +TV=n +V2=v: V becomes v after tick n; +TS=n: 26h after
+// tick n. The command comes after tick 0.
 `timescale 1ns / 1ns
 
 module mcx314_axis_tb;
@@ -7,9 +8,10 @@ module mcx314_axis_tb;
     integer r, v, sv, a, d, k, p, dp, ao, mode, continuous, tv, v2, ts, most, tick;
     wire busy, pulse;
 
-    mcx314_axis axis (.clock(clock), .start(start), .continuous(continuous[0]), .stop(stop), .r(r[23:0]), .v(v[12:0]), .sv(sv[12:0]),
-                      .a(a[12:0]), .d(d[12:0]), .k(k[15:0]), .ao(ao[15:0]), .p(p[27:0]), .dp(dp[27:0]), .manld(mode[0]),
-                      .dsnde(mode[1]), .sacc(mode[2]), .busy(busy), .pulse(pulse));
+    mcx314_axis axis (.clock(clock), .start(start), .continuous(continuous[0]), .stop(stop), .r(r[23:0]),
+                      .v(v[12:0]), .sv(sv[12:0]), .a(a[12:0]), .d(d[12:0]), .k(k[15:0]), .ao(ao[15:0]),
+                      .p(p[27:0]), .dp(dp[27:0]), .manld(mode[0]), .dsnde(mode[1]), .sacc(mode[2]),
+                      .busy(busy), .pulse(pulse));
 
     initial begin
         if (!$value$plusargs("R=%d", r)) r = 16000;

@@ -1,25 +1,33 @@
 // Pointer, keys, the time bar and the tables.
 const lineAt = (time) => { const block = blockAt(time); return block >= 0 ? blocks[block][0] : 0; };
 
-// The driven edge nearest to a place on the canvas, as an instant; null if none is near.
-const nearestTime = (view, x, y) => {
-  let best = 24 * 24, time = null;
-  for (let i = 1; i < view.points.length; ++i) {
-    const [ax, ay] = view.points[i - 1], [bx, by] = view.points[i];
+// The edge nearest to a place on the canvas: its last point and how far along it (0 .. 1); null if none is near.
+const nearestEdge = (points, x, y, kinds) => {
+  let best = 24 * 24, edge = null;
+  for (let i = 1; i < points.length; ++i) {
+    if (kinds && Math.round(kinds[i]) === 2) continue;
+    const [ax, ay] = points[i - 1], [bx, by] = points[i];
     const dx = bx - ax, dy = by - ay, length = dx * dx + dy * dy;
     const along = length > 0 ? clamp(((x - ax) * dx + (y - ay) * dy) / length, 0, 1) : 0;
     const apart = (ax + along * dx - x) ** 2 + (ay + along * dy - y) ** 2;
-    if (apart < best) { best = apart; time = driven.t[i - 1] + along * (driven.t[i] - driven.t[i - 1]); }
+    if (apart < best) { best = apart; edge = { i, along }; }
   }
-  return time;
+  return edge;
 };
+const between = (row, { i, along }) => row[i - 1] + along * (row[i] - row[i - 1]);
 
-const showTip = (view, at, time) => {
-  view.tip.hidden = time === null;
-  if (time === null) return;
-  const line = lineAt(time), [x, y, z] = drivenAt(time), edgeAt = Math.max(1, indexAt(driven.t, time) + 1);
-  view.tip.textContent = (line > 0 ? "Line " + line + "   " : "") + shownTime(time) + "\nX " + shownNumber(x) + "  Y " + shownNumber(y) + "  Z " + shownNumber(z) +
-    "\n" + shownNumber(edgeSpeed[Math.min(edgeAt, edgeSpeed.length - 1)]) + " mm/s";
+// Says which line made the place under the pointer, and where and when it is; puts the cursor there.
+const pointAt = (view, at) => {
+  const edge = nearestEdge(view.points, at.x, at.y), plan = nearestEdge(view.plannedPoints, at.x, at.y, planned.kind);
+  view.tip.hidden = !edge && !plan;
+  if (view.tip.hidden) return;
+  const path = edge ? driven : planned, time = edge ? between(driven.t, edge) : null;
+  const line = (edge && lineAt(time)) || (plan ? Math.round(planned.line[plan.i]) : 0);
+  const words = [(line > 0 ? "Line " + line + "   " : "") + (edge ? shownTime(time) : "programmed"),
+    ["x", "y", "z"].map((name) => name.toUpperCase() + " " + shownNumber(between(path[name], edge || plan))).join("  ")];
+  if (edge) words.push(shownNumber(edgeSpeed[edge.i]) + " mm/s");
+  view.tip.textContent = words.join("\n");
+  if (edge) setTime(time);
   const left = at.x + 220 > view.canvas.clientWidth;
   view.tip.style.left = left ? "" : at.x + 16 + "px";
   view.tip.style.right = left ? view.canvas.clientWidth - at.x + 16 + "px" : "";
@@ -49,9 +57,7 @@ const listenToPath = (view) => {
   canvas.addEventListener("pointermove", (event) => {
     const at = place(event, canvas), before = fingers.get(event.pointerId);
     if (!before) {
-      const time = nearestTime(view, at.x, at.y);
-      showTip(view, at, time);
-      if (time !== null) setTime(time);
+      pointAt(view, at);
       return;
     }
     fingers.set(event.pointerId, at);
@@ -86,13 +92,15 @@ if (!document.getElementById("path").hidden) {
     const tip = document.createElement("div");
     tip.className = "tip";
     tip.hidden = true;
-    const view = { kind, look: start(), points: [], output: figure.querySelector("output"), tip,
+    const view = { kind, look: start(), points: [], plannedPoints: [], output: figure.querySelector("output"), tip,
       canvas: canvasIn(plot, kind === "plan" ? "The path from above, programmed and driven" : "The path in perspective, programmed and driven") };
     plot.appendChild(tip);
     listenToPath(view);
     return view;
   });
   painters.push(() => { const colours = palette(); views.forEach((view) => drawPath(view, colours)); });
+  const off = Math.max(drawing.driven.within, drawing.planned.within), known = Math.min(drawing.driven.within, drawing.planned.within) >= 0;
+  document.getElementById("within").textContent = known ? "The lines drawn lie within " + Number(off.toPrecision(1)) + " mm of the recorded ones." : "The lines drawn are coarse: the path has too many corners for this page.";
   document.querySelector("#path .tools").hidden = driven.t.length < 2;
   document.getElementById("slow").textContent = "0";
   document.getElementById("fast").textContent = shownNumber(topEdgeSpeed) + " mm/s";

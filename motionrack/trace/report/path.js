@@ -18,6 +18,21 @@ const shade = (k) => `hsl(${225 - 210 * k / (shades - 1)} 75% 48%)`;
 
 const start = () => ({ yaw: -0.61, tilt: 0.55, zoom: 1, shiftX: 0, shiftY: 0 });
 
+// Half the width and height of the frame in perspective as it first stands, so that turning it does not change its size.
+const standing = (() => {
+  const { yaw, tilt } = start(), size = [0, 0];
+  for (let bits = 0; bits < 8; ++bits) {
+    const [x, y, z] = [0, 1, 2].map((i) => (frameHigh[i] - frameLow[i]) / 2 * (bits >> i & 1 ? 1 : -1));
+    const deep = x * Math.sin(yaw) + y * Math.cos(yaw);
+    const shrink = frameSize * 2 / (frameSize * 2 + deep * Math.cos(tilt) - z * Math.sin(tilt));
+    size[0] = Math.max(size[0], Math.abs(x * Math.cos(yaw) - y * Math.sin(yaw)) * shrink);
+    size[1] = Math.max(size[1], Math.abs(z * Math.cos(tilt) + deep * Math.sin(tilt)) * shrink);
+  }
+  return size;
+})();
+// The height of the ground: the lowest point of the paths.
+const floor = Math.min(...[planned.z, driven.z].map((row) => row.length ? row.reduce((a, b) => Math.min(a, b)) : Infinity));
+
 const projector = (view, width, height) => {
   const { yaw, tilt, zoom, shiftX, shiftY } = view.look;
   const plan = view.kind === "plan", far = frameSize * 2;
@@ -30,9 +45,8 @@ const projector = (view, width, height) => {
     return [(x * cy - y * sy) * shrink, (z * ct + deep * st) * shrink];
   };
   let across = 1e-9, up = 1e-9;
-  const fit = plan ? frameSize / 2 : frameSize / 1.9;
-  if (plan) { across = (frameHigh[0] - frameLow[0]) / 2; up = (frameHigh[1] - frameLow[1]) / 2; } else { across = fit; up = fit * 0.72; }
-  const scale = Math.min((width / 2 - 34) / Math.max(across, 1e-9), (height / 2 - 30) / Math.max(up, 1e-9)) * zoom;
+  if (plan) { across = (frameHigh[0] - frameLow[0]) / 2; up = (frameHigh[1] - frameLow[1]) / 2; } else { [across, up] = standing; }
+  const scale = Math.min((width / 2 - 34) / Math.max(across, 1e-9), (height / 2 - 26) / Math.max(up, 1e-9)) * zoom;
   const to = (px, py, pz) => { const [a, b] = flat(px, py, pz); return [width / 2 + shiftX + a * scale, height / 2 + shiftY - b * scale]; };
   to.scale = scale;
   return to;
@@ -68,7 +82,7 @@ const drawGround = (pen, view, to, width, height, colours) => {
     pen.beginPath();
     for (const [i, other] of [[0, 1], [1, 0]]) {
       for (const tick of ticks(frameLow[i], frameHigh[i], 8)) {
-        const from = [...frameLow], end = [...frameLow];
+        const from = [frameLow[0], frameLow[1], floor], end = [...from];
         from[i] = end[i] = tick.value;
         end[other] = frameHigh[other];
         trace(pen, [to(...from), to(...end)]);
@@ -106,19 +120,20 @@ const drawTripod = (pen, view, height, colours) => {
   pen.lineWidth = 1;
 };
 
-const drawPlanned = (pen, to, colours) => {
+const drawPlanned = (pen, view, to, colours) => {
+  const points = view.plannedPoints = Array.from(planned.x, (_, i) => to(planned.x[i], planned.y[i], planned.z[i]));
   for (const traverse of [0, 1]) {
     pen.strokeStyle = colours.planned;
-    pen.lineWidth = traverse ? 2 : 5;
-    pen.lineJoin = pen.lineCap = traverse ? "butt" : "round";
+    pen.lineWidth = 5;
+    pen.lineCap = traverse ? "butt" : "round";
     pen.lineJoin = "round";
-    pen.setLineDash(traverse ? [6, 5] : []);
+    pen.setLineDash(traverse ? [7, 7] : []);
     pen.beginPath();
     let joined = false;
     for (let i = 1; i < planned.x.length; ++i) {
       if (Math.round(planned.kind[i]) !== traverse) { joined = false; continue; }
-      if (!joined) pen.moveTo(...to(planned.x[i - 1], planned.y[i - 1], planned.z[i - 1]));
-      pen.lineTo(...to(planned.x[i], planned.y[i], planned.z[i]));
+      if (!joined) pen.moveTo(...points[i - 1]);
+      pen.lineTo(...points[i]);
       joined = true;
     }
     pen.stroke();
@@ -191,7 +206,7 @@ const drawPath = (view, colours) => {
   if (width < 60) return;
   const to = projector(view, width, height);
   drawGround(pen, view, to, width, height, colours);
-  drawPlanned(pen, to, colours);
+  drawPlanned(pen, view, to, colours);
   drawDriven(pen, view, to, colours);
   drawMarks(pen, view, to, colours);
   const point = state.time === null || driven.t.length === 0 ? null : drivenAt(state.time);

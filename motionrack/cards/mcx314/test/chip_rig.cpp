@@ -1,8 +1,8 @@
-// Register programs on the event-driven chip: accesses between runs, wires forced between ticks or moved at their very instant.
-#include <motionrack/cards/mcx314/test/chip_rig.hpp>
-
+// Register programs on the event-driven chip: accesses between runs, wires forced between ticks or moved at their very
+// instant.
 #include <array>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/test/chip_rig.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <string>
@@ -93,16 +93,19 @@ class Watcher final : public sim::MotionListener {
 class Bench {
   public:
     Bench(const Program& program, const Way& way) : program_(program), way_(way), random_(way.slices) {
-        static constexpr const char* pins[] = {"in0", "in1", "in2", "in3", "expp", "expm", "inpos", "alarm", "lmtp", "lmtm"};
+        static constexpr const char* pins[] = {"in0",  "in1",   "in2",   "in3",  "expp",
+                                               "expm", "inpos", "alarm", "lmtp", "lmtm"};
         for (int a = 0; a < axis_count; ++a)
-            for (int p = 0; p < pin_count; ++p) wires_[a][p] = kernel_.find_wire(std::string("c.") + "xyzu"[a] + pins[p]);
+            for (int p = 0; p < pin_count; ++p)
+                wires_[a][p] = kernel_.find_wire(std::string("c.") + "xyzu"[a] + pins[p]);
         emgn_ = kernel_.find_wire("c.emgn");
         requests_.wire = chip_.interrupt_wire();
         kernel_.observe_wires(&requests_);
         for (int a = 0; a < axis_count && way.watch; ++a) watchers_[a].begin(chip_.pulses(a), a);
         kernel_.start();
         for (int a = 0; a < axis_count && way.watch; ++a) watchers_[a].watch(0);
-        for (int a = 0; a < axis_count && way.listen; ++a) chip_.pulses(a).listen_edges(&edges_[static_cast<std::size_t>(a)]);
+        for (int a = 0; a < axis_count && way.listen; ++a)
+            chip_.pulses(a).listen_edges(&edges_[static_cast<std::size_t>(a)]);
     }
 
     Outcome run() {
@@ -185,7 +188,8 @@ class Bench {
     sim::Kernel kernel_;
     Hand hand_{kernel_};
     Chip chip_{kernel_, "c"};
-    std::array<Edges, axis_count> edges_{Edges{out_.pulses, 0}, Edges{out_.pulses, 1}, Edges{out_.pulses, 2}, Edges{out_.pulses, 3}};
+    std::array<Edges, axis_count> edges_{Edges{out_.pulses, 0}, Edges{out_.pulses, 1}, Edges{out_.pulses, 2},
+                                         Edges{out_.pulses, 3}};
     std::array<std::array<sim::WireId, pin_count>, axis_count> wires_{};
     std::array<Watcher, axis_count> watchers_;
     sim::WireId emgn_{};
@@ -194,6 +198,8 @@ class Bench {
 
 }  // namespace
 
-Outcome run_on_chip(const Program& program, const Way& way) { return Bench(program, way).run(); }
+Outcome run_on_chip(const Program& program, const Way& way) {
+    return Bench(program, way).run();
+}
 
 }  // namespace motionrack::mcx314::twin

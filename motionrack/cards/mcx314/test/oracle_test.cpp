@@ -1,13 +1,13 @@
-// The event-driven chip against the tick-by-tick twin: random register programs must look the same to the host (every read, the
-// interrupt line), to a motor (the tick and direction of every pulse) and to whoever only asks for counts.
+// The event-driven chip against the tick-by-tick twin: random register programs must look the same to the host (every
+// read, the interrupt line), to a motor (the tick and direction of every pulse) and to whoever only asks for counts.
 //
 // MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment choose other and more programs.
 #include <gtest/gtest.h>
-#include <motionrack/cards/mcx314/test/chip_rig.hpp>
-#include <motionrack/cards/mcx314/test/shrink.hpp>
 
 #include <cstdlib>
 #include <iostream>
+#include <motionrack/cards/mcx314/test/chip_rig.hpp>
+#include <motionrack/cards/mcx314/test/shrink.hpp>
 #include <string>
 
 namespace motionrack::mcx314::twin {
@@ -48,12 +48,14 @@ void compare(std::uint64_t first, std::uint64_t count, const WayOf& way_of) {
         FAIL() << "the chip and its twin differ" << (way.listen ? "" : " (nobody listens to edges)") << '\n'
                << fault(small, way) << to_text(small);
     }
-    std::cout << compared.ops << " accesses and wire changes, " << compared.ticks << " ticks, " << compared.pulses << " pulses, "
-              << compared.requests << " changes of the interrupt line" << std::endl;
+    std::cout << compared.ops << " accesses and wire changes, " << compared.ticks << " ticks, " << compared.pulses
+              << " pulses, " << compared.requests << " changes of the interrupt line" << std::endl;
 }
 
 TEST(Mcx314Oracle, RandomProgramsLookTheSameOnTheChipAndOnItsTwin) {
-    compare(0, from_environment("MOTIONRACK_PROGRAMS", 10'000), [](const Program& p) { return Way{p.number % 2 == 0, p.number % 4 >= 2, 0, 0}; });
+    compare(0, from_environment("MOTIONRACK_PROGRAMS", 10'000), [](const Program& p) {
+        return Way{p.number % 2 == 0, p.number % 4 >= 2, 0, 0};
+    });
 }
 
 TEST(Mcx314Oracle, ARunCutIntoSlicesGivesTheSame) {
@@ -61,7 +63,9 @@ TEST(Mcx314Oracle, ARunCutIntoSlicesGivesTheSame) {
 }
 
 TEST(Mcx314Oracle, ARestoredSnapshotGivesTheSameRest) {
-    compare(2'000'000, 400, [](const Program& p) { return Way{p.number % 2 == 0, false, 0, 1 + p.number % (p.ops.size() - 1)}; });
+    compare(2'000'000, 400, [](const Program& p) {
+        return Way{p.number % 2 == 0, false, 0, 1 + p.number % (p.ops.size() - 1)};
+    });
 }
 
 }  // namespace

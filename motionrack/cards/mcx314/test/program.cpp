@@ -1,7 +1,6 @@
 // Makes random register programs.
-#include <motionrack/cards/mcx314/test/program.hpp>
-
 #include <algorithm>
+#include <motionrack/cards/mcx314/test/program_values.hpp>
 
 namespace motionrack::mcx314::twin {
 
@@ -18,12 +17,9 @@ std::int64_t Random::between(std::int64_t low, std::int64_t high) {
 
 namespace {
 
-class Maker {
+class Maker : private Values {
   public:
-    Maker(std::uint64_t seed, std::uint64_t number) : random_(seed * 0x2545F4914F6CDD1Dull + number) {
-        program_.seed = seed;
-        program_.number = number;
-    }
+    Maker(std::uint64_t seed, std::uint64_t number) : Values(seed, number) {}
 
     Program make() {
         static constexpr std::int64_t lengths[] = {2'000, 2'000, 2'000, 2'000, 4'000, 4'000, 8'000, 8'000};
@@ -43,12 +39,14 @@ class Maker {
         }
         now_ = program_.ticks;
         read_everything();
-        std::stable_sort(program_.ops.begin(), program_.ops.end(), [](const Op& a, const Op& b) { return a.order() < b.order(); });
+        std::stable_sort(program_.ops.begin(), program_.ops.end(),
+                         [](const Op& a, const Op& b) { return a.order() < b.order(); });
         return std::move(program_);
     }
 
   private:
-    // ---- accesses -----------------------------------------------------------------------------------------------------------
+    // ---- accesses
+    // -----------------------------------------------------------------------------------------------------------
     void write(int offset, std::int64_t value) {
         Op op;
         op.tick = now_, op.between = between_, op.kind = Op::Kind::write;
@@ -68,7 +66,9 @@ class Maker {
         op.axis = static_cast<std::int8_t>(axis), op.pin = pin;
         program_.ops.push_back(op);
     }
-    void command(unsigned axes, int code) { write(0, static_cast<std::int64_t>(axes << 8 | static_cast<unsigned>(code))); }
+    void command(unsigned axes, int code) {
+        write(0, static_cast<std::int64_t>(axes << 8 | static_cast<unsigned>(code)));
+    }
     void data(unsigned axes, int code, std::int64_t value) {
         write(14, value >> 16);
         write(12, value);
@@ -79,53 +79,17 @@ class Maker {
         write(2 * number, value);
     }
     void gap() {
-        const std::int64_t most = random_.one_in(busy_ < 10 ? 8 : 3) ? 4 : random_.one_in(6) ? program_.ticks / 6 : program_.ticks / busy_;
+        const std::int64_t most = random_.one_in(busy_ < 10 ? 8 : 3) ? 4
+                                  : random_.one_in(6)                ? program_.ticks / 6
+                                                                     : program_.ticks / busy_;
         now_ += random_.between(0, std::max<std::int64_t>(most, 4));
         between_ = random_.one_in(2);
     }
-    unsigned axes() { return random_.one_in(2) ? 1u << random_.between(0, 3) : static_cast<unsigned>(random_.between(1, 15)); }
+    unsigned axes() {
+        return random_.one_in(2) ? 1u << random_.between(0, 3) : static_cast<unsigned>(random_.between(1, 15));
+    }
 
-    // ---- parameters ---------------------------------------------------------------------------------------------------------
-    std::int64_t range() {
-        static constexpr std::int64_t usual[] = {16'000, 16'000, 20'000, 32'000, 50'000, 80'000, 160'000};
-        if (nasty_ && random_.one_in(8)) return random_.between(0, 0x1FF'FFFF);
-        return random_.one_in(3) ? random_.between(16'000, long_ ? 800'000 : 60'000) : random_.of(usual);
-    }
-    std::int64_t accel() {
-        if (nasty_ && random_.one_in(10)) return random_.between(0, 65'535);
-        if (s_curve_ && random_.one_in(2)) return random_.between(1, long_ ? 2000 : 300);
-        return random_.between(1, 80) * 100;
-    }
-    std::int64_t jerk() {
-        if (nasty_ && random_.one_in(10)) return random_.between(0, 65'535);
-        return random_.between(1, long_ ? 20 : random_.one_in(2) ? 1 : 3);
-    }
-    std::int64_t start_speed() {
-        if (nasty_ && random_.one_in(10)) return random_.between(0, 65'535);
-        return random_.one_in(3) ? random_.between(1, 8000) : random_.between(2000, 7900);
-    }
-    std::int64_t speed(std::int64_t start) {
-        if (nasty_ && random_.one_in(8)) return random_.between(0, 65'535);
-        if (random_.one_in(8)) return random_.between(1, 8000);
-        // What a ramp can do within the program, so that it also ends.
-        const std::int64_t most = s_curve_ ? program_.ticks * program_.ticks / 4'000'000 + 2 : program_.ticks / 12;
-        return std::max<std::int64_t>(1, start + random_.between(-most / 8 - 2, std::min<std::int64_t>(most, 2000)));
-    }
-    std::int64_t pulses() {
-        if (nasty_ && random_.one_in(12)) return random_.between(0, 0xFFFF'FFFF);
-        if (random_.one_in(3)) return random_.between(0, 40);
-        return random_.between(0, program_.ticks / random_.between(4, 40));
-    }
-    std::int64_t coordinate() {
-        if (nasty_ && random_.one_in(20)) return random_.between(0, 0xFFFF'FFFF);
-        const std::int64_t most = random_.one_in(3) ? 6 : std::max<std::int64_t>(3, program_.ticks / random_.between(20, 400));
-        return random_.between(-most, most);
-    }
-    std::int64_t position() {
-        static constexpr std::int64_t ends[] = {0x7FFF'FFFF, -0x7FFF'FFFF - 1, 0x7FFF'FFF0, -0x7FFF'FFF0};
-        if (nasty_ && random_.one_in(5)) return random_.of(ends);
-        return random_.between(-program_.ticks / 30, program_.ticks / 30);
-    }
+    // ---- parameters
     void speeds(unsigned some) {
         const std::int64_t start = start_speed();
         data(some, 0x00, range());
@@ -156,7 +120,8 @@ class Maker {
         return (random_.one_in(4) ? 1 : 0) | (random_.one_in(3) ? 2 : 0) | (s_curve_ && !random_.one_in(4) ? 4 : 0);
     }
 
-    // ---- actions ------------------------------------------------------------------------------------------------------------
+    // ---- actions
+    // ------------------------------------------------------------------------------------------------------------
     void action(std::int64_t theme) {
         const bool calm = busy_ < 10;  // drives are mostly left to run
         const std::int64_t roll = random_.between(0, calm && !random_.one_in(4) ? 67 : 99);
@@ -201,7 +166,8 @@ class Maker {
         data(axis, 0x00, r);
         data(axis, 0x04, start);
         data(axis, 0x05, speed(start));
-        const std::int64_t most = program_.ticks * start / std::max<std::int64_t>(r, 16'000) + 2;  // pulses at the start speed
+        const std::int64_t most =
+            program_.ticks * start / std::max<std::int64_t>(r, 16'000) + 2;  // pulses at the start speed
         data(axis, 0x06, random_.between(0, most));
         data(axis, 0x07, random_.between(0, most));
         mode(axis, 3, drive_mode());
@@ -210,11 +176,21 @@ class Maker {
             now_ += random_.between(0, program_.ticks / 10);
             between_ = random_.one_in(2);
             switch (random_.between(0, 7)) {
-                case 0: data(axis, 0x06, random_.between(0, most)); break;
-                case 1: data(axis, 0x0D, random_.between(0, 50)); break;
-                case 2: data(axis, 0x02, accel()); break;
-                case 3: command(axis, random_.one_in(2) ? 0x26 : 0x12), read(12); break;
-                default: data(axis, 0x05, speed(start)); break;
+                case 0:
+                    data(axis, 0x06, random_.between(0, most));
+                    break;
+                case 1:
+                    data(axis, 0x0D, random_.between(0, 50));
+                    break;
+                case 2:
+                    data(axis, 0x02, accel());
+                    break;
+                case 3:
+                    command(axis, random_.one_in(2) ? 0x26 : 0x12), read(12);
+                    break;
+                default:
+                    data(axis, 0x05, speed(start));
+                    break;
             }
         }
     }
@@ -269,15 +245,33 @@ class Maker {
     void rewrite() {
         const unsigned some = axes();
         switch (random_.between(0, 9)) {
-            case 0: data(some, 0x04, start_speed()); break;
-            case 1: data(some, 0x02, accel()); break;
-            case 2: data(some, 0x03, accel()); break;
-            case 3: data(some, 0x01, jerk()); break;
-            case 4: data(some, 0x0D, random_.between(0, 60)); break;
-            case 5: data(some, 0x07, pulses()); break;
-            case 6: data(some, 0x06, pulses()); break;
-            case 7: data(some, 0x00, range()); break;
-            default: data(some, 0x05, speed(start_speed())); break;
+            case 0:
+                data(some, 0x04, start_speed());
+                break;
+            case 1:
+                data(some, 0x02, accel());
+                break;
+            case 2:
+                data(some, 0x03, accel());
+                break;
+            case 3:
+                data(some, 0x01, jerk());
+                break;
+            case 4:
+                data(some, 0x0D, random_.between(0, 60));
+                break;
+            case 5:
+                data(some, 0x07, pulses());
+                break;
+            case 6:
+                data(some, 0x06, pulses());
+                break;
+            case 7:
+                data(some, 0x00, range());
+                break;
+            default:
+                data(some, 0x05, speed(start_speed()));
+                break;
         }
     }
     void wire() {
@@ -304,7 +298,8 @@ class Maker {
         switch (random_.between(0, 3)) {
             case 0: {
                 const std::int64_t enables = random_.between(0, 255) & random_.between(0, 255) & 0xAA;
-                mode(some, 1, random_.between(0, 255) << 8 | enables | (random_.one_in(8) ? random_.between(0, 255) & 0x55 : 0));
+                mode(some, 1,
+                     random_.between(0, 255) << 8 | enables | (random_.one_in(8) ? random_.between(0, 255) & 0x55 : 0));
                 break;
             }
             case 1: {
@@ -313,13 +308,17 @@ class Maker {
                 mode(some, 2, bits);
                 break;
             }
-            default: mode(some, 3, drive_mode()); break;
+            default:
+                mode(some, 3, drive_mode());
+                break;
         }
     }
     void look() {
         const unsigned axis = 1u << random_.between(0, 3);
         switch (random_.between(0, 6)) {
-            case 0: read(0); break;
+            case 0:
+                read(0);
+                break;
             case 6:  // as an interrupt handler does
                 for (unsigned a = 0; a < 4; ++a) {
                     command(1u << a, 0x0F);
@@ -331,7 +330,9 @@ class Maker {
                 command(axis, 0x0F);
                 read(2 * static_cast<int>(random_.between(1, 3)));
                 break;
-            case 2: read(random_.one_in(2) ? 8 : 10); break;
+            case 2:
+                read(random_.one_in(2) ? 8 : 10);
+                break;
             default:
                 command(axis, static_cast<int>(random_.between(0x10, 0x13)));
                 read(12);
@@ -355,23 +356,24 @@ class Maker {
     }
     void nasty() {
         if (random_.one_in(6)) return write(0, 0x8000);
-        if (random_.one_in(3)) return command(static_cast<unsigned>(random_.between(0, 15)), static_cast<int>(random_.between(0x10, 0x13)));
+        if (random_.one_in(3))
+            return command(static_cast<unsigned>(random_.between(0, 15)),
+                           static_cast<int>(random_.between(0x10, 0x13)));
         static constexpr int strange[] = {0x0E, 0x14, 0x1F, 0x28, 0x2F, 0x3E, 0x40, 0x7F, 0xFF};
         command(static_cast<unsigned>(random_.between(0, 15)), random_.of(strange));
         read(2 * static_cast<int>(random_.between(0, 7)));
     }
 
-    Random random_;
-    Program program_;
     std::int64_t now_ = 0;
     bool between_ = false;
-    bool long_ = false, s_curve_ = false, nasty_ = false;
     std::int64_t busy_ = 30;
     int wr5_ = 0;
 };
 
 }  // namespace
 
-Program make_program(std::uint64_t seed, std::uint64_t number) { return Maker(seed, number).make(); }
+Program make_program(std::uint64_t seed, std::uint64_t number) {
+    return Maker(seed, number).make();
+}
 
 }  // namespace motionrack::mcx314::twin

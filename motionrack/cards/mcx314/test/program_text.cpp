@@ -1,53 +1,77 @@
 // Prints register programs as a person would write them down.
-#include <motionrack/cards/mcx314/test/program.hpp>
-
 #include <cstdio>
+#include <motionrack/cards/mcx314/test/program.hpp>
 
 namespace motionrack::mcx314::twin {
 
 namespace {
 
 const char* name_of_command(int code) {
-    static constexpr const char* data[] = {"R", "K", "A", "D", "SV", "V", "P", "DP", "C", "LP", "EP", "COMP+", "COMP-", "AO"};
+    static constexpr const char* data[] = {"R",  "K", "A",  "D",  "SV",    "V",     "P",
+                                           "DP", "C", "LP", "EP", "COMP+", "COMP-", "AO"};
     if (code <= 0x0D) return data[code];
     switch (code) {
-        case 0x0F: return "select";
-        case 0x10: return "read LP";
-        case 0x11: return "read EP";
-        case 0x12: return "read CV";
-        case 0x13: return "read CA";
-        case 0x20: return "+ fixed";
-        case 0x21: return "- fixed";
-        case 0x22: return "+ continuous";
-        case 0x23: return "- continuous";
-        case 0x24: return "hold";
-        case 0x25: return "free";
-        case 0x26: return "decelerating stop";
-        case 0x27: return "immediate stop";
-        case 0x30: return "2-axis line";
-        case 0x31: return "3-axis line";
-        case 0x32: return "CW arc";
-        case 0x33: return "CCW arc";
-        case 0x3B: return "deceleration on";
-        case 0x3C: return "deceleration off";
-        case 0x3D: return "clear interrupt";
-        default: return "?";
+        case 0x0F:
+            return "select";
+        case 0x10:
+            return "read LP";
+        case 0x11:
+            return "read EP";
+        case 0x12:
+            return "read CV";
+        case 0x13:
+            return "read CA";
+        case 0x20:
+            return "+ fixed";
+        case 0x21:
+            return "- fixed";
+        case 0x22:
+            return "+ continuous";
+        case 0x23:
+            return "- continuous";
+        case 0x24:
+            return "hold";
+        case 0x25:
+            return "free";
+        case 0x26:
+            return "decelerating stop";
+        case 0x27:
+            return "immediate stop";
+        case 0x30:
+            return "2-axis line";
+        case 0x31:
+            return "3-axis line";
+        case 0x32:
+            return "CW arc";
+        case 0x33:
+            return "CCW arc";
+        case 0x3B:
+            return "deceleration on";
+        case 0x3C:
+            return "deceleration off";
+        case 0x3D:
+            return "clear interrupt";
+        default:
+            return "?";
     }
 }
 
 }  // namespace
 
 std::string to_text(const Program& program) {
-    static constexpr const char* pins[] = {"IN0", "IN1", "IN2", "IN3", "EXPP", "EXPM", "INPOS", "ALARM", "LMTP", "LMTM"};
+    static constexpr const char* pins[] = {"IN0",  "IN1",   "IN2",   "IN3",  "EXPP",
+                                           "EXPM", "INPOS", "ALARM", "LMTP", "LMTM"};
     std::string out = "seed " + std::to_string(program.seed) + ", program " + std::to_string(program.number) + ", " +
                       std::to_string(program.ticks) + " ticks\n";
     unsigned wr6 = 0, wr7 = 0;
     for (const Op& op : program.ops) {
         char line[160];
-        int n = std::snprintf(line, sizeof line, "  tick %8lld%s ", static_cast<long long>(op.tick), op.between ? ".5" : "  ");
+        int n = std::snprintf(line, sizeof line, "  tick %8lld%s ", static_cast<long long>(op.tick),
+                              op.between ? ".5" : "  ");
         const auto rest = [&] { return sizeof line - static_cast<std::size_t>(n); };
         if (op.kind == Op::Kind::input) {
-            n += std::snprintf(line + n, rest(), "%c%s = %d", "XYZU"[op.axis], pins[static_cast<int>(op.pin)], op.value);
+            n +=
+                std::snprintf(line + n, rest(), "%c%s = %d", "XYZU"[op.axis], pins[static_cast<int>(op.pin)], op.value);
         } else if (op.kind == Op::Kind::emergency) {
             n += std::snprintf(line + n, rest(), "EMGN = %d", op.value);
         } else if (op.kind == Op::Kind::read) {
@@ -57,8 +81,9 @@ std::string to_text(const Program& program) {
             if (op.offset == 12) wr6 = op.value;
             if (op.offset == 14) wr7 = op.value;
             if (op.offset == 0) {
-                n += std::snprintf(line + n, rest(), "  %s%s%s%s %s", op.value & 0x100 ? "X" : "", op.value & 0x200 ? "Y" : "",
-                                   op.value & 0x400 ? "Z" : "", op.value & 0x800 ? "U" : "", name_of_command(op.value & 0xFF));
+                n += std::snprintf(line + n, rest(), "  %s%s%s%s %s", op.value & 0x100 ? "X" : "",
+                                   op.value & 0x200 ? "Y" : "", op.value & 0x400 ? "Z" : "",
+                                   op.value & 0x800 ? "U" : "", name_of_command(op.value & 0xFF));
                 if ((op.value & 0xFF) <= 0x0D)
                     n += std::snprintf(line + n, rest(), " = %d", static_cast<std::int32_t>(wr7 << 16 | wr6));
             }

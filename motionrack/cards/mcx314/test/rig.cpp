@@ -1,15 +1,15 @@
 // Register programs on the twin, and the comparison of outcomes.
-#include <motionrack/cards/mcx314/test/rig.hpp>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <motionrack/cards/mcx314/test/rig.hpp>
 
 namespace motionrack::mcx314::twin {
 
 void sort_pulses(std::vector<Pulse>& pulses) {
-    std::stable_sort(pulses.begin(), pulses.end(),
-                     [](const Pulse& a, const Pulse& b) { return a.tick != b.tick ? a.tick < b.tick : a.axis < b.axis; });
+    std::stable_sort(pulses.begin(), pulses.end(), [](const Pulse& a, const Pulse& b) {
+        return a.tick != b.tick ? a.tick < b.tick : a.axis < b.axis;
+    });
 }
 
 namespace {
@@ -47,14 +47,23 @@ Outcome run_on_twin(const Program& program) {
     out.sights.reserve(program.ops.size());
     for (const Op& op : program.ops) {
         const bool wire = op.kind == Op::Kind::input || op.kind == Op::Kind::emergency;
-        const std::int64_t before = op.tick - (wire && !op.between ? 1 : 0);  // a wire at the instant of a tick counts for it
+        const std::int64_t before =
+            op.tick - (wire && !op.between ? 1 : 0);  // a wire at the instant of a tick counts for it
         run_to(before);
         Sight sight;
         switch (op.kind) {
-            case Op::Kind::write: twin.write(op.offset, op.value); break;
-            case Op::Kind::read: sight.value = twin.read(op.offset); break;
-            case Op::Kind::input: twin.set_input(op.axis, op.pin, op.value != 0); break;
-            case Op::Kind::emergency: twin.set_emergency(op.value != 0); break;
+            case Op::Kind::write:
+                twin.write(op.offset, op.value);
+                break;
+            case Op::Kind::read:
+                sight.value = twin.read(op.offset);
+                break;
+            case Op::Kind::input:
+                twin.set_input(op.axis, op.pin, op.value != 0);
+                break;
+            case Op::Kind::emergency:
+                twin.set_emergency(op.value != 0);
+                break;
         }
         if (!wire) {
             sight.interrupt = twin.interrupt();
@@ -73,23 +82,26 @@ Outcome run_on_twin(const Program& program) {
 namespace {
 
 std::string text_of(const Pulse& pulse) {
-    return std::string(1, "XYZU"[pulse.axis]) + (pulse.direction > 0 ? "+" : "-") + " at tick " + std::to_string(pulse.tick);
+    return std::string(1, "XYZU"[pulse.axis]) + (pulse.direction > 0 ? "+" : "-") + " at tick " +
+           std::to_string(pulse.tick);
 }
 
 std::string first_pulse_difference(const std::vector<Pulse>& twin, const std::vector<Pulse>& chip) {
     const auto [a, b] = std::mismatch(twin.begin(), twin.end(), chip.begin(), chip.end());
     if (a == twin.end() && b == chip.end()) return "";
-    return "pulse " + std::to_string(a - twin.begin()) + ": twin " + (a == twin.end() ? "has no more" : text_of(*a)) + ", chip " +
-           (b == chip.end() ? "has no more" : text_of(*b)) + "\n";
+    return "pulse " + std::to_string(a - twin.begin()) + ": twin " + (a == twin.end() ? "has no more" : text_of(*a)) +
+           ", chip " + (b == chip.end() ? "has no more" : text_of(*b)) + "\n";
 }
 
 std::string first_request_difference(const std::vector<Request>& twin, const std::vector<Request>& chip) {
     const auto [a, b] = std::mismatch(twin.begin(), twin.end(), chip.begin(), chip.end());
     if (a == twin.end() && b == chip.end()) return "";
     const auto text = [](const Request& r) {
-        return std::string(r.active ? "requested" : "cleared") + " at tick " + std::to_string(r.half_tick / 2) + (r.half_tick & 1 ? ".5" : "");
+        return std::string(r.active ? "requested" : "cleared") + " at tick " + std::to_string(r.half_tick / 2) +
+               (r.half_tick & 1 ? ".5" : "");
     };
-    return "interrupt: twin " + (a == twin.end() ? "no more" : text(*a)) + ", chip " + (b == chip.end() ? "no more" : text(*b)) + "\n";
+    return "interrupt: twin " + (a == twin.end() ? "no more" : text(*a)) + ", chip " +
+           (b == chip.end() ? "no more" : text(*b)) + "\n";
 }
 
 std::string first_crossing_difference(const std::vector<Crossing>& twin, const std::vector<Crossing>& chip) {
@@ -98,14 +110,16 @@ std::string first_crossing_difference(const std::vector<Crossing>& twin, const s
     const auto text = [](const Crossing& c) {
         return std::string(1, "XYZU"[c.axis]) + " = " + std::to_string(c.count) + " at tick " + std::to_string(c.tick);
     };
-    return "watched count: twin " + (a == twin.end() ? "no more" : text(*a)) + ", chip " + (b == chip.end() ? "no more" : text(*b)) + "\n";
+    return "watched count: twin " + (a == twin.end() ? "no more" : text(*a)) + ", chip " +
+           (b == chip.end() ? "no more" : text(*b)) + "\n";
 }
 
 }  // namespace
 
 std::string difference(const Program& program, const Outcome& twin, const Outcome& chip, const Way& way) {
     std::string out;
-    for (int a = 0; a < axis_count && way.watch; ++a) out += first_crossing_difference(twin.crossings[a], chip.crossings[a]);
+    for (int a = 0; a < axis_count && way.watch; ++a)
+        out += first_crossing_difference(twin.crossings[a], chip.crossings[a]);
     if (way.listen) out = first_pulse_difference(twin.pulses, chip.pulses);
     out += first_request_difference(twin.requests, chip.requests);
     for (std::size_t i = 0; i < program.ops.size(); ++i) {
@@ -118,10 +132,13 @@ std::string difference(const Program& program, const Outcome& twin, const Outcom
             std::snprintf(line, sizeof line, "RR%d twin %04X chip %04X; ", op.offset / 2, t.value, c.value);
             out += line;
         }
-        if (t.interrupt != c.interrupt) out += std::string("interrupt twin ") + (t.interrupt ? "1" : "0") + " chip " + (c.interrupt ? "1; " : "0; ");
+        if (t.interrupt != c.interrupt)
+            out +=
+                std::string("interrupt twin ") + (t.interrupt ? "1" : "0") + " chip " + (c.interrupt ? "1; " : "0; ");
         for (int a = 0; a < axis_count; ++a)
             if (t.count[a] != c.count[a])
-                out += std::string(1, "XYZU"[a]) + " count twin " + std::to_string(t.count[a]) + " chip " + std::to_string(c.count[a]) + "; ";
+                out += std::string(1, "XYZU"[a]) + " count twin " + std::to_string(t.count[a]) + " chip " +
+                       std::to_string(c.count[a]) + "; ";
         return out + "\n";
     }
     return out;

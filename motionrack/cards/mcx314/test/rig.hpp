@@ -33,21 +33,23 @@ struct Crossing {
 };
 
 /// How far the watched range number `n` of an axis reaches to both sides of the count at which it is set.
-constexpr std::int64_t reach(int axis, std::size_t n) { return 1 + static_cast<std::int64_t>((n * 29 + static_cast<std::size_t>(axis) * 7) % 61); }
+constexpr std::int64_t reach(int axis, std::size_t n) {
+    return 1 + static_cast<std::int64_t>((n * 29 + static_cast<std::size_t>(axis) * 7) % 61);
+}
 
 struct Outcome {
-    std::vector<Sight> sights;   ///< one an op
-    std::vector<Pulse> pulses;   ///< by tick, then axis; only if they were listened to
+    std::vector<Sight> sights;  ///< one an op
+    std::vector<Pulse> pulses;  ///< by tick, then axis; only if they were listened to
     std::vector<Request> requests;
     std::array<std::vector<Crossing>, axis_count> crossings;  ///< only if somebody watched
 };
 
 /// How a program is run: all ways must give the same outcome.
 struct Way {
-    bool listen = true;              ///< somebody listens to the edges
-    bool watch = false;              ///< somebody watches ranges of the counts
-    std::uint64_t slices = 0;        ///< seed of random cuts of the run between ops; 0: none
-    std::size_t snapshot_at = 0;     ///< after this op the chip is saved, disturbed and restored; 0: never
+    bool listen = true;           ///< somebody listens to the edges
+    bool watch = false;           ///< somebody watches ranges of the counts
+    std::uint64_t slices = 0;     ///< seed of random cuts of the run between ops; 0: none
+    std::size_t snapshot_at = 0;  ///< after this op the chip is saved, disturbed and restored; 0: never
 };
 
 /// By tick, then axis.

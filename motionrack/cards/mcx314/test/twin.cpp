@@ -1,7 +1,6 @@
 // The twin's tick: inputs, pulse and what a pulse may end.
-#include <motionrack/cards/mcx314/test/twin.hpp>
-
 #include <algorithm>
+#include <motionrack/cards/mcx314/test/twin.hpp>
 
 namespace motionrack::mcx314::twin {
 
@@ -9,7 +8,9 @@ namespace {
 constexpr std::uint16_t flag_pulse = 1u << 0;
 constexpr std::uint16_t flag_drive_end = 1u << 7;
 
-constexpr bool bit(std::uint16_t value, int n) { return (value >> n & 1) != 0; }
+constexpr bool bit(std::uint16_t value, int n) {
+    return (value >> n & 1) != 0;
+}
 }  // namespace
 
 void Twin::tick() {
@@ -42,7 +43,8 @@ void Twin::work(int a) {
     speed_step(a);
 }
 
-// ---- step 1 -----------------------------------------------------------------------------------------------------------------
+// ---- step 1
+// -----------------------------------------------------------------------------------------------------------------
 
 // Does generator `a` step axis `other` in the present segment (or is it its own)?
 bool Twin::moves_with(int a, int other) const {
@@ -123,7 +125,8 @@ void Twin::end(int a) {
     axes_[a].gen.ramp = 0;
 }
 
-// ---- step 2 -----------------------------------------------------------------------------------------------------------------
+// ---- step 2
+// -----------------------------------------------------------------------------------------------------------------
 
 // A pulse of the generator; true if the drive ended with it.
 bool Twin::pulse(int a) {
@@ -198,7 +201,8 @@ void Twin::begin_segment(const Segment& segment) {
         if (path_.direction(i) != 0) axes_[segment.axis[i]].direction = path_.direction(i);
 }
 
-// ---- when the final deceleration begins -------------------------------------------------------------------------------------
+// ---- when the final deceleration begins
+// -------------------------------------------------------------------------------------
 
 void Twin::check_final(int a) {
     const Axis& axis = axes_[a];
@@ -220,7 +224,8 @@ void Twin::check_final_of_path() {
     }
 }
 
-// ---- comparisons ------------------------------------------------------------------------------------------------------------
+// ---- comparisons
+// ------------------------------------------------------------------------------------------------------------
 
 void Twin::compare(int a) {
     Axis& axis = axes_[a];

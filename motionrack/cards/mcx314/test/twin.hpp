@@ -1,7 +1,7 @@
-// The MCX314 tick by tick: plain, slow and obviously right, written from RULES.md alone. It is the oracle of the event-driven
-// model's tests and the baseline of the benchmarks.
+// The MCX314 tick by tick: plain, slow and obviously right, written from RULES.md alone. It is the oracle of the
+// event-driven model's tests and the baseline of the benchmarks.
 //
-//     write / read            tick n: step 1 inputs ─► step 2 pulse ─► step 3 speed, for every driving generator
+//     write / read            tick n: 1 inputs ─► 2 pulse ─► 3 speed, for every driving generator
 //     set_input                       (an access at the instant of tick n comes after it)
 //
 // One tick is 125 ns (SCLK = 8 MHz).
@@ -174,11 +174,23 @@ class Twin {
 constexpr std::int64_t used(std::uint32_t written, std::int64_t low, std::int64_t high) {
     return written < low ? low : written > high ? high : written;
 }
-constexpr std::int64_t used_range(const Parameters& p) { return used(p.range, 16'000, 16'777'215); }
-constexpr std::int64_t used_speed(const Parameters& p) { return used(p.speed, 1, 8'000); }
-constexpr std::int64_t used_start_speed(const Parameters& p) { return used(p.start_speed, 1, 8'000); }
-constexpr std::int64_t used_accel(const Parameters& p) { return used(p.accel, 1, 8'000); }
-constexpr std::int64_t used_decel(const Parameters& p) { return used(p.decel, 1, 8'000); }
-constexpr std::int64_t used_jerk(const Parameters& p) { return used(p.jerk, 1, 65'535); }
+constexpr std::int64_t used_range(const Parameters& p) {
+    return used(p.range, 16'000, 16'777'215);
+}
+constexpr std::int64_t used_speed(const Parameters& p) {
+    return used(p.speed, 1, 8'000);
+}
+constexpr std::int64_t used_start_speed(const Parameters& p) {
+    return used(p.start_speed, 1, 8'000);
+}
+constexpr std::int64_t used_accel(const Parameters& p) {
+    return used(p.accel, 1, 8'000);
+}
+constexpr std::int64_t used_decel(const Parameters& p) {
+    return used(p.decel, 1, 8'000);
+}
+constexpr std::int64_t used_jerk(const Parameters& p) {
+    return used(p.jerk, 1, 65'535);
+}
 
 }  // namespace motionrack::mcx314::twin

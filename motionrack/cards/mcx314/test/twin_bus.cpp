@@ -4,10 +4,14 @@
 namespace motionrack::mcx314::twin {
 
 namespace {
-constexpr bool bit(std::uint16_t value, int n) { return (value >> n & 1) != 0; }
+constexpr bool bit(std::uint16_t value, int n) {
+    return (value >> n & 1) != 0;
+}
 }  // namespace
 
-Twin::Twin() { reset(); }
+Twin::Twin() {
+    reset();
+}
 
 void Twin::reset() {
     for (Axis& axis : axes_) {
@@ -22,7 +26,8 @@ void Twin::reset() {
     for (int a = 0; a < axis_count; ++a) compare(a);
 }
 
-// ---- writing ----------------------------------------------------------------------------------------------------------------
+// ---- writing
+// ----------------------------------------------------------------------------------------------------------------
 
 void Twin::write(std::uint32_t offset, std::uint16_t value) {
     for (int a = 0; a < axis_count && offset >= 2 && offset <= 6; ++a) {
@@ -32,12 +37,23 @@ void Twin::write(std::uint32_t offset, std::uint16_t value) {
         if (offset == 6) axes_[a].wr3 = value;
     }
     switch (offset) {
-        case 0: command(value); break;
-        case 8: wr4_ = value; break;
-        case 10: wr5_ = value; break;
-        case 12: wr6_ = value; break;
-        case 14: wr7_ = value; break;
-        default: break;
+        case 0:
+            command(value);
+            break;
+        case 8:
+            wr4_ = value;
+            break;
+        case 10:
+            wr5_ = value;
+            break;
+        case 12:
+            wr6_ = value;
+            break;
+        case 14:
+            wr7_ = value;
+            break;
+        default:
+            break;
     }
 }
 
@@ -79,20 +95,48 @@ void Twin::data_write(int code, Axis& axis) {
     const std::uint32_t value = std::uint32_t{wr7_} << 16 | wr6_;
     Parameters& p = axis.reg;
     switch (code) {
-        case 0x00: p.range = value & 0x00FF'FFFF; break;
-        case 0x01: p.jerk = wr6_; break;
-        case 0x02: p.accel = wr6_; break;
-        case 0x03: p.decel = wr6_; break;
-        case 0x04: p.start_speed = wr6_; break;
-        case 0x05: p.speed = wr6_; break;
-        case 0x06: p.pulses = value & 0x0FFF'FFFF; break;
-        case 0x07: p.decel_point = value & 0x0FFF'FFFF; break;
-        case 0x08: p.centre = value; break;
-        case 0x09: axis.lp = static_cast<std::int32_t>(value); break;
-        case 0x0A: axis.ep = static_cast<std::int32_t>(value); break;
-        case 0x0B: axis.comp_plus = static_cast<std::int32_t>(value); break;
-        case 0x0C: axis.comp_minus = static_cast<std::int32_t>(value); break;
-        default: p.offset = wr6_; break;
+        case 0x00:
+            p.range = value & 0x00FF'FFFF;
+            break;
+        case 0x01:
+            p.jerk = wr6_;
+            break;
+        case 0x02:
+            p.accel = wr6_;
+            break;
+        case 0x03:
+            p.decel = wr6_;
+            break;
+        case 0x04:
+            p.start_speed = wr6_;
+            break;
+        case 0x05:
+            p.speed = wr6_;
+            break;
+        case 0x06:
+            p.pulses = value & 0x0FFF'FFFF;
+            break;
+        case 0x07:
+            p.decel_point = value & 0x0FFF'FFFF;
+            break;
+        case 0x08:
+            p.centre = value;
+            break;
+        case 0x09:
+            axis.lp = static_cast<std::int32_t>(value);
+            break;
+        case 0x0A:
+            axis.ep = static_cast<std::int32_t>(value);
+            break;
+        case 0x0B:
+            axis.comp_plus = static_cast<std::int32_t>(value);
+            break;
+        case 0x0C:
+            axis.comp_minus = static_cast<std::int32_t>(value);
+            break;
+        default:
+            p.offset = wr6_;
+            break;
     }
 }
 
@@ -100,16 +144,25 @@ void Twin::data_read(int code, const Axis& axis) {
     const Generator& gen = axis.gen;
     std::uint32_t value = 0;
     switch (code) {
-        case 0x10: value = static_cast<std::uint32_t>(axis.lp); break;
-        case 0x11: value = static_cast<std::uint32_t>(axis.ep); break;
-        case 0x12: value = gen.kind == Generator::Kind::idle ? 0 : static_cast<std::uint32_t>(gen.speed); break;
-        default: value = static_cast<std::uint32_t>(gen.rate); break;
+        case 0x10:
+            value = static_cast<std::uint32_t>(axis.lp);
+            break;
+        case 0x11:
+            value = static_cast<std::uint32_t>(axis.ep);
+            break;
+        case 0x12:
+            value = gen.kind == Generator::Kind::idle ? 0 : static_cast<std::uint32_t>(gen.speed);
+            break;
+        default:
+            value = static_cast<std::uint32_t>(gen.rate);
+            break;
     }
     rr6_ = static_cast<std::uint16_t>(value);
     rr7_ = static_cast<std::uint16_t>(value >> 16);
 }
 
-// ---- commands ---------------------------------------------------------------------------------------------------------------
+// ---- commands
+// ---------------------------------------------------------------------------------------------------------------
 
 void Twin::drive_command(int code, unsigned axes) {
     for (int a = 0; a < axis_count; ++a) {
@@ -149,7 +202,9 @@ Segment Twin::captured(int code) const {
     s.kind = code <= 0x31 ? Segment::Kind::line : code == 0x32 ? Segment::Kind::arc_cw : Segment::Kind::arc_ccw;
     s.count = code == 0x31 ? 3 : 2;
     s.constant_speed = wr5_ >> 8 & 3;
-    const auto signed24 = [](std::uint32_t v) { return static_cast<std::int64_t>((v & 0xFF'FFFF) ^ 0x80'0000) - 0x80'0000; };
+    const auto signed24 = [](std::uint32_t v) {
+        return static_cast<std::int64_t>((v & 0xFF'FFFF) ^ 0x80'0000) - 0x80'0000;
+    };
     for (int i = 0; i < 3; ++i) {
         s.axis[i] = wr5_ >> (2 * i) & 3;
         s.finish[i] = signed24(axes_[s.axis[i]].reg.pulses);
@@ -224,7 +279,8 @@ void Twin::ask_stop(unsigned axes, bool immediate) {
     }
 }
 
-// ---- reading ----------------------------------------------------------------------------------------------------------------
+// ---- reading
+// ----------------------------------------------------------------------------------------------------------------
 
 int Twin::selected() const {
     int a = 0;
@@ -240,15 +296,24 @@ std::uint16_t Twin::read(std::uint32_t offset) {
 
 std::uint16_t Twin::peek(std::uint32_t offset) const {
     switch (offset) {
-        case 0: return main_status();
-        case 2: return status1(selected());
-        case 4: return status2(selected());
-        case 6: return axes_[selected()].flags;
-        case 8: return static_cast<std::uint16_t>(levels(0) | levels(1) << 8);
-        case 10: return static_cast<std::uint16_t>(levels(2) | levels(3) << 8);
-        case 12: return rr6_;
-        case 14: return rr7_;
-        default: return 0;
+        case 0:
+            return main_status();
+        case 2:
+            return status1(selected());
+        case 4:
+            return status2(selected());
+        case 6:
+            return axes_[selected()].flags;
+        case 8:
+            return static_cast<std::uint16_t>(levels(0) | levels(1) << 8);
+        case 10:
+            return static_cast<std::uint16_t>(levels(2) | levels(3) << 8);
+        case 12:
+            return rr6_;
+        case 14:
+            return rr7_;
+        default:
+            return 0;
     }
 }
 

@@ -7,7 +7,9 @@ namespace motionrack::mcx314::twin {
 
 class Host {
   public:
-    void command(unsigned axes, int code) { twin.write(0, static_cast<std::uint16_t>(axes << 8 | static_cast<unsigned>(code))); }
+    void command(unsigned axes, int code) {
+        twin.write(0, static_cast<std::uint16_t>(axes << 8 | static_cast<unsigned>(code)));
+    }
     void data(unsigned axes, int code, std::int64_t value) {
         twin.write(14, static_cast<std::uint16_t>(value >> 16));
         twin.write(12, static_cast<std::uint16_t>(value));
@@ -18,8 +20,8 @@ class Host {
         twin.write(static_cast<std::uint32_t>(2 * number), static_cast<std::uint16_t>(value));
     }
     /// R, V, SV, A, D, K and AO of some axes.
-    void speeds(unsigned axes, std::int64_t r, std::int64_t v, std::int64_t sv, std::int64_t a, std::int64_t d, std::int64_t k,
-                std::int64_t ao) {
+    void speeds(unsigned axes, std::int64_t r, std::int64_t v, std::int64_t sv, std::int64_t a, std::int64_t d,
+                std::int64_t k, std::int64_t ao) {
         data(axes, 0x00, r);
         data(axes, 0x05, v);
         data(axes, 0x04, sv);

@@ -1,19 +1,19 @@
 // The twin's lines and arcs.
-#include <motionrack/cards/mcx314/test/twin_path.hpp>
-
 #include <algorithm>
 #include <cstdlib>
+#include <motionrack/cards/mcx314/test/twin_path.hpp>
 
 namespace motionrack::mcx314::twin {
 
 namespace {
 
-// In octant k: which coordinate (0: x, 1: y) steps at every pulse, which way, and on which side of zero the other one is.
+// In octant k: which coordinate (0: x, 1: y) steps at every pulse, which way, and on which side of zero the other one
+// is.
 struct Octant {
     int short_axis, short_step, long_side;
 };
-constexpr std::array<Octant, 8> octants{{{1, +1, +1}, {0, -1, +1}, {0, -1, +1}, {1, -1, -1},
-                                         {1, -1, -1}, {0, +1, -1}, {0, +1, -1}, {1, +1, +1}}};
+constexpr std::array<Octant, 8> octants{
+    {{1, +1, +1}, {0, -1, +1}, {0, -1, +1}, {1, -1, -1}, {1, -1, -1}, {0, +1, -1}, {0, +1, -1}, {1, +1, +1}}};
 
 // Counter-clockwise, x falls in the upper half and y falls in the left half.
 constexpr int direction_in(int octant, int coordinate) {
@@ -35,14 +35,22 @@ int octant_of(std::int64_t x, std::int64_t y) {
 
 bool leaves(int octant, std::int64_t x, std::int64_t y) {
     switch (octant) {
-        case 0: return y >= x;
-        case 1: return x <= 0;
-        case 2: return -x >= y;
-        case 3: return y <= 0;
-        case 4: return -y >= -x;
-        case 5: return x >= 0;
-        case 6: return x >= -y;
-        default: return y >= 0;
+        case 0:
+            return y >= x;
+        case 1:
+            return x <= 0;
+        case 2:
+            return -x >= y;
+        case 3:
+            return y <= 0;
+        case 4:
+            return -y >= -x;
+        case 5:
+            return x >= 0;
+        case 6:
+            return x >= -y;
+        default:
+            return y >= 0;
     }
 }
 
@@ -113,8 +121,8 @@ void Path::step_arc(std::array<int, 3>& step) {
     s += o.short_step;
     step[o.short_axis] = o.short_step;
 
-    // With m pulses on the long axis the point half a pulse further out lies inside the circle if outside < -m, and the one half a
-    // pulse further in lies outside it if outside >= m.
+    // With m pulses on the long axis the point half a pulse further out lies inside the circle if outside < -m, and the
+    // one half a pulse further in lies outside it if outside >= m.
     const std::int64_t m = at_[long_axis] * o.long_side;
     const int grow = m < 0 || outside_ < -m ? +1 : m > 0 && outside_ >= m ? -1 : 0;
     outside_ += grow * 2 * m + grow * grow;

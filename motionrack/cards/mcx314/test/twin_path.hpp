@@ -1,5 +1,5 @@
-// The twin's lines and arcs, one basic pulse at a time, by incremental decisions: a Bresenham error for lines, the midpoint's
-// sign for arcs. No square root, no division, no state but the last point.
+// The twin's lines and arcs, one basic pulse at a time, by incremental decisions: a Bresenham error for lines, the
+// midpoint's sign for arcs. No square root, no division, no state but the last point.
 //
 //          2 | 1           the eight octants, counter-clockwise from +AX1; clockwise arcs are drawn with the
 //        3 \ | / 0         second axis negated
@@ -13,13 +13,14 @@
 
 namespace motionrack::mcx314::twin {
 
-/// What an interpolation command captures: the axes, their finish points and the centre, all in pulses from the start point.
+/// What an interpolation command captures: the axes, their finish points and the centre, all in pulses from the start
+/// point.
 struct Segment {
     enum class Kind : std::uint8_t { line, arc_cw, arc_ccw };
     Kind kind = Kind::line;
-    int count = 2;                       ///< axes: 2 or 3
-    std::array<int, 3> axis{};           ///< axis number of AX1, AX2, AX3
-    int constant_speed = 0;              ///< WR5.LSPD
+    int count = 2;              ///< axes: 2 or 3
+    std::array<int, 3> axis{};  ///< axis number of AX1, AX2, AX3
+    int constant_speed = 0;     ///< WR5.LSPD
     std::array<std::int64_t, 3> finish{};
     std::array<std::int64_t, 2> centre{};
 
@@ -41,7 +42,8 @@ class Path {
     const Segment& segment() const { return segment_; }
     /// What RR0.ZONE shows, 0..7.
     int zone() const;
-    /// The direction in which AX(i+1) goes: the sign of its finish point, in an arc that of the present octant; 0: it does not move.
+    /// The direction in which AX(i+1) goes: the sign of its finish point, in an arc that of the present octant; 0: it
+    /// does not move.
     int direction(int i) const;
 
   private:

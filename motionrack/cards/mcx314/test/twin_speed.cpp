@@ -1,7 +1,6 @@
 // The twin's third step: the speed moves towards its target, by a straight or an S-shaped ramp.
-#include <motionrack/cards/mcx314/test/twin.hpp>
-
 #include <cstdlib>
+#include <motionrack/cards/mcx314/test/twin.hpp>
 
 namespace motionrack::mcx314::twin {
 

@@ -1,10 +1,10 @@
 // The twin against what the maker's documents say: formulas, accuracy classes and the sample program's closed contour.
 #include <gtest/gtest.h>
-#include <motionrack/cards/mcx314/test/twin_host.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <motionrack/cards/mcx314/test/twin_host.hpp>
 #include <random>
 #include <string>
 #include <vector>
@@ -28,7 +28,8 @@ std::vector<std::array<std::int64_t, 4>> places(const std::vector<Pulse>& pulses
 }
 
 TEST(Mcx314Twin, DrivesTheMakersTrapezoidInTheTimeOfTheFormula) {
-    // R 800,000 (M = 10), A = 200: 250,000 pps/s from 1,000 to 40,000 pps in 0.156 s and 3,198 pulses; 80,000 pulses in 2.1521 s.
+    // R 800,000 (M = 10), A = 200: 250,000 pps/s from 1,000 to 40,000 pps in 0.156 s and 3,198 pulses; 80,000 pulses
+    // in 2.1521 s.
     Host host;
     host.speeds(x, 800'000, 4000, 100, 200, 200, 1010, 0);
     host.data(x, 0x06, 80'000);
@@ -43,7 +44,8 @@ TEST(Mcx314Twin, DrivesTheMakersTrapezoidInTheTimeOfTheFormula) {
 }
 
 TEST(Mcx314Twin, DrivesTheMakersSCurveInTheTimeOfTheFormula) {
-    // K 1010, M = 10: 618,812 pps/s2 a second; a complete S from 1,000 to 40,000 pps takes 0.50209 s and 10,292.9 pulses.
+    // K 1010, M = 10: 618,812 pps/s2 a second; a complete S from 1,000 to 40,000 pps takes 0.50209 s and 10,292.9
+    // pulses.
     Host host;
     host.speeds(x, 800'000, 4000, 100, 200, 200, 1010, 0);
     host.mode(x, 3, 4);
@@ -65,7 +67,8 @@ TEST(Mcx314Twin, MakesExactlyTheFixedPulsesWhateverTheParameters) {
     };
     for (int run = 0; run < 400; ++run) {
         Host host;
-        host.speeds(x, pick(16'000, 400'000), pick(1000, 8000), pick(400, 8000), pick(1, 8000), pick(1, 8000), pick(1, 300), pick(0, 20));
+        host.speeds(x, pick(16'000, 400'000), pick(1000, 8000), pick(400, 8000), pick(1, 8000), pick(1, 8000),
+                    pick(1, 300), pick(0, 20));
         host.mode(x, 3, static_cast<unsigned>(pick(0, 7)));
         const std::int64_t pulses = pick(0, 2000);
         host.data(x, 0x06, pulses);
@@ -85,9 +88,10 @@ TEST(Mcx314Twin, ClosesTheMakersContour) {
         int code;
         std::int64_t cx, cy, px, py;
     };
-    const std::vector<Row> rows{{0x30, 0, 0, 4500, 0},      {0x33, 0, 1500, 1500, 1500},   {0x30, 0, 0, 0, 1500},  {0x33, -1500, 0, -1500, 1500},
-                                {0x30, 0, 0, -4500, 0},     {0x33, 0, -1500, -1500, -1500}, {0x30, 0, 0, 0, -1500}, {0x33, 1500, 0, 1500, -1500}};
-    const std::vector<std::array<std::int64_t, 2>> nodes{{4500, 0},    {6000, 1500},  {6000, 3000},  {4500, 4500},
+    const std::vector<Row> rows{
+        {0x30, 0, 0, 4500, 0},  {0x33, 0, 1500, 1500, 1500},    {0x30, 0, 0, 0, 1500},  {0x33, -1500, 0, -1500, 1500},
+        {0x30, 0, 0, -4500, 0}, {0x33, 0, -1500, -1500, -1500}, {0x30, 0, 0, 0, -1500}, {0x33, 1500, 0, 1500, -1500}};
+    const std::vector<std::array<std::int64_t, 2>> nodes{{4500, 0}, {6000, 1500},  {6000, 3000},  {4500, 4500},
                                                          {0, 4500}, {-1500, 3000}, {-1500, 1500}, {0, 0}};
     host.twin.write(10, 0x0004);
     std::size_t node = 0;
@@ -168,7 +172,8 @@ TEST(Mcx314Twin, KeepsACircleWithinHalfAPulseAndComesBack) {
 }
 
 TEST(Mcx314Twin, StretchesThePulsePeriodWhenAxesStepTogether) {
-    // 45 degrees: both axes at every basic pulse, so the constant vector speed takes R2 = 1.41421 R1 from the second pulse on.
+    // 45 degrees: both axes at every basic pulse, so the constant vector speed takes R2 = 1.41421 R1 from the second
+    // pulse on.
     Host host;
     host.data(x | y, 0x00, 800'000);
     host.speeds(x, 800'000, 8000, 8000, 1, 1, 1, 0);

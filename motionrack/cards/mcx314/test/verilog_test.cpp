@@ -1,14 +1,14 @@
-// The axis generator written in Verilog (tests/verilog/mcx314_axis.v, run by iverilog) against the twin and the event-driven chip: a
-// third writing of the rules.
+// The axis generator written in Verilog (tests/verilog/mcx314_axis.v, run by iverilog) against the twin and the
+// event-driven chip: a third writing of the rules.
 #include <gtest/gtest.h>
-#include <motionrack/cards/mcx314/test/chip_rig.hpp>
-#include <motionrack/cards/mcx314/test/twin_host.hpp>
 #include <unistd.h>
 
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <motionrack/cards/mcx314/test/chip_rig.hpp>
+#include <motionrack/cards/mcx314/test/twin_host.hpp>
 #include <string>
 #include <vector>
 
@@ -58,7 +58,8 @@ std::vector<std::int64_t> pulses_of_chip(const Drive& drive, std::int64_t end) {
     const auto data = [&](std::int64_t tick, int code, std::int64_t value) {
         write(tick, 14, value >> 16), write(tick, 12, value), write(tick, 0, 0x100 | code);
     };
-    data(0, 0x00, drive.r), data(0, 0x05, drive.v), data(0, 0x04, drive.sv), data(0, 0x02, drive.a), data(0, 0x03, drive.d);
+    data(0, 0x00, drive.r), data(0, 0x05, drive.v), data(0, 0x04, drive.sv), data(0, 0x02, drive.a),
+        data(0, 0x03, drive.d);
     data(0, 0x01, drive.k), data(0, 0x0D, drive.ao), data(0, 0x06, drive.p), data(0, 0x07, drive.dp);
     write(0, 0, 0x10F), write(0, 6, drive.mode), write(0, 0, drive.continuous ? 0x122 : 0x120);
     if (drive.change_tick >= 0) data(drive.change_tick, 0x05, drive.new_speed);
@@ -71,8 +72,11 @@ std::vector<std::int64_t> pulses_of_chip(const Drive& drive, std::int64_t end) {
 
 std::string plus_arguments(const Drive& d) {
     std::string out;
-    const auto add = [&](const char* name, std::int64_t value) { out += std::string(" +") + name + "=" + std::to_string(value); };
-    add("R", d.r), add("V", d.v), add("SV", d.sv), add("A", d.a), add("D", d.d), add("K", d.k), add("AO", d.ao), add("P", d.p);
+    const auto add = [&](const char* name, std::int64_t value) {
+        out += std::string(" +") + name + "=" + std::to_string(value);
+    };
+    add("R", d.r), add("V", d.v), add("SV", d.sv), add("A", d.a), add("D", d.d), add("K", d.k), add("AO", d.ao),
+        add("P", d.p);
     add("DP", d.dp), add("MODE", d.mode), add("CONTINUOUS", d.continuous ? 1 : 0);
     add("TV", d.change_tick), add("V2", d.new_speed), add("TS", d.stop_tick);
     return out;
@@ -100,24 +104,27 @@ TEST(Mcx314Verilog, MakesTheSamePulsesInTheSameTicksAsTheTwinAndTheChip) {
     const std::string folder = std::string(MOTIONRACK_SOURCE_DIR) + "/tests/verilog/";
     const std::string program =
         (std::filesystem::temp_directory_path() / ("mcx314_axis_" + std::to_string(getpid()))).string();
-    ASSERT_EQ(std::system(("iverilog -g2001 -o " + program + " " + folder + "mcx314_axis.v " + folder + "mcx314_axis_tb.v").c_str()), 0);
+    ASSERT_EQ(
+        std::system(
+            ("iverilog -g2001 -o " + program + " " + folder + "mcx314_axis.v " + folder + "mcx314_axis_tb.v").c_str()),
+        0);
 
     const std::vector<Drive> drives{
-        {16'000, 8000, 1000, 8000, 8000, 1, 0, 20'000, 0, 0},                            // T, trapezoid
-        {16'000, 8000, 1000, 8000, 8000, 1, 8, 3001, 0, 0},                              // T, triangle
-        {20'000, 5000, 400, 3000, 700, 1, 3, 5000, 0, 2},                                // own deceleration, creeping or cut short
-        {20'000, 5000, 400, 3000, 7000, 1, 0, 5000, 4000, 3},                            // manual
-        {160'000, 3000, 5000, 100, 100, 1, 0, 50, 0, 0},                                 // V <= SV: constant
-        {16'000, 6000, 200, 8000, 8000, 1, 0, 20'000, 0, 4},                             // complete S
-        {16'000, 6000, 200, 1500, 8000, 1, 0, 20'000, 0, 4},                             // partial S
-        {16'000, 6000, 200, 1500, 900, 3, 5, 30'000, 0, 6},                              // S with its own deceleration
-        {16'000, 6000, 200, 8000, 8000, 1, 0, 4000, 0, 4},                               // S cut short
-        {32'000, 4000, 500, 2000, 2000, 1, 0, 9000, 0, 0, false, 20'000, 2500},          // V lowered while driving
-        {16'000, 4000, 500, 4000, 4000, 1, 0, 20'000, 0, 4, false, 30'000, 7000},        // V raised in an S ramp
-        {16'000, 8000, 500, 3000, 3000, 1, 0, 0, 0, 0, true, -1, 1, 60'000},             // continuous, stopped while rising
-        {16'000, 4000, 500, 3000, 3000, 2, 0, 0, 0, 4, true, -1, 1, 50'000},             // S, stopped while rising
-        {16'000, 5000, 500, 2000, 2000, 1, 0, 0, 0, 4, true, 90'000, 1000, 130'000},     // S, stopped while falling
-        {16'000, 8000, 8000, 1, 1, 1, 0, 0, 0, 0},                                       // no pulses
+        {16'000, 8000, 1000, 8000, 8000, 1, 0, 20'000, 0, 0},  // T, trapezoid
+        {16'000, 8000, 1000, 8000, 8000, 1, 8, 3001, 0, 0},    // T, triangle
+        {20'000, 5000, 400, 3000, 700, 1, 3, 5000, 0, 2},      // own deceleration, creeping or cut short
+        {20'000, 5000, 400, 3000, 7000, 1, 0, 5000, 4000, 3},  // manual
+        {160'000, 3000, 5000, 100, 100, 1, 0, 50, 0, 0},       // V <= SV: constant
+        {16'000, 6000, 200, 8000, 8000, 1, 0, 20'000, 0, 4},   // complete S
+        {16'000, 6000, 200, 1500, 8000, 1, 0, 20'000, 0, 4},   // partial S
+        {16'000, 6000, 200, 1500, 900, 3, 5, 30'000, 0, 6},    // S with its own deceleration
+        {16'000, 6000, 200, 8000, 8000, 1, 0, 4000, 0, 4},     // S cut short
+        {32'000, 4000, 500, 2000, 2000, 1, 0, 9000, 0, 0, false, 20'000, 2500},    // V lowered while driving
+        {16'000, 4000, 500, 4000, 4000, 1, 0, 20'000, 0, 4, false, 30'000, 7000},  // V raised in an S ramp
+        {16'000, 8000, 500, 3000, 3000, 1, 0, 0, 0, 0, true, -1, 1, 60'000},       // continuous, stopped while rising
+        {16'000, 4000, 500, 3000, 3000, 2, 0, 0, 0, 4, true, -1, 1, 50'000},       // S, stopped while rising
+        {16'000, 5000, 500, 2000, 2000, 1, 0, 0, 0, 4, true, 90'000, 1000, 130'000},  // S, stopped while falling
+        {16'000, 8000, 8000, 1, 1, 1, 0, 0, 0, 0},                                    // no pulses
     };
     for (std::size_t i = 0; i < drives.size(); ++i) {
         const Course twin = run_twin(drives[i]), verilog = run_verilog(program, drives[i]);
