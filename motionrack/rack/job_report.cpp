@@ -84,9 +84,7 @@ void add_axes(trace::ReportData& data, const Rack& rack, const Job& job, const J
         for (std::size_t s = 0; s < samples.size(); ++s) {
             out.position.push_back(static_cast<float>(samples[s].position[i]));
             out.speed.push_back(static_cast<float>(samples[s].speed[i]));
-            const std::size_t before = s >= 4 ? s - 4 : 0;
-            const double seconds = to_seconds(samples[s].at - samples[before].at);
-            out.accel.push_back(seconds > 0 ? static_cast<float>((samples[s].speed[i] - samples[before].speed[i]) / seconds) : 0.0F);
+            out.accel.push_back(samples[s].accel[i]);
         }
         data.axes.push_back(std::move(out));
     }
@@ -138,7 +136,8 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     data.notes = {
         fmt::format("Positions are those of the motors' rotors, looked at every {:.3g} ms; what happens between two looks is not drawn.",
                     to_seconds(job.monitor().period()) * 1e3),
-        "Speeds are those of the pulse train; acceleration is taken over four looks, so a jump at a corner shows as a short peak.",
+        "Speeds are those of the pulse train; acceleration is taken over four looks. Where the speed jumps (at a start, a stop, a corner: never by "
+        "more than the axis' start speed) there is no acceleration to draw; the greatest jump stands in the table.",
         "The machine is stiff: no vibration, no bending, no play unless the rack file says so.",
         "Deviation is the distance of X, Y, Z from the programmed path; a rotary axis that lags behind does not show in it."};
     return data;

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <limits>
 
 namespace motionrack::rack {
 
@@ -121,7 +120,7 @@ void Monitor::work_off(const RawSample& raw) {
         sample.speed[axis] = raw.rate[i] / axes_[i].pulses_per_unit;
         statistics_[axis].top_speed = std::max(statistics_[axis].top_speed, std::fabs(sample.speed[axis]));
     }
-    accelerations(raw);
+    accelerations(raw, sample);
     const double off = deviation_of(sample);
     if (off > worst_.mm) worst_ = {off, sample.at, open_block_.line, {sample.position[0], sample.position[1], sample.position[2]}};
     if (block_open_) open_block_.deviation_mm = std::max(open_block_.deviation_mm, off);
@@ -134,17 +133,18 @@ void Monitor::work_off(const RawSample& raw) {
     }
 }
 
-void Monitor::accelerations(const RawSample& raw) {
+void Monitor::accelerations(const RawSample& raw, Sample& sample) {
     std::move_backward(last_.begin(), last_.end() - 1, last_.end());
     last_[0] = raw;
     if (++last_count_ < 5) return;
     const double seconds = to_seconds(raw.at - last_[4].at);
     if (seconds <= 0) return;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-        if (raw.jumps[i] != last_[4].jumps[i]) continue;
-        AxisStatistics& out = statistics_[static_cast<std::size_t>(axes_[i].index)];
-        if (getenv("MRDBG") && std::fabs(raw.rate[i] - last_[4].rate[i]) / axes_[i].pulses_per_unit / seconds > 1010) fprintf(stderr,"acc axis %zu t %.4f %.1f -> %.1f\n",i,to_seconds(raw.at),last_[4].rate[i],raw.rate[i]);
-        out.top_accel = std::max(out.top_accel, std::fabs(raw.rate[i] - last_[4].rate[i]) / axes_[i].pulses_per_unit / seconds);
+        const auto axis = static_cast<std::size_t>(axes_[i].index);
+        const double accel = (raw.rate[i] - last_[4].rate[i]) / axes_[i].pulses_per_unit / seconds;
+        const bool jumped = raw.jumps[i] != last_[4].jumps[i];
+        sample.accel[axis] = jumped ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(accel);
+        if (!jumped) statistics_[axis].top_accel = std::max(statistics_[axis].top_accel, std::fabs(accel));
     }
 }
 

@@ -30,6 +30,7 @@ struct Sample {
     Instant at{};
     std::array<double, control::axis_count> position = {};  ///< real, mm or degrees
     std::array<double, control::axis_count> speed = {};     ///< of the pulses, per second
+    std::array<float, control::axis_count> accel = {};      ///< over 4 samples, per second squared; NaN where the speed jumped
 };
 
 struct AxisStatistics {
@@ -114,7 +115,7 @@ class Monitor final : public sim::Device {
 
     void take(Instant now);
     void work_off(const RawSample& raw);
-    void accelerations(const RawSample& raw);
+    void accelerations(const RawSample& raw, Sample& sample);
     double deviation_of(const Sample& sample);
     void close_block(Instant end);
     void thin_out();

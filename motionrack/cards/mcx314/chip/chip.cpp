@@ -173,7 +173,7 @@ void Chip::note_rates() {
     if (state_.chain == 0 || !state_.path.command.arc()) return;
     for (int i = 0; i < 2; ++i) {
         const int a = state_.path.command.axis[i];
-        if (outputs_[a].listener_count > 0) told_rate_[a] = rate_of(a);
+        if (outputs_[a].listener_count > 0) told_rate_[a] = rate_of(a, Instant{0});
     }
 }
 
@@ -185,7 +185,7 @@ void Chip::tell_listeners(Instant now) {
             changed_ &= ~(1u << a);
             if (output.edge_listener) flush_edges(a);
             if (output.listener_count > 0) {
-                const double rate = rate_of(a);
+                const double rate = rate_of(a, now);
                 for (int i = 0; i < output.listener_count; ++i) output.listeners[i]->rate_changed(told_rate_[a], rate, now);
                 told_rate_[a] = rate;
             }
@@ -232,7 +232,7 @@ std::int64_t Chip::count_at(int a, Instant t) const {
 }
 
 /// Pulses a second of the present law, signed; for an arc those of the tangent where it is.
-double Chip::rate_of(int a) const {
+double Chip::rate_of(int a, Instant t) const {
     const Axis& axis = state_.axis[a];
     const bool on_path = (state_.chain >> a & 1u) != 0;
     const Generator& gen = state_.axis[on_path ? state_.master : a].gen;
@@ -247,8 +247,9 @@ double Chip::rate_of(int a) const {
         const double sign = path_direction(i);
         if (path.command.arc()) {
             const int s = rules::octants[path.arc.octant].short_axis;
-            const double slope = std::min(1.0, std::fabs(static_cast<double>(path.arc.at[s])) /
-                                                   std::max(1.0, std::fabs(static_cast<double>(path.arc.at[1 - s]))));
+            const std::int64_t ticks = tick_of(t) - state_.tick - gen.wait;
+            const auto at = path.arc.after(ticks > 0 ? pulses_in(gen, ticks) : 0);
+            const double slope = std::min(1.0, std::fabs(static_cast<double>(at[s])) / std::max(1.0, std::fabs(static_cast<double>(at[1 - s]))));
             const double basic = phase / (r1 + extra * slope);
             return sign * (s == i ? basic : basic * slope);
         }

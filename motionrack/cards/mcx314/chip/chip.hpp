@@ -66,7 +66,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     class Output final : public sim::Motion {
       public:
         std::int64_t count(Instant t) const override { return chip->count_at(axis, t); }
-        double rate(Instant) const override { return chip->rate_of(axis); }
+        double rate(Instant t) const override { return chip->rate_of(axis, t); }
         void watch(int slot, std::int64_t below, std::int64_t above) override { chip->watch(axis, slot, below, above); }
         int listen(sim::MotionListener& listener) override;
         void listen_edges(sim::EdgeListener* listener) override { chip->listen_edges(axis, listener); }
@@ -102,7 +102,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void note_rates();
     void tell_listeners(Instant now);
     std::int64_t count_at(int axis, Instant t) const;
-    double rate_of(int axis) const;
+    double rate_of(int axis, Instant t) const;
     void watch(int axis, int slot, std::int64_t below, std::int64_t above);
     void listen_edges(int axis, sim::EdgeListener* listener);
 
