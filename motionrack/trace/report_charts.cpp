@@ -12,9 +12,9 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr std::size_t all_chart_points = 120'000;  ///< of all charts together: about 10 bytes each
-constexpr std::size_t most_driven = 16'000;        ///< points of the driven path: about 20 bytes each
-constexpr std::size_t most_planned = 30'000;       ///< points of the planned path: about 18 bytes each
+constexpr std::size_t all_chart_points = 90'000;  ///< of all charts together: about 10 bytes each
+constexpr std::size_t most_driven = 16'000;       ///< points of the driven path: about 25 bytes each
+constexpr std::size_t most_planned = 30'000;      ///< points of the planned path: about 18 bytes each
 
 /// A number as JSON; what is not finite becomes 0.
 std::string json_number(double value) {

@@ -61,7 +61,7 @@ std::string block_row(const ReportBlock& block, std::size_t index) {
     const std::string unit = shown(block.unit, 20);
     std::string out = fmt::format("<tr data-block=\"{}\">", index);
     out += cell(block.line > 0 ? std::to_string(block.line) : "");
-    out += cell("<code>" + shown(block.text, 120) + "</code>", "t") + cell(shown(block.kind, 40), "t");
+    out += cell("<code>" + shown(block.text, 100) + "</code>", "t") + cell(shown(block.kind, 40), "t");
     out += cell(number(block.length, 3) + " <small>" + unit + "</small>");
     out += cell(number(block.start, 3)) + cell(number(block.duration, 3));
     out += cell(number(block.entry_speed, 2)) + cell(number(block.top_speed, 2)) + cell(number(block.exit_speed, 2));

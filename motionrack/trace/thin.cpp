@@ -113,7 +113,7 @@ ThinnedPath thin_path(const std::vector<PathPoint>& points, const std::vector<bo
         kept = thin_once(points, kept, corners, tolerance);
         path.within += tolerance;
         if (kept.size() <= most) return path;
-        tolerance = tolerance > 0 ? tolerance * 1.6 : 1e-9;
+        tolerance = tolerance > 0 ? tolerance * 2 : 1e-9;
     }
     Indices some;  // coordinates too wild for any tolerance
     for (std::size_t i = 0; i + 1 < most; ++i) some.push_back(kept[i * (kept.size() - 1) / (most - 1)]);

@@ -1,0 +1,176 @@
+// The CSV writer.
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <motionrack/trace/csv.hpp>
+#include <system_error>
+#include <utility>
+
+namespace motionrack::trace {
+
+namespace {
+
+constexpr std::size_t buffer_size = 256 * 1024;
+
+std::FILE* as_file(void* file) {
+    return static_cast<std::FILE*>(file);
+}
+
+/// "X" as the start of a column's name: small letters, digits and '_'.
+std::string column_name(const std::string& axis, const std::string& quantity, const std::string& unit) {
+    std::string out;
+    for (const char c : axis + "_" + quantity + "_" + unit) {
+        const bool plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+        out += plain ? c : c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : '_';
+    }
+    return out;
+}
+
+}  // namespace
+
+Result<CsvWriter> CsvWriter::create(const std::string& path, const std::vector<std::string>& columns) {
+    MOTIONRACK_ASSERT(!columns.empty());
+    std::FILE* file = std::fopen(path.c_str(), "wb");
+    if (file == nullptr) {
+        return fail(Trouble::io,
+                    fmt::format("The CSV file could not be made: {}. Choose another place.",
+                                std::generic_category().message(errno)),
+                    {}, path);
+    }
+    std::setvbuf(file, nullptr, _IONBF, 0);
+    CsvWriter writer;
+    writer.path_ = path;
+    writer.file_ = file;
+    writer.buffer_.reserve(buffer_size + 4096);
+    writer.columns_ = columns.size();
+    for (const std::string& column : columns) writer.add(std::string_view(column));
+    writer.end_line();
+    return writer;
+}
+
+CsvWriter::CsvWriter(CsvWriter&& other) noexcept {
+    *this = std::move(other);
+}
+
+CsvWriter& CsvWriter::operator=(CsvWriter&& other) noexcept {
+    if (this == &other) return *this;
+    if (file_ != nullptr) static_cast<void>(close());
+    path_ = std::move(other.path_);
+    file_ = std::exchange(other.file_, nullptr);
+    trouble_ = other.trouble_;
+    buffer_ = std::move(other.buffer_);
+    written_ = other.written_;
+    columns_ = other.columns_;
+    fields_ = other.fields_;
+    return *this;
+}
+
+CsvWriter::~CsvWriter() {
+    if (file_ != nullptr) static_cast<void>(close());
+}
+
+void CsvWriter::separate() {
+    MOTIONRACK_ASSERT(fields_ < columns_);
+    if (fields_++ > 0) buffer_ += ',';
+}
+
+void CsvWriter::add(double value) {
+    separate();
+    if (std::isfinite(value)) fmt::format_to(std::back_inserter(buffer_), "{}", value == 0 ? 0.0 : value);
+}
+
+void CsvWriter::add(float value) {
+    separate();
+    if (std::isfinite(value)) fmt::format_to(std::back_inserter(buffer_), "{}", value == 0 ? 0.0F : value);
+}
+
+void CsvWriter::add(std::int64_t value) {
+    separate();
+    fmt::format_to(std::back_inserter(buffer_), "{}", value);
+}
+
+void CsvWriter::add(std::string_view text) {
+    separate();
+    if (text.find_first_of(",\"\r\n") == std::string_view::npos) {
+        buffer_ += text;
+        return;
+    }
+    buffer_ += '"';
+    for (const char c : text) {
+        if (c == '"') buffer_ += '"';
+        buffer_ += c;
+    }
+    buffer_ += '"';
+}
+
+void CsvWriter::end_line() {
+    MOTIONRACK_ASSERT(fields_ == columns_);
+    fields_ = 0;
+    buffer_ += "\r\n";
+    if (buffer_.size() >= buffer_size) flush();
+}
+
+void CsvWriter::flush() {
+    if (trouble_ == 0 && !buffer_.empty()) {
+        errno = 0;
+        const std::size_t done = std::fwrite(buffer_.data(), 1, buffer_.size(), as_file(file_));
+        if (done != buffer_.size()) trouble_ = errno != 0 ? errno : EIO;
+        written_ += done;
+    }
+    buffer_.clear();
+}
+
+Result<void> CsvWriter::close() {
+    if (file_ == nullptr) return {};
+    flush();
+    if (std::fclose(as_file(std::exchange(file_, nullptr))) != 0 && trouble_ == 0) trouble_ = errno;
+    if (trouble_ == 0) return {};
+    return fail(
+        Trouble::io,
+        fmt::format("Only about {} bytes of the CSV file could be written: {}. What was written is kept but ends "
+                    "too early; make room or choose another place, and run again.",
+                    written_, std::generic_category().message(trouble_)),
+        {}, path_);
+}
+
+Result<void> write_csv(const ReportData& data, const std::string& path) {
+    std::vector<std::string> columns = {"time_s"};
+    std::vector<std::span<const float>> series;
+    const auto add = [&](const std::string& name, const std::vector<float>& values) {
+        if (values.empty()) return;
+        columns.push_back(name);
+        series.emplace_back(values);
+    };
+    for (const ReportAxis& axis : data.axes) {
+        add(column_name(axis.name, "position", axis.unit), axis.position);
+        add(column_name(axis.name, "speed", axis.unit + "_s"), axis.speed);
+        add(column_name(axis.name, "acceleration", axis.unit + "_s2"), axis.accel);
+    }
+    add("deviation_mm", data.deviation_mm);
+    if (!data.driven.empty()) columns.insert(columns.end(), {"driven_x_mm", "driven_y_mm", "driven_z_mm"});
+    MOTIONRACK_TRY(CsvWriter csv, CsvWriter::create(path, columns));
+    for (std::size_t i = 0; i < data.seconds.size(); ++i) {
+        csv.add(data.seconds[i]);
+        for (const std::span<const float> values : series) {
+            if (i < values.size()) {
+                csv.add(values[i]);
+            } else {
+                csv.add(std::string_view());
+            }
+        }
+        for (std::size_t c = 0; c < 3 && !data.driven.empty(); ++c) {
+            if (i < data.driven.size()) {
+                csv.add(data.driven[i][c]);
+            } else {
+                csv.add(std::string_view());
+            }
+        }
+        csv.end_line();
+    }
+    return csv.close();
+}
+
+}  // namespace motionrack::trace

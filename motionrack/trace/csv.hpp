@@ -1,0 +1,59 @@
+// Sampled values as CSV (RFC 4180): a head with units, then one line a sample; lines end in CR LF, points in numbers.
+//
+//     time_s,x_position_mm,x_speed_mm_s
+//     0,0,0
+//     0.001,0.0125,25
+#pragma once
+
+#include <cstdint>
+#include <motionrack/base/result.hpp>
+#include <motionrack/trace/report.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::trace {
+
+/// Writes one CSV file, line by line, through a buffer. Numbers are the shortest text that reads back as the same
+/// number; what is not finite is an empty field. A write error stops the writing and is told by close.
+class CsvWriter {
+  public:
+    /// `columns`: names with units, "x_position_mm"; they are quoted where RFC 4180 asks for it. Errors: io.
+    static Result<CsvWriter> create(const std::string& path, const std::vector<std::string>& columns);
+
+    CsvWriter(CsvWriter&& other) noexcept;
+    CsvWriter& operator=(CsvWriter&& other) noexcept;
+    CsvWriter(const CsvWriter&) = delete;
+    CsvWriter& operator=(const CsvWriter&) = delete;
+    ~CsvWriter();
+
+    /// The fields of a line, from the left; end_line needs as many as there are columns.
+    void add(double value);
+    void add(float value);
+    void add(std::int64_t value);
+    void add(std::string_view text);
+    void end_line();
+
+    /// Errors: io, the first error met; what was written is kept.
+    Result<void> close();
+
+  private:
+    CsvWriter() = default;
+    void separate();
+    void flush();
+
+    std::string path_;
+    void* file_ = nullptr;
+    int trouble_ = 0;  ///< errno of the first failed write
+    std::string buffer_;
+    std::uint64_t written_ = 0;
+    std::size_t columns_ = 0;
+    std::size_t fields_ = 0;
+};
+
+/// All samples of a run, not thinned: time, position, speed and acceleration of each axis that has them, the driven
+/// path and the deviation. Errors: io.
+Result<void> write_csv(const ReportData& data, const std::string& path);
+
+}  // namespace motionrack::trace

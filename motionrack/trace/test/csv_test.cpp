@@ -1,0 +1,80 @@
+// The CSV writer: quoting, numbers, heads with units, full disks.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <limits>
+#include <motionrack/trace/csv.hpp>
+
+#include "scratch.hpp"
+
+namespace motionrack::trace {
+namespace {
+
+TEST(CsvWriter, QuotesWhatRfc4180AsksFor) {
+    const Scratch scratch;
+    auto csv = CsvWriter::create(scratch.path("a.csv"), {"time_s", "a,b", "say \"hi\"", "line\nbreak"});
+    ASSERT_TRUE(csv);
+    csv->add(0.1);
+    csv->add(std::int64_t{-7});
+    csv->add(std::string_view("plain"));
+    csv->add(std::string_view("\""));
+    csv->end_line();
+    ASSERT_TRUE(csv->close());
+    EXPECT_EQ(file_text(scratch.path("a.csv")),
+              "time_s,\"a,b\",\"say \"\"hi\"\"\",\"line\nbreak\"\r\n0.1,-7,plain,\"\"\"\"\r\n");
+}
+
+TEST(CsvWriter, WritesNumbersThatReadBackTheSameAndLeavesOutWhatIsNone) {
+    const Scratch scratch;
+    auto csv = CsvWriter::create(scratch.path("a.csv"), {"a", "b", "c", "d", "e"});
+    ASSERT_TRUE(csv);
+    csv->add(0.1 + 0.2);
+    csv->add(0.1F);
+    csv->add(-0.0);
+    csv->add(std::numeric_limits<double>::quiet_NaN());
+    csv->add(std::numeric_limits<float>::infinity());
+    csv->end_line();
+    ASSERT_TRUE(csv->close());
+    EXPECT_EQ(file_text(scratch.path("a.csv")), "a,b,c,d,e\r\n0.30000000000000004,0.1,0,,\r\n");
+}
+
+TEST(WriteCsv, NamesEveryColumnWithItsUnit) {
+    ReportData data;
+    data.seconds = {0, 0.001};
+    data.axes.resize(2);
+    data.axes[0].name = "X";
+    data.axes[0].position = {0, 0.0125F};
+    data.axes[0].speed = {0, 25};
+    data.axes[0].accel = {500, 500};
+    data.axes[1].name = "A";
+    data.axes[1].unit = "deg";
+    data.axes[1].position = {90};
+    data.driven = {{0, 0, 0}, {0.0125, 0, -1}};
+    data.deviation_mm = {0, 0.001F};
+    const Scratch scratch;
+    ASSERT_TRUE(write_csv(data, scratch.path("a.csv")));
+    EXPECT_EQ(file_text(scratch.path("a.csv")),
+              "time_s,x_position_mm,x_speed_mm_s,x_acceleration_mm_s2,a_position_deg,deviation_mm,"
+              "driven_x_mm,driven_y_mm,driven_z_mm\r\n"
+              "0,0,0,500,90,0,0,0,0\r\n"
+              "0.001,0.0125,25,500,,0.001,0.0125,0,-1\r\n");
+}
+
+TEST(CsvWriter, SaysOnceAtTheEndThatTheDiskIsFull) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
+    auto csv = CsvWriter::create("/dev/full", {"a"});
+    ASSERT_TRUE(csv);
+    for (std::int64_t i = 0; i < 100'000; ++i) {
+        csv->add(i);
+        csv->end_line();
+    }
+    const auto closed = csv->close();
+    ASSERT_FALSE(closed);
+    EXPECT_EQ(closed.error().trouble, Trouble::io);
+    EXPECT_NE(closed.error().message.find("No space left"), std::string::npos);
+    EXPECT_TRUE(csv->close());
+    EXPECT_FALSE(CsvWriter::create("/nowhere/at/all.csv", {"a"}));
+}
+
+}  // namespace
+}  // namespace motionrack::trace

@@ -1,0 +1,93 @@
+// Pictures as SVG: what they hold and what range they choose.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <motionrack/trace/svg.hpp>
+
+namespace motionrack::trace {
+namespace {
+
+ReportData corner() {
+    ReportData data;
+    data.planned = {{{{0, 0, 5}, {50, 20, 5}}, true, 1}, {{{50, 20, 5}, {50, 80, 5}, {10, 80, 5}}, false, 2}};
+    data.driven = {{0, 0, 5}, {50, 20, 5}, {50, 80, 5}, {10, 80, 5}};
+    data.worst = ReportWorst{0.004, 1, 2, {50, 80, 5}};
+    data.axes.resize(2);
+    data.axes[0].name = "X";
+    data.axes[0].max_position = 100;
+    data.axes[1].name = "Y";
+    data.axes[1].max_position = 100;
+    return data;
+}
+
+TEST(SvgPath, FromAboveHasYUpAndDrawsTraversesApart) {
+    SvgLook look;
+    look.width = look.height = 268;  // 100 mm on 200 px
+    const std::string svg = svg_path(corner(), PathView::plan, look);
+    EXPECT_NE(svg.find("<polyline class=\"planned traverse\" points=\"34,234 134,194\"/>"), std::string::npos) << svg;
+    EXPECT_NE(svg.find("<polyline class=\"planned\" points=\"134,194 134,74 54,74\"/>"), std::string::npos) << svg;
+    EXPECT_NE(svg.find("<polyline class=\"driven\" points=\"34,234 134,194 134,74 54,74\"/>"), std::string::npos)
+        << svg;
+    EXPECT_NE(svg.find("class=\"mark worst\" transform=\"translate(134 74)\""), std::string::npos) << svg;
+}
+
+TEST(SvgPath, StandsAloneWithStyleAndNameOnlyWhenAsked) {
+    SvgLook look;
+    EXPECT_EQ(svg_path(corner(), PathView::perspective, look).find("<style>"), std::string::npos);
+    look.standalone = true;
+    const std::string svg = svg_path(corner(), PathView::perspective, look);
+    EXPECT_EQ(svg.rfind("<svg xmlns=", 0), 0U);
+    EXPECT_NE(svg.find("<style>"), std::string::npos);
+}
+
+TEST(SvgPath, OfOnePointOrNoneHoldsNoWildNumbers) {
+    ReportData data;
+    for (int points = 0; points < 2; ++points) {
+        for (const PathView view : {PathView::plan, PathView::perspective}) {
+            const std::string svg = svg_path(data, view);
+            EXPECT_EQ(svg.find("nan"), std::string::npos);
+            EXPECT_EQ(svg.find("inf"), std::string::npos);
+        }
+        data.driven = {{1e9, -1e9, 3}};
+    }
+}
+
+TEST(SvgChart, ShowsALimitOnceTheValuesUseAQuarterOfIt) {
+    const std::vector<double> seconds = {0, 1};
+    const std::vector<float> low = {0, 24}, high = {0, 26};
+    SvgChart chart;
+    chart.limits = {{100, "limit"}, {-100, "limit"}};
+    chart.series = {{"X", "x", seconds, low}};
+    EXPECT_LT(range_of(chart).high, 30);
+    EXPECT_EQ(svg_chart(chart).find("class=\"limit\""), std::string::npos);
+    chart.series = {{"X", "x", seconds, high}};
+    EXPECT_GE(range_of(chart).high, 100);
+    EXPECT_GT(range_of(chart).low, -100);
+    EXPECT_NE(svg_chart(chart).find("class=\"limit\""), std::string::npos);
+}
+
+TEST(SvgChart, RangeOfEqualNoneOrWildValuesIsNeverEmpty) {
+    const std::vector<double> seconds = {0, 1, 2};
+    for (const float v :
+         {0.0F, 5.0F, -5.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::max()}) {
+        const std::vector<float> values = {v, v, v};
+        SvgChart chart;
+        chart.series = {{"", "d", seconds, values}};
+        const ChartRange range = range_of(chart);
+        EXPECT_LT(range.low, range.high) << v;
+        const std::string svg = svg_chart(chart);
+        EXPECT_EQ(svg.find("nan"), std::string::npos) << v;
+        EXPECT_EQ(svg.find("inf"), std::string::npos) << v;
+    }
+}
+
+TEST(NiceStep, IsOneTwoOrFiveTimesAPowerOfTen) {
+    EXPECT_DOUBLE_EQ(nice_step(10, 5), 2);
+    EXPECT_DOUBLE_EQ(nice_step(0.07, 5), 0.02);
+    EXPECT_DOUBLE_EQ(nice_step(3000, 6), 500);
+    EXPECT_DOUBLE_EQ(nice_step(0, 6), 1);
+    EXPECT_DOUBLE_EQ(nice_step(std::numeric_limits<double>::infinity(), 6), 1);
+}
+
+}  // namespace
+}  // namespace motionrack::trace
