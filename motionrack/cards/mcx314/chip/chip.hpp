@@ -77,6 +77,11 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
         int listener_count = 0;
         sim::EdgeListener* edge_listener = nullptr;
         sim::EdgeBatch batch;
+        std::int64_t batch_tick = 0;  ///< of its origin
+    };
+    /// Pulses at one speed and range: the first at tick `at`, each `quotient` ticks after the one before, or one more when `slack` runs out.
+    struct EvenPulses {
+        std::int64_t at = 0, quotient = 0, remainder = 0, slack = 0, speed = 1;
     };
     /// Hears when an encoder passes a comparison value.
     class EncoderEar final : public sim::MotionListener {
@@ -174,9 +179,13 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     // edges.cpp
     bool edges_wanted(int a) const;
     void make_edges(int a, std::int64_t ticks, std::int64_t pulses);
-    void make_own_edges(int a, std::int64_t ticks, std::int64_t pulses);
-    void make_path_edges(std::int64_t pulses);
-    void add_edge(int axis, std::int64_t tick, int direction);
+    EvenPulses even_pulses(const Generator& gen, std::int64_t waited) const;
+    void make_even_edges(int a, EvenPulses run, std::int64_t pulses, int direction);
+    void make_led_edges(int i, EvenPulses run, std::int64_t pulses);
+    void make_arc_edges(EvenPulses run, std::int64_t pulses);
+    void make_varied_edges(std::int64_t waited, std::int64_t pulses);
+    void add_edge(int a, std::int64_t tick, int direction, std::int64_t count);
+    void begin_batch(int a, std::int64_t tick, int direction, std::int64_t count);
     void flush_edges(int axis);
 
     // registers.cpp

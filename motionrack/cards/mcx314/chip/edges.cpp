@@ -3,6 +3,10 @@
 
 namespace motionrack::mcx314 {
 
+namespace {
+constexpr std::int64_t longest_batch = 0xF000'0000;  // ticks between the first and the last edge of a batch
+}
+
 bool Chip::edges_wanted(int a) const {
     const std::uint32_t moved = moved_by(a);
     for (int i = 0; i < axes_of_chip; ++i)
@@ -24,113 +28,195 @@ void Chip::flush_edges(int axis) {
     batch.size = 0;
 }
 
-void Chip::add_edge(int axis, std::int64_t tick_of_edge, int direction) {
-    sim::EdgeBatch& batch = outputs_[axis].batch;
-    const std::int64_t offset = tick_of_edge - batch.origin.count() / rules::tick_100ps;
-    if (batch.size > 0 && (batch.step != direction || batch.size == sim::EdgeBatch::capacity || offset > 0xFFFF'FFFFll)) flush_edges(axis);
-    if (batch.size == 0) {
-        batch.origin = Instant{tick_of_edge * rules::tick_100ps};
-        batch.tick = Duration{rules::tick_100ps};
-        batch.step = direction;
-        batch.first_count = state_.axis[axis].count;
-        batch.at[batch.size++] = 0;
+/// One edge of axis `a`, after which its count is `count`.
+void Chip::add_edge(int a, std::int64_t at, int direction, std::int64_t count) {
+    sim::EdgeBatch& batch = outputs_[a].batch;
+    const std::int64_t offset = at - outputs_[a].batch_tick;
+    if (batch.size > 0 && (batch.step != direction || batch.size == sim::EdgeBatch::capacity || offset > longest_batch)) flush_edges(a);
+    if (batch.size > 0) {
+        batch.at[batch.size++] = static_cast<std::uint32_t>(offset);
         return;
     }
-    batch.at[batch.size++] = static_cast<std::uint32_t>(offset);
+    begin_batch(a, at, direction, count);
+    batch.at[batch.size++] = 0;
+}
+
+void Chip::begin_batch(int a, std::int64_t at, int direction, std::int64_t count) {
+    Output& output = outputs_[a];
+    output.batch_tick = at;
+    output.batch.origin = Instant{at * rules::tick_100ps};
+    output.batch.tick = Duration{rules::tick_100ps};
+    output.batch.step = direction;
+    output.batch.first_count = count;
+}
+
+/// `pulses` edges of axis `a`, evenly: each comes quotient ticks after the one before, or one more if the remainder has used up the slack.
+/// The first comes at `run.at`.
+void Chip::make_even_edges(int a, EvenPulses run, std::int64_t pulses, int direction) {
+    sim::EdgeBatch& batch = outputs_[a].batch;
+    std::int64_t count = state_.axis[a].count;
+    while (pulses > 0) {
+        if (batch.size > 0 && (batch.step != direction || batch.size == sim::EdgeBatch::capacity)) flush_edges(a);
+        if (batch.size > 0 && run.at - outputs_[a].batch_tick > longest_batch) flush_edges(a);
+        if (batch.size == 0) begin_batch(a, run.at, direction, count + direction);
+        std::int64_t some = std::min<std::int64_t>(sim::EdgeBatch::capacity - batch.size, pulses);
+        // As many as the batch's 32-bit offsets have room for.
+        some = std::min(some, (longest_batch - (run.at - outputs_[a].batch_tick)) / (run.quotient + 1) + 1);
+        const auto first = static_cast<std::uint32_t>(run.at - outputs_[a].batch_tick);
+        auto offset = first;
+        auto slack = static_cast<std::int32_t>(run.slack);
+        const auto q = static_cast<std::uint32_t>(run.quotient);
+        const auto r = static_cast<std::int32_t>(run.remainder), v = static_cast<std::int32_t>(run.speed);
+        std::uint32_t* out = batch.at.data() + batch.size;
+        for (std::int64_t i = 0; i < some; ++i) {
+            out[i] = offset;
+            slack -= r;
+            const std::int32_t late = slack >> 31;  // all ones if the remainder needs one more tick
+            offset += q - static_cast<std::uint32_t>(late);
+            slack += late & v;
+        }
+        run.at += offset - first;
+        run.slack = slack;
+        batch.size += static_cast<std::uint32_t>(some);
+        count += some * direction;
+        pulses -= some;
+    }
+}
+
+/// The generator's next basic pulses while its speed and range stay: pulse j comes when acc has grown by j * R.
+Chip::EvenPulses Chip::even_pulses(const Generator& gen, std::int64_t waited) const {
+    const std::int64_t need = gen.range_now - gen.acc;
+    EvenPulses run;
+    run.speed = gen.speed;
+    run.quotient = gen.range_now / gen.speed;
+    run.remainder = gen.range_now % gen.speed;
+    const std::int64_t ticks = rules::ceil_div(need, gen.speed);
+    run.at = state_.tick + waited + ticks;
+    run.slack = ticks * gen.speed - need;
+    return run;
 }
 
 /// The next `pulses` basic pulses of generator `a`, which begins to work after `waited` more ticks; called before its state moves on.
 void Chip::make_edges(int a, std::int64_t waited, std::int64_t pulses) {
-    if (state_.axis[a].gen.drive == Drive::path)
-        make_path_edges(pulses);
-    else
-        make_own_edges(a, waited, pulses);
-}
-
-/// Pulse j comes at the tick at which acc has grown by j * R: a division once, then quotient and remainder are added.
-void Chip::make_own_edges(int a, std::int64_t waited, std::int64_t pulses) {
-    const Axis& axis = state_.axis[a];
-    const Generator& gen = axis.gen;
-    sim::EdgeBatch& batch = outputs_[a].batch;
-    const std::int64_t quotient = gen.range_now / gen.speed, remainder = gen.range_now % gen.speed;
-    std::int64_t at = state_.tick + waited + rules::ceil_div(gen.range_now - gen.acc, gen.speed);
-    std::int64_t slack = (at - state_.tick - waited) * gen.speed - (gen.range_now - gen.acc);
-    std::int64_t made = 0;
-    while (made < pulses) {
-        if (batch.size > 0 && (batch.step != axis.direction || batch.size == sim::EdgeBatch::capacity ||
-                               at - batch.origin.count() / rules::tick_100ps > 0x7FFF'FFFF)) flush_edges(a);
-        if (batch.size == 0) {
-            batch.origin = Instant{at * rules::tick_100ps};
-            batch.tick = Duration{rules::tick_100ps};
-            batch.step = axis.direction;
-            batch.first_count = axis.count + (made + 1) * axis.direction;
-        }
-        const std::int64_t room = static_cast<std::int64_t>(sim::EdgeBatch::capacity - batch.size);
-        const std::int64_t count = std::min(room, pulses - made);
-        auto offset = static_cast<std::uint32_t>(at - batch.origin.count() / rules::tick_100ps);
-        auto short_slack = static_cast<std::int32_t>(slack);
-        const auto q = static_cast<std::uint32_t>(quotient);
-        const auto r = static_cast<std::int32_t>(remainder), v = static_cast<std::int32_t>(gen.speed);
-        std::uint32_t* out = batch.at.data() + batch.size;
-        const std::uint32_t before = offset;
-        for (std::int64_t i = 0; i < count; ++i) {
-            out[i] = offset;
-            short_slack -= r;
-            const std::int32_t late = short_slack >> 31;  // all ones if the remainder needs one more tick
-            offset += q - static_cast<std::uint32_t>(late);
-            short_slack += late & v;
-        }
-        at += offset - before;
-        slack = short_slack;
-        batch.size += static_cast<std::uint32_t>(count);
-        made += count;
+    const Generator& gen = state_.axis[a].gen;
+    if (gen.drive != Drive::path) return make_even_edges(a, even_pulses(gen, waited), pulses, state_.axis[a].direction);
+    const Path& path = state_.path;
+    if (path.range_for[1] != path.range_for[0] || path.range_for[2] != path.range_for[0]) return make_varied_edges(waited, pulses);
+    if (path.command.arc()) return make_arc_edges(even_pulses(gen, waited), pulses);
+    for (int i = 0; i < path.command.count; ++i) {
+        const std::int64_t p = rules::magnitude(path.command.finish[i]);
+        const int axis = path.command.axis[i], direction = path.command.finish[i] < 0 ? -1 : 1;
+        if (p == 0 || !outputs_[axis].edge_listener) continue;
+        if (p == path.longest)
+            make_even_edges(axis, even_pulses(gen, waited), pulses, direction);
+        else
+            make_led_edges(i, even_pulses(gen, waited), pulses);
     }
 }
 
-/// Along a line or within an octant of an arc: each basic pulse's tick, and the axes that step with it.
-void Chip::make_path_edges(std::int64_t pulses) {
+/// An axis that is led along a line steps every so many basic pulses, or one more: two intervals, each with its quotient and remainder.
+void Chip::make_led_edges(int i, EvenPulses run, std::int64_t pulses) {
     const Generator& gen = state_.axis[state_.master].gen;
     const Path& path = state_.path;
-    std::array<std::int64_t, 3> count{}, error{}, twice{};
-    const bool arc = path.command.arc();
-    for (int i = 0; i < path.command.count; ++i) {
+    const std::int64_t p = rules::magnitude(path.command.finish[i]), longest = path.longest;
+    const int axis = path.command.axis[i], direction = path.command.finish[i] < 0 ? -1 : 1;
+    const std::int64_t made = rules::line_steps(gen.n, p, longest), steps = rules::line_steps(gen.n + pulses, p, longest) - made;
+    if (steps == 0) return;
+    const std::int64_t first = rules::line_pulse_of_step(made + 1, p, longest);
+    std::int64_t spare = 2 * p * first - (2 * made + 1) * longest;  // of the basic pulse beyond the exact place of the step
+    const std::int64_t between = longest / p, rest = 2 * (longest % p);
+    const std::int64_t phase = (first - gen.n - 1) * gen.range_now - run.slack;
+    const std::int64_t ticks = phase > 0 ? rules::ceil_div(phase, gen.speed) : 0;
+    std::int64_t at = run.at + ticks, slack = ticks * gen.speed - phase, count = state_.axis[axis].count;
+    std::array<std::int64_t, 2> quotient{}, remainder{};
+    for (int more = 0; more < 2; ++more) {
+        quotient[more] = (between + more) * gen.range_now / gen.speed;
+        remainder[more] = (between + more) * gen.range_now % gen.speed;
+    }
+    for (std::int64_t j = 0; j < steps; ++j) {
+        count += direction;
+        add_edge(axis, at, direction, count);
+        spare -= rest;
+        const int more = spare < 0 ? 1 : 0;
+        spare += more * 2 * p;
+        slack -= remainder[more];
+        const std::int64_t late = slack < 0 ? 1 : 0;
+        at += quotient[more] + late;
+        slack += late * gen.speed;
+    }
+}
+
+/// Within an octant: the short axis steps evenly, the long one where its nearest value changes.
+void Chip::make_arc_edges(EvenPulses run, std::int64_t pulses) {
+    const Path& path = state_.path;
+    const rules::Octant& octant = rules::octants[path.arc.octant];
+    const int s = octant.short_axis, l = 1 - s;
+    const auto direction = [&](int i) { return i == 1 && path.arc.clockwise ? -1 : 1; };
+    const int short_axis = path.command.axis[s], long_axis = path.command.axis[l];
+    if (outputs_[short_axis].edge_listener) make_even_edges(short_axis, run, pulses, octant.short_step * direction(s));
+    if (!outputs_[long_axis].edge_listener) return;
+    // The long coordinate's magnitude m is nearest to the circle while m * m - m < q = r2 - short^2 <= m * m + m.
+    std::int64_t short_value = path.arc.at[s], m = rules::magnitude(path.arc.at[l]), count = state_.axis[long_axis].count;
+    std::int64_t q = path.arc.r2 - short_value * short_value;
+    const int way = short_value * octant.short_step >= 0 ? -1 : 1;  // m falls, or rises
+    const int step = way * octant.long_side * direction(l);
+    std::int64_t threshold = way > 0 ? m * m + m : m * m - m;  // m changes once q is above it, or not above it
+    for (std::int64_t j = 0; j < pulses; ++j) {
+        q -= 2 * short_value * octant.short_step + 1;
+        short_value += octant.short_step;
+        if ((q > threshold) == (way > 0)) {
+            count += step;
+            add_edge(long_axis, run.at, step, count);
+            threshold += way > 0 ? 2 * (m + 1) : -2 * (m - 1);
+            m += way;
+        }
+        run.slack -= run.remainder;
+        const std::int64_t late = run.slack < 0 ? 1 : 0;
+        run.at += run.quotient + late;
+        run.slack += late * run.speed;
+    }
+}
+
+/// With constant vector speed each basic pulse's interval depends on how many axes stepped with the one before.
+void Chip::make_varied_edges(std::int64_t waited, std::int64_t pulses) {
+    const Generator& gen = state_.axis[state_.master].gen;
+    const Path& path = state_.path;
+    const int axes = path.command.count;
+    std::array<std::int64_t, 3> count{}, error{}, twice{}, quotient{}, remainder{};
+    rules::Arc arc = path.arc;
+    for (int i = 0; i < axes; ++i) {
         count[i] = state_.axis[path.command.axis[i]].count;
-        if (arc) continue;
+        quotient[i] = path.range_for[i] / gen.speed;
+        remainder[i] = path.range_for[i] % gen.speed;
+        if (path.command.arc()) continue;
         twice[i] = 2 * rules::magnitude(path.command.finish[i]);
         error[i] = (gen.n * twice[i] + path.longest) % (2 * path.longest);
     }
-    std::array<std::int64_t, 2> at = path.arc.at;
-    std::int64_t need = gen.range_now - gen.acc, ticks = state_.tick;
-    for (std::int64_t j = 1; j <= pulses; ++j) {
-        const std::int64_t k = rules::ceil_div(need, gen.speed);
-        ticks += k;
-        int stepped = 0;
+    EvenPulses run = even_pulses(gen, waited);
+    for (std::int64_t j = 0; j < pulses; ++j) {
         std::array<int, 3> step{};
-        if (arc) {
-            const auto to = path.arc.after(j);
-            step[0] = static_cast<int>(to[0] - at[0]);
-            step[1] = static_cast<int>(path.arc.clockwise ? at[1] - to[1] : to[1] - at[1]);
-            at = to;
-        } else {
-            for (int i = 0; i < path.command.count; ++i) {
+        if (path.command.arc()) {
+            const auto both = arc.step();
+            step[0] = both[0];
+            step[1] = both[1];
+        }
+        int stepped = 0;
+        for (int i = 0; i < axes; ++i) {
+            if (!path.command.arc()) {
                 error[i] += twice[i];
                 if (error[i] < 2 * path.longest) continue;
                 error[i] -= 2 * path.longest;
                 step[i] = path.command.finish[i] < 0 ? -1 : 1;
             }
-        }
-        for (int i = 0; i < path.command.count; ++i) {
             if (step[i] == 0) continue;
             ++stepped;
             count[i] += step[i];
-            const int axis = path.command.axis[i];
-            if (!outputs_[axis].edge_listener) continue;
-            const bool first = outputs_[axis].batch.size == 0 || outputs_[axis].batch.size == sim::EdgeBatch::capacity ||
-                               outputs_[axis].batch.step != step[i];
-            add_edge(axis, ticks, step[i]);
-            if (first) outputs_[axis].batch.first_count = count[i];
+            if (outputs_[path.command.axis[i]].edge_listener) add_edge(path.command.axis[i], run.at, step[i], count[i]);
         }
-        need += path.range_for[static_cast<std::size_t>(stepped - 1)] - k * gen.speed;
+        run.slack -= remainder[stepped - 1];
+        const std::int64_t late = run.slack < 0 ? 1 : 0;
+        run.at += quotient[stepped - 1] + late;
+        run.slack += late * run.speed;
     }
 }
 

@@ -22,6 +22,7 @@ void Chip::work_off(std::int64_t to) {
         } else if (axis.gen.plain) {
             skip_speed(axis, to - from - 1);
             skip_phase(a, to - from);
+            if (axis.gen.drive == Drive::path) note_rates();
             state_.tick = to;
             speed_step(a);
         } else {
@@ -209,7 +210,7 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
     axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & flag_pulse));
     moved_last_ |= 1u << a;
     compare(a);
-    if (outputs_[a].edge_listener) add_edge(a, tick_now, direction);
+    if (outputs_[a].edge_listener) add_edge(a, tick_now, direction, axis.count);
     for (const Watch& watch : axis.watch)
         if (axis.count <= watch.below || axis.count >= watch.above) axis.crossed_now = true;
 }
