@@ -167,8 +167,9 @@ std::string limit_words(const SvgChart& chart) {
     return "travel " + number(first) + " \xE2\x80\xA6 " + number(second);
 }
 
-std::string chart_html(const PageChart& entry, std::size_t index, int height) {
+std::string chart_html(const PageChart& entry, std::size_t index, int width, int height) {
     SvgLook look;
+    look.width = width;
     look.height = height;
     const std::string limit = limit_words(entry.chart);
     return fmt::format(
@@ -185,7 +186,7 @@ std::vector<PageChart> charts_of(const ReportData& data) {
     for (std::size_t i = 0; i < std::min(data.axes.size(), most_axes); ++i) add_axis(data, i, charts);
     if (!data.deviation_mm.empty()) {
         SvgChart out = chart("Deviation from the programmed path, mm", "d", data, data.deviation_mm);
-        if (data.tolerance_mm > 0) out.limits = {{data.tolerance_mm, "tolerance"}};
+        if (data.tolerance_mm > 0) out.limits = {{data.tolerance_mm, ""}};
         charts.push_back({-1, std::move(out)});
     }
     return charts;
@@ -203,14 +204,14 @@ std::string charts_html(const ReportData& data, const std::vector<PageChart>& ch
                    shown(axis.name) + "</h3>\n";
             open = charts[i].axis;
         }
-        out += chart_html(charts[i], i, 150);
+        out += chart_html(charts[i], i, 720, 150);
     }
     return open >= 0 ? out + "</article>\n" : out;
 }
 
 std::string deviation_html(const ReportData&, const std::vector<PageChart>& charts) {
     if (charts.empty() || charts.back().axis >= 0) return {};
-    return "<article class=\"card look-d\">" + chart_html(charts.back(), charts.size() - 1, 170) + "</article>\n";
+    return "<article class=\"card look-d\">" + chart_html(charts.back(), charts.size() - 1, 1440, 170) + "</article>\n";
 }
 
 std::string drawing_json(const ReportData& data, const std::vector<PageChart>& charts) {

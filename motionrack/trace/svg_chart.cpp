@@ -91,11 +91,21 @@ std::string line_of(const SvgSeries& series, const Frame& frame) {
     }
     out.back() = '"';
     out += "/>\n";
-    if (!series.name.empty()) {
-        out += svg_text(frame.x(series.seconds[kept.back()]) - 4,
-                        frame.y(static_cast<double>(series.values[kept.back()])) - 5, "end", series.name);
-    }
     return out;
+}
+
+/// Title, names of the series with the look of their lines, and what the axis of time is.
+std::string heading(const SvgChart& chart, const SvgLook& look) {
+    std::string out = fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", left, escaped(chart.title));
+    double x = look.width - right - 64;
+    for (auto series = chart.series.rbegin(); series != chart.series.rend(); ++series) {
+        if (series->name.empty()) continue;
+        out += svg_text(x, 15, "end", series->name);
+        x -= 7.0 * static_cast<double>(series->name.size()) + 6;
+        out += straight(x - 20, 11, x, 11, ("line " + escaped(series->look)).c_str());
+        x -= 36;
+    }
+    return out + svg_text(look.width - right, 15, "end", "time in s");
 }
 
 }  // namespace
@@ -131,10 +141,7 @@ std::string svg_chart(const SvgChart& chart, const SvgLook& look) {
     std::string out = svg_head(look, chart.title + " over time");
     out += scales(frame) + limit_lines(chart, frame);
     for (const SvgSeries& series : chart.series) out += line_of(series, frame);
-    if (look.standalone) {
-        out += fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", left, escaped(chart.title));
-        out += svg_text(look.width - right, 15, "end", "time in s");
-    }
+    if (look.standalone) out += heading(chart, look);
     return out + "</svg>\n";
 }
 

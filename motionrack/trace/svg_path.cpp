@@ -94,6 +94,7 @@ std::string grid(const Extent& frame, double floor, const Projection& at, PathVi
             out += line_through({at(from), at(to)}, "grid");
             if (!plan) continue;
             const Flat label = at(from);
+            if (axis == 0 && label.x > look.width - 60) continue;
             out += axis == 0 ? svg_text(label.x, look.height - 6.0, "middle", number(k * step))
                              : svg_text(6, label.y - 3, "start", number(k * step));
         }

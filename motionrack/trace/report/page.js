@@ -143,18 +143,27 @@ if (allTimes.length > 0) {
 }
 
 // Pointing at a block shows it in the path and in the charts; a click, or Enter, puts the cursor to its start.
+// Up and down go from row to row.
 const rows = [...document.querySelectorAll("tr[data-block], tr[data-time]")];
 for (const row of rows) {
   const block = row.dataset.block === undefined ? -1 : Number(row.dataset.block);
   const show = (on) => { if (block >= 0) { state.block = on ? block : -1; repaint(); } };
-  row.tabIndex = 0;
+  row.tabIndex = row.previousElementSibling ? -1 : 0;
   row.addEventListener("pointerenter", () => show(true));
   row.addEventListener("pointerleave", () => show(false));
   row.addEventListener("focus", () => show(true));
   row.addEventListener("blur", () => show(false));
   const jump = () => setTime(block >= 0 ? blocks[block][1] : Number(row.dataset.time));
   row.addEventListener("click", jump);
-  row.addEventListener("keydown", (event) => { if (event.key === "Enter") jump(); });
+  row.addEventListener("keydown", (event) => {
+    const next = event.key === "ArrowDown" ? row.nextElementSibling : event.key === "ArrowUp" ? row.previousElementSibling : null;
+    if (event.key === "Enter") jump();
+    if (!next) return;
+    row.tabIndex = -1;
+    next.tabIndex = 0;
+    next.focus();
+    event.preventDefault();
+  });
 }
 
 document.documentElement.classList.add("scripted-on");

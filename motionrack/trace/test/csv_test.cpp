@@ -42,11 +42,11 @@ TEST(WriteCsv, NamesEveryColumnWithItsUnit) {
     ReportData data;
     data.seconds = {0, 0.001};
     data.axes.resize(2);
-    data.axes[0].name = "X";
+    data.axes[0].name = std::string("X");
     data.axes[0].position = {0, 0.0125F};
     data.axes[0].speed = {0, 25};
     data.axes[0].accel = {500, 500};
-    data.axes[1].name = "A";
+    data.axes[1].name = std::string("A");
     data.axes[1].unit = "deg";
     data.axes[1].position = {90};
     data.driven = {{0, 0, 0}, {0.0125, 0, -1}};

@@ -39,8 +39,8 @@ ReportData circle(std::size_t samples) {
         }
     }
     data.planned = {segment};
-    data.axes[0].name = "X";
-    data.axes[1].name = "Y";
+    data.axes[0].name = std::string("X");
+    data.axes[1].name = std::string("Y");
     data.axes[0].max_speed = 100;
     data.axes[0].top_speed = 77;
     data.axes[0].pulses_sent = 1234567;

@@ -13,9 +13,9 @@ ReportData corner() {
     data.driven = {{0, 0, 5}, {50, 20, 5}, {50, 80, 5}, {10, 80, 5}};
     data.worst = ReportWorst{0.004, 1, 2, {50, 80, 5}};
     data.axes.resize(2);
-    data.axes[0].name = "X";
+    data.axes[0].name = std::string("X");
     data.axes[0].max_position = 100;
-    data.axes[1].name = "Y";
+    data.axes[1].name = std::string("Y");
     data.axes[1].max_position = 100;
     return data;
 }

@@ -121,7 +121,7 @@ TEST(VcdWriter, MakesNamesThatEveryReaderTakesAndKeepsThemApart) {
 TEST(VcdWriter, CodesOfThousandsOfWiresAllDiffer) {
     const Scratch scratch;
     VcdWriter vcd = open(scratch.path("a.vcd"));
-    for (int i = 0; i < 20'000; ++i) vcd.add_wire("w" + std::to_string(i));
+    for (int i = 0; i < 20'000; ++i) vcd.add_wire(std::string("w").append(std::to_string(i)));
     ASSERT_TRUE(vcd.close(Instant{0}));
     std::istringstream text(file_text(scratch.path("a.vcd")));
     std::set<std::string> codes;
