@@ -11,13 +11,33 @@ namespace {
 constexpr std::size_t most_blocks = 20'000;
 }
 
-void Monitor::Ear::rate_changed(double before, double rate, Instant) {
-    const double step = std::fabs(rate - before);
-    if (step > jump_hz) {
-        jump = std::max(jump, step);
+void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
+    if (pending) {
+        away += (present - good) * to_seconds(now - since);
+        if (std::fabs(away) > full_step) settle();
+    }
+    if (!pending) good = before;
+    present = rate;
+    since = now;
+    const double step = std::fabs(rate - good);
+    if (step <= jump_hz || (pending && step <= 2 * jump_hz)) {
+        good = rate;
+        pending = false;
+        top = std::max(top, std::fabs(rate));
+    } else if (!pending) {
+        pending = true;
+        away = 0;
         ++jumps;
     }
-    top = std::max({top, std::fabs(before), std::fabs(rate)});
+}
+
+void Monitor::Ear::settle() {
+    if (!pending) return;
+    jump = std::max(jump, std::fabs(present - good));
+    top = std::max(top, std::fabs(present));
+    good = present;
+    pending = false;
+    ++jumps;
 }
 
 Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration period, std::size_t most_samples)
@@ -30,6 +50,7 @@ Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration pe
       ring_(ring_size) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         ears_[i].jump_hz = axes_[i].jump_hz;
+        ears_[i].full_step = axes_[i].full_step;
         axes_[i].commanded->listen(ears_[i]);
     }
 }
@@ -48,6 +69,7 @@ void Monitor::finish() {
     drain();
     if (block_open_) close_block(kernel_.now());
     for (std::size_t i = 0; i < axes_.size(); ++i) {
+        ears_[i].settle();
         AxisStatistics& out = statistics_[static_cast<std::size_t>(axes_[i].index)];
         out.top_speed = std::max(out.top_speed, ears_[i].top / axes_[i].pulses_per_unit);
         out.top_jump = ears_[i].jump / axes_[i].pulses_per_unit;
@@ -70,6 +92,7 @@ void Monitor::take(Instant now) {
         raw.count[i] = axes_[i].real->count(now);
         raw.rate[i] = axes_[i].commanded->rate(now);
         raw.jumps[i] = ears_[i].jumps;
+        raw.steady[i] = !ears_[i].pending;
     }
 }
 
@@ -118,7 +141,7 @@ void Monitor::work_off(const RawSample& raw) {
         const auto axis = static_cast<std::size_t>(axes_[i].index);
         sample.position[axis] = axes_[i].origin + static_cast<double>(raw.count[i]) / axes_[i].pulses_per_unit;
         sample.speed[axis] = raw.rate[i] / axes_[i].pulses_per_unit;
-        statistics_[axis].top_speed = std::max(statistics_[axis].top_speed, std::fabs(sample.speed[axis]));
+        if (raw.steady[i]) statistics_[axis].top_speed = std::max(statistics_[axis].top_speed, std::fabs(sample.speed[axis]));
     }
     accelerations(raw, sample);
     const double off = deviation_of(sample);

@@ -24,6 +24,7 @@ struct WatchedAxis {
     double pulses_per_unit = 1;
     double origin = 0;                    ///< mm or degrees where both counts are 0
     double jump_hz = 1;                   ///< rates that change by more than this at once are jumps, not ramps
+    double full_step = 16;                ///< pulses: a change that is over before the axis is that far away is no jump
 };
 
 struct Sample {
@@ -96,9 +97,17 @@ class Monitor final : public sim::Device {
       public:
         void crossed(Instant) override {}
         void rate_changed(double before, double rate, Instant now) override;
+        /// The last change stays: it was a jump.
+        void settle();
+        double good = 0;       // the rate that the axis is held to have
+        double present = 0;    // what the pulses have now
+        double away = 0;       // pulses that `present` has led away from `good`
+        bool pending = false;
+        Instant since{};
         double top = 0;
         double jump = 0;
         double jump_hz = 1;
+        double full_step = 16;
         std::uint32_t jumps = 0;
     };
     struct RawSample {
@@ -106,6 +115,7 @@ class Monitor final : public sim::Device {
         std::array<std::int64_t, control::axis_count> count = {};
         std::array<double, control::axis_count> rate = {};
         std::array<std::uint32_t, control::axis_count> jumps = {};
+        std::array<bool, control::axis_count> steady = {};
     };
     struct Planned {
         std::int64_t block = 0;

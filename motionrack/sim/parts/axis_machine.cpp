@@ -99,7 +99,10 @@ void AxisMachine::watch(Face face, int slot, Range counts) {
 // ---- What the pulses tell -------------------------------------------------------------------------------------------
 
 void AxisMachine::rate_changed(double pulses_before, double rate, Instant now) {
-    motor_.note_rate(pulses_before);  // along a curve the rate has drifted since it was told last
+    if (state_.strain.deadline != never) motor_.note_rate(state_.strain.rate_hz);
+    else motor_.note_rate(pulses_before);  // along a curve the rate has drifted since it was told last
+    if (motor_.jumps(rate) && motor_.in_step()) return strain(rate, now);
+    state_.strain.deadline = never;
     if (!motor_.follows(rate)) {
         change_motor(now, [&] { motor_.change_rate(rate, pulses_at(now)); });
         return;
@@ -110,6 +113,28 @@ void AxisMachine::rate_changed(double pulses_before, double rate, Instant now) {
     const double speed = std::fabs(rate);
     if (speed > state_.top_hz) state_.top_hz = speed;
     tell_rate(motor_.rotor_rate(before), now);
+}
+
+/// The motor is to follow `rate` and cannot; how long until it shows?
+void AxisMachine::strain(double rate, Instant now) {
+    Strain& s = state_.strain;
+    const double told = s.deadline != never ? s.rate_hz : state_.motor.rate_hz;
+    if (s.deadline == never) s = {state_.motor.rate_hz, now, never, pulses_at(now)};
+    const double full_step = static_cast<double>(motor_.settings().microsteps);
+    const double away = static_cast<double>(pulses_at(now) - s.pulses) - s.rate_hz * to_seconds(now - s.since);
+    const double left = full_step - std::fabs(away);
+    s.deadline = now + from_seconds(std::max(0.0, left) / std::fabs(rate - s.rate_hz));
+    motor_.note_rate(rate);
+    put_off();
+    tell_rate(told, now);
+}
+
+/// A full step away from where it should be: the motor is out of step (or, if the rate is low enough, locks elsewhere).
+void AxisMachine::give_way(Instant now) {
+    const double rate = state_.motor.rate_hz;
+    motor_.note_rate(state_.strain.rate_hz);
+    state_.strain.deadline = never;
+    change_motor(now, [&] { motor_.change_rate(rate, pulses_at(now)); });
 }
 
 void AxisMachine::tell_rate(double before, Instant now) {
@@ -244,7 +269,7 @@ void AxisMachine::aim(Instant now) {
 
 // Asks for the next instant at which something happens without a pulse.
 void AxisMachine::put_off() {
-    Instant next = state_.pending;
+    Instant next = std::min(state_.pending, state_.strain.deadline);
     for (const LimitSwitch& s : switches_) next = std::min(next, s.next());
     kernel_.schedule(id_, next);
 }
@@ -255,6 +280,7 @@ void AxisMachine::act(Instant now) {
         switches_[i].act(now);
         kernel_.set_wire(switch_wire_[i], switches_[i].level());
     }
+    if (state_.strain.deadline <= now) give_way(now);
     if (state_.pending <= now) {
         state_.pending = never;
         crossed(now);

@@ -120,8 +120,17 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
         Range counts;  // what the listener asked for
         Range rotor;   // the same, in microsteps
     };
+    /// The pulse rate has changed by more than the motor follows at once. It falls out of step when the pulses have gone one full step
+    /// away from where the rate before would have them, not sooner: a pulse early or late does no harm.
+    struct Strain {
+        double rate_hz = 0;       // before
+        Instant since{};
+        Instant deadline = never; // never: no strain
+        std::int64_t pulses = 0;  // at `since`
+    };
     struct State {
         StepperState motor;
+        Strain strain;
         AxleState axle;
         EncoderState encoder;
         std::array<LimitSwitchState, switch_count> switches;
@@ -159,6 +168,8 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
     bool check_ends(Instant now);
     void aim(Instant now);
     void put_off();
+    void strain(double rate, Instant now);
+    void give_way(Instant now);
     void tell_rate(double before, Instant now);
     bool motor_fault(std::string_view name, double value, Instant now);
     bool encoder_fault(std::string_view name, double value, Instant now);
