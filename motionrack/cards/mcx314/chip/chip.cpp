@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <utility>
 
 namespace motionrack::mcx314 {
 
@@ -62,6 +63,7 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name) : kernel_(kernel), id_(
 int Chip::Output::listen(sim::MotionListener& listener) {
     MOTIONRACK_ASSERT(listener_count < max_listeners);
     listeners[listener_count] = &listener;
+    chip->listened_ |= 1u << axis;
     return listener_count++;
 }
 
@@ -78,14 +80,15 @@ void Chip::advance_to(std::int64_t to) {
 /// Finds the next interesting tick.
 void Chip::reschedule() {
     std::int64_t next = far;
-    for (int a = 0; a < axes_of_chip; ++a) {
+    for_each_axis(state_.working, [&](int a) {
+        const Generator& gen = state_.axis[a].gen;
+        if (gen.next_tick <= state_.tick || gen.look || !gen.special_known) find_next_tick(a);
+        next = std::min(next, gen.next_tick);
+    });
+    for_each_axis(state_.following, [&](int a) {
         const Axis& axis = state_.axis[a];
-        if (axis.gen.drive != Drive::idle) {
-            if (axis.gen.next_tick <= state_.tick || axis.gen.look || !axis.gen.special_known) find_next_tick(a);
-            next = std::min(next, axis.gen.next_tick);
-        }
         if (axis.pulses_wanted && axis.mark.active(state_.tick)) next = std::min(next, axis.mark.end());
-    }
+    });
     state_.next_event = next;
     stale_ = false;
 }
@@ -94,11 +97,10 @@ void Chip::reschedule() {
 void Chip::settle(Instant now) {
     tell_listeners(now);
     update_interrupt();
-    if (following_ != 0) show_wires(now);
+    if (state_.following != 0) show_wires(now);
     if (stale_) reschedule();
     Instant next = state_.next_event >= far ? never : Instant{state_.next_event * rules::tick_100ps};
-    for (const Axis& axis : state_.axis)
-        if (axis.crossed_now) next = now + Duration{1};  // a watch that is left already, told at the next instant
+    if (state_.crossed != 0) next = now + Duration{1};  // a watch that is left already, told at the next instant
     kernel_.schedule(id_, next);
 }
 
@@ -173,26 +175,25 @@ void Chip::note_rates() {
     if (state_.chain == 0 || !state_.path.command.arc()) return;
     for (int i = 0; i < 2; ++i) {
         const int a = state_.path.command.axis[i];
-        if (outputs_[a].listener_count > 0) told_rate_[a] = rate_of(a, Instant{0});
+        if (outputs_[a].listener_count > 0) state_.axis[a].told_rate = std::bit_cast<std::uint64_t>(rate_of(a, Instant{0}));
     }
 }
 
 void Chip::tell_listeners(Instant now) {
-    for (int a = 0; a < axes_of_chip; ++a) {
+    const unsigned changed = std::exchange(changed_, 0u);
+    for_each_axis((changed | state_.crossed) & listened_, [&](int a) {
         Output& output = outputs_[a];
-        const bool changed = changed_ >> a & 1u;
-        if (changed) {
-            changed_ &= ~(1u << a);
+        if (changed >> a & 1u) {
             if (output.edge_listener) flush_edges(a);
             if (output.listener_count > 0) {
                 const double rate = rate_of(a, now);
-                for (int i = 0; i < output.listener_count; ++i) output.listeners[i]->rate_changed(told_rate_[a], rate, now);
-                told_rate_[a] = rate;
+                const auto before = std::bit_cast<double>(std::exchange(state_.axis[a].told_rate, std::bit_cast<std::uint64_t>(rate)));
+                for (int i = 0; i < output.listener_count; ++i) output.listeners[i]->rate_changed(before, rate, now);
             }
         }
         Axis& axis = state_.axis[a];
-        if (!axis.crossed_now) continue;
-        axis.crossed_now = false;
+        if (!(state_.crossed >> a & 1u)) return;
+        state_.crossed &= ~(1u << a);
         if (output.edge_listener) flush_edges(a);
         for (int i = 0; i < output.listener_count; ++i) {
             Watch& watched = axis.watch[i];
@@ -200,7 +201,7 @@ void Chip::tell_listeners(Instant now) {
             watched = Watch{};
             output.listeners[i]->crossed(now);
         }
-    }
+    });
 }
 
 void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {
@@ -210,9 +211,9 @@ void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {
     stale_ = true;
     const Instant now = kernel_.now();
     const std::int64_t count = count_at(a, now);
-    if ((count <= below && below != sim::unwatched_below) || (count >= above && above != sim::unwatched_above)) axis.crossed_now = true;
+    if ((count <= below && below != sim::unwatched_below) || (count >= above && above != sim::unwatched_above)) state_.crossed |= 1u << a;
     // In an event of the chip's own settle() comes afterwards anyhow; else it is asked for, at this very instant.
-    kernel_.schedule(id_, axis.crossed_now ? now + Duration{1} : now);
+    kernel_.schedule(id_, state_.crossed != 0 ? now + Duration{1} : now);
 }
 
 std::int64_t Chip::count_at(int a, Instant t) const {

@@ -220,11 +220,10 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     std::array<std::array<sim::WireId, 2>, axes_of_chip> encoder_wires_{};
     sim::WireId emgn_{};
     sim::WireId int_n_{};
-    unsigned following_ = 0;  // axes whose lazily driven wires somebody follows
+    unsigned listened_ = 0;   // axes of which somebody listens to motion or edges
     bool stale_ = false;      // the next interesting tick must be looked for again
     unsigned moved_last_ = 0;  // axes that stepped in the basic pulse at hand
     unsigned changed_ = 0;  // axes whose law of motion changed in the present event
-    std::array<double, axes_of_chip> told_rate_{};  // what their listeners heard last, or what it has drifted to since
 };
 
 }  // namespace motionrack::mcx314

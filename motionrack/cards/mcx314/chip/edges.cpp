@@ -8,16 +8,16 @@ constexpr std::int64_t longest_batch = 0xF000'0000;  // ticks between the first 
 }
 
 bool Chip::edges_wanted(int a) const {
-    const std::uint32_t moved = moved_by(a);
-    for (int i = 0; i < axes_of_chip; ++i)
-        if ((moved >> i & 1u) && outputs_[i].edge_listener) return true;
-    return false;
+    bool wanted = false;
+    for_each_axis(moved_by(a) & listened_, [&](int i) { wanted = wanted || outputs_[i].edge_listener; });
+    return wanted;
 }
 
 void Chip::listen_edges(int axis, sim::EdgeListener* listener) {
     advance_to(tick_of(kernel_.now()));
     if (outputs_[axis].edge_listener) flush_edges(axis);
     outputs_[axis].edge_listener = listener;
+    listened_ = listener || outputs_[axis].listener_count > 0 ? listened_ | 1u << axis : listened_ & ~(1u << axis);
     outputs_[axis].batch.size = 0;
 }
 

@@ -49,7 +49,7 @@ void Chip::find_next_tick(int a) {
     }
     const std::int64_t phase = phase_for(gen, gen.next_special - gen.n) - gen.acc;
     gen.plain = ticks < far && ticks * gen.speed < phase;
-    if (!gen.plain) gen.next_tick = state_.tick + std::max<std::int64_t>(1, rules::ceil_div(phase, gen.speed));
+    if (!gen.plain) gen.next_tick = state_.tick + std::max<std::int64_t>(1, quick_div(phase + gen.speed - 1, gen.speed));
 }
 
 std::int64_t Chip::ticks_to_speed_event(const Axis& axis) const {
@@ -196,9 +196,9 @@ std::int64_t Chip::phase_for(const Generator& gen, std::int64_t pulses) const {
 std::int64_t Chip::pulses_in(const Generator& gen, std::int64_t ticks) const {
     const std::int64_t phase = gen.acc + ticks * gen.speed;
     if (phase < gen.range_now) return 0;
-    if (gen.drive != Drive::path) return phase / gen.range_now;
+    if (gen.drive != Drive::path) return quick_div(phase, gen.range_now);
     const auto& range = state_.path.range_for;
-    if (range[1] == range[0] || state_.path.command.count != 2) return 1 + (phase - gen.range_now) / range[0];
+    if (range[1] == range[0] || state_.path.command.count != 2) return 1 + quick_div(phase - gen.range_now, range[0]);
     std::int64_t low = 1, high = 2 + (phase - gen.range_now) / std::min(range[0], range[1]);
     if (gen.special_known) high = std::min(high, gen.next_special - gen.n + 1);
     while (low + 1 < high) {
@@ -221,7 +221,7 @@ std::array<std::int64_t, 3> Chip::path_steps(std::int64_t pulses) const {
     const std::int64_t n = state_.axis[state_.master].gen.n;
     for (int i = 0; i < path.command.count; ++i) {
         const std::int64_t p = rules::magnitude(path.command.finish[i]);
-        const std::int64_t made = rules::line_steps(n + pulses, p, path.longest) - rules::line_steps(n, p, path.longest);
+        const std::int64_t made = rules::line_steps(n + pulses, p, path.longest) - path.made[i];
         steps[i] = path.command.finish[i] < 0 ? -made : made;
     }
     return steps;
@@ -231,13 +231,11 @@ std::array<std::int64_t, 3> Chip::path_steps(std::int64_t pulses) const {
 
 void Chip::skip(std::int64_t ticks) {
     if (ticks <= 0) return;
-    for (int a = 0; a < axes_of_chip; ++a) {
-        Axis& axis = state_.axis[a];
-        if (axis.gen.drive == Drive::idle) continue;
-        skip_speed(axis, ticks);
+    for_each_axis(state_.working, [&](int a) {
+        skip_speed(state_.axis[a], ticks);
         skip_phase(a, ticks);
-    }
-    look_at_in_position();
+    });
+    if (state_.in_place != 0) look_at_in_position();
     state_.tick += ticks;
 }
 
@@ -279,7 +277,7 @@ void Chip::skip_pulses(int a, std::int64_t pulses, std::int64_t at) {
         axis.lp = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.lp) + static_cast<std::uint32_t>(steps));
         axis.count += steps;
         axis.made += rules::magnitude(steps);
-        compare(i);
+        if ((axis.wr1 & 0x1E00u) != 0) compare(i);
         if (bit(axis.wr1, 8)) axis.flags |= 1u;
     };
     unsigned stepped = 1u << a;
@@ -291,6 +289,7 @@ void Chip::skip_pulses(int a, std::int64_t pulses, std::int64_t at) {
         for (int i = 0; i < state_.path.command.count; ++i) {
             if (steps[i] != before[i]) ++count, stepped |= 1u << state_.path.command.axis[i];
             add(state_.path.command.axis[i], steps[i]);
+            state_.path.made[i] += rules::magnitude(steps[i]);
         }
         state_.stepped = count;
         gen.range_now = state_.path.range_for[static_cast<std::size_t>(count - 1)];

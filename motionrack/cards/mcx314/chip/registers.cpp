@@ -21,6 +21,7 @@ void Chip::reset() {
         fresh.encoder_lines = axis.encoder_lines;
         fresh.shown = axis.shown;
         fresh.mark = axis.mark;
+        fresh.told_rate = axis.told_rate;
         axis = fresh;
         set_encoder_position(a, 0);
         set_wants(a);
@@ -28,7 +29,7 @@ void Chip::reset() {
     }
     state_.selected = 1;
     state_.wr4 = state_.wr5 = state_.wr6 = state_.wr7 = state_.rr6 = state_.rr7 = 0;
-    state_.chain = 0;
+    state_.chain = state_.working = state_.in_place = 0;
     state_.queued = state_.decel_enabled = state_.path_interrupt = false;
     for (int a = 0; a < axes_of_chip; ++a) compare(a);
     update_outputs();
@@ -43,7 +44,7 @@ void Chip::write(std::uint32_t offset, std::uint16_t value) {
         if (!(state_.selected >> a & 1u)) continue;
         Axis& axis = state_.axis[a];
         if (offset == r1) {
-            if (bit(axis.wr2, 5)) compare(a);  // EP may have moved unwatched: only what comes from now on counts
+            compare(a);  // the counter has moved uncompared while nothing was enabled: only what comes from now on counts
             axis.wr1 = value;
         }
         if (offset == r2) {
@@ -192,6 +193,7 @@ void Chip::begin_generator(int a, Drive drive) {
     gen.constant = v <= sv;
     gen.speed = std::min(v, sv);
     axis.gen = gen;
+    state_.working |= 1u << a;
 }
 
 PathCommand Chip::captured(int code) const {
@@ -318,7 +320,7 @@ std::uint16_t Chip::main_status() const {
     for (int a = 0; a < axes_of_chip; ++a) {
         const Axis& axis = state_.axis[a];
         const bool out_of_position = bit(axis.wr2, 15) && level(axis, Pin::in_position) != bit(axis.wr2, 14);
-        if (driving(a) || (axis.waits_position && out_of_position)) v |= 1u << a;
+        if (driving(a) || ((state_.in_place >> a & 1u) && out_of_position)) v |= 1u << a;
         if ((status2(a) & 0x3Fu) != 0 || (axis.finished & 0xF000u) != 0) v |= 1u << (4 + a);
     }
     if (state_.chain != 0) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <motionrack/cards/mcx314/arithmetic.hpp>
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
@@ -40,6 +41,7 @@ struct Path {
     PathCommand command;
     rules::Arc arc;
     std::int64_t longest = 0;                   ///< lines: basic pulses
+    std::array<std::int64_t, 3> made{};         ///< lines: steps of each axis so far
     std::array<std::int64_t, 3> range_for{};    ///< Rnow when one, two, three axes stepped
 };
 
@@ -97,14 +99,15 @@ struct Axis {
     sim::ClosedFormCounter encoder;  ///< EP behind a connected one
     std::int32_t direction = 1;
     std::int32_t held_command = 0;
-    bool hold = false, waits_position = false, crossed_now = false;
+    bool hold = false;
     bool pulses_wanted = false, outputs_wanted = false;  ///< somebody follows xpp, xpm; nOUT4..7
     std::uint8_t encoder_lines = 3;                      ///< xeca, xecb as last heard
-    std::array<std::uint8_t, 2> reserved{};
+    std::array<std::uint8_t, 4> reserved{};
     std::int64_t shown = 0;        ///< `made` when the pulse wires were set last
     PulseMark mark;
     std::int64_t count = 0;        ///< net pulses since the start
     std::int64_t made = 0;         ///< pulses of both directions
+    std::uint64_t told_rate = 0;   ///< bits of the double that listeners heard last, or that it has drifted to since
     std::array<Watch, sim::Motion::max_listeners> watch{};
     PathCommand held_path;
     Generator gen;
@@ -122,6 +125,10 @@ struct State {
     std::uint32_t chain = 0;  ///< axes of the interpolation that runs
     std::int32_t master = 0;
     std::int32_t stepped = 1; ///< axes stepped in the last basic pulse
+    std::uint32_t working = 0;    ///< axes whose generator works
+    std::uint32_t in_place = 0;   ///< axes whose drive is over but not yet in position
+    std::uint32_t following = 0;  ///< axes whose lazily driven wires somebody follows
+    std::uint32_t crossed = 0;    ///< axes of which a watched count may have been left
     Path path;
     PathCommand queue;
 };
@@ -130,6 +137,18 @@ static_assert(std::has_unique_object_representations_v<State>, "equal chips have
 
 /// Input pins of an axis, in the order of RR4 and RR5, then the limits.
 enum class Pin : std::uint8_t { in0, in1, in2, in3, exp_plus, exp_minus, in_position, alarm, limit_plus, limit_minus };
+
+/// Calls f(axis) for every axis in `mask`, X first.
+template <class F>
+void for_each_axis(std::uint32_t mask, F&& f) {
+    for (; mask != 0; mask &= mask - 1) f(std::countr_zero(mask));
+}
+
+/// a / b for a >= 0, b > 0: most are small, and small ones are divided several times as fast.
+constexpr std::int64_t quick_div(std::int64_t a, std::int64_t b) {
+    if ((static_cast<std::uint64_t>(a | b) >> 32) != 0) return a / b;
+    return static_cast<std::int64_t>(static_cast<std::uint32_t>(a) / static_cast<std::uint32_t>(b));
+}
 
 constexpr bool bit(unsigned value, int n) { return (value >> n & 1u) != 0; }
 constexpr bool level(const Axis& axis, Pin pin) { return bit(axis.levels, static_cast<int>(pin)); }

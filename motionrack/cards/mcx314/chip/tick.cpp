@@ -12,9 +12,8 @@ constexpr unsigned flag_drive_end = 1u << 7;
 /// do so in closed form, the others work that tick by the rules.
 void Chip::work_off(std::int64_t to) {
     const std::int64_t from = state_.tick;
-    for (int a = 0; a < axes_of_chip; ++a) {
+    for_each_axis(state_.working, [&](int a) {
         Axis& axis = state_.axis[a];
-        if (axis.gen.drive == Drive::idle) continue;
         state_.tick = from;
         if (axis.gen.next_tick > to) {
             skip_speed(axis, to - from);
@@ -33,15 +32,16 @@ void Chip::work_off(std::int64_t to) {
             state_.tick = to;
             work(a);
         }
-    }
+    });
     state_.tick = to;
-    look_at_in_position();
+    if (state_.in_place != 0) look_at_in_position();
 }
 
 void Chip::look_at_in_position() {
-    for (Axis& axis : state_.axis)
-        if (axis.waits_position && (!bit(axis.wr2, 15) || level(axis, Pin::in_position) == bit(axis.wr2, 14)))
-            axis.waits_position = false;
+    for_each_axis(state_.in_place, [&](int a) {
+        const Axis& axis = state_.axis[a];
+        if (!bit(axis.wr2, 15) || level(axis, Pin::in_position) == bit(axis.wr2, 14)) state_.in_place &= ~(1u << a);
+    });
 }
 
 void Chip::work(int a) {
@@ -135,7 +135,7 @@ void Chip::end(int a) {
         axis.finished = static_cast<std::uint16_t>(axis.finished | axis.causes);
         axis.causes = 0;
         axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & flag_drive_end));
-        axis.waits_position = true;
+        state_.in_place |= 1u << i;
         law_changed(i);
     }
     if (path) {
@@ -143,6 +143,7 @@ void Chip::end(int a) {
         state_.queued = false;
     }
     state_.axis[a].gen.drive = Drive::idle;
+    state_.working &= ~(1u << a);
     state_.axis[a].gen.ramp = 0;
 }
 
@@ -195,7 +196,8 @@ int Chip::step_axes(int a) {
     const std::int64_t n = state_.axis[a].gen.n;
     for (int i = 0; i < path.command.count; ++i) {
         const std::int64_t p = rules::magnitude(path.command.finish[i]);
-        if (rules::line_steps(n, p, path.longest) == rules::line_steps(n - 1, p, path.longest)) continue;
+        if (rules::line_steps(n, p, path.longest) == path.made[i]) continue;
+        ++path.made[i];
         move(path.command.axis[i], path.command.finish[i] < 0 ? -1 : 1, state_.tick);
         ++moved;
     }
@@ -209,22 +211,20 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
     ++axis.made;
     axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & flag_pulse));
     moved_last_ |= 1u << a;
-    compare(a);
+    if ((axis.wr1 & 0x1E00u) != 0) compare(a);
     if (outputs_[a].edge_listener) add_edge(a, tick_now, direction, axis.count);
-    for (const Watch& watch : axis.watch)
-        if (axis.count <= watch.below || axis.count >= watch.above) axis.crossed_now = true;
+    for (int i = 0; i < outputs_[a].listener_count; ++i)
+        if (axis.count <= axis.watch[i].below || axis.count >= axis.watch[i].above) state_.crossed |= 1u << a;
 }
 
 /// The wires of the generator's axes after a basic pulse: `stepped` have a new pulse, the others' last one is over.
 void Chip::mark_pulse(int a, unsigned stepped, std::int64_t tick_now) {
     const Generator& gen = state_.axis[a].gen;
-    const std::uint32_t moved = moved_by(a);
-    for (int i = 0; i < axes_of_chip; ++i) {
-        if (!(moved >> i & 1)) continue;
+    for_each_axis(moved_by(a), [&](int i) {
         Axis& axis = state_.axis[i];
         axis.mark = {tick_now, gen.acc, stepped >> i & 1 ? static_cast<std::int32_t>(gen.speed) : 0,
                      static_cast<std::int32_t>(gen.range_now), axis.direction, 0};
-    }
+    });
 }
 
 bool Chip::path_finished() const {
@@ -262,6 +262,7 @@ void Chip::begin_segment(const PathCommand& command) {
     Path& path = state_.path;
     path.command = command;
     path.longest = 0;
+    path.made = {};
     if (command.arc())
         path.arc.begin(command.centre[0], command.centre[1], command.finish[0], command.finish[1], command.code == 0x32);
     else

@@ -91,7 +91,7 @@ void Chip::wanted_changed(int, bool, Instant now) {
 
 /// Whose wires are followed, so that every pulse is an event there.
 void Chip::note_followers() {
-    following_ = 0;
+    state_.following = 0;
     for (int a = 0; a < axes_of_chip; ++a) {
         Axis& axis = state_.axis[a];
         const bool pulses = kernel_.wanted(pulse_wires_[a][0]) || kernel_.wanted(pulse_wires_[a][1]);
@@ -103,7 +103,7 @@ void Chip::note_followers() {
         }
         axis.pulses_wanted = pulses;
         axis.outputs_wanted = outputs;
-        if (pulses || outputs) following_ |= 1u << a;
+        if (pulses || outputs) state_.following |= 1u << a;
     }
 }
 
