@@ -7,6 +7,11 @@ namespace motionrack::control {
 
 namespace {
 
+PlannerSettings with_joints(PlannerSettings settings, const PathAxes& axes) {
+    settings.joints = axes.joint_rule();
+    return settings;
+}
+
 MachineLimits with_reserve(MachineLimits limits, double kept_back) {
     for (AxisLimits& axis : limits) axis.max_accel *= 1 - kept_back;
     return limits;
@@ -38,7 +43,8 @@ std::string words_of(const gcode::Step& step) {
 Controller::Controller(PathAxes& axes, const ControllerSettings& settings)
     : axes_(axes),
       settings_(settings),
-      planner_(with_reserve(settings.gcode.limits, settings.kept_back), settings.gcode.start, settings.planner) {}
+      planner_(with_reserve(settings.gcode.limits, settings.kept_back), settings.gcode.start,
+               with_joints(settings.planner, axes)) {}
 
 Result<void> Controller::hand_over() {
     PlannedMove planned;

@@ -27,7 +27,7 @@ bool all_finite(const Move& move) {
 }  // namespace
 
 Planner::Planner(const MachineLimits& limits, const Point& start, PlannerSettings settings)
-    : limits_(limits), position_(start) {
+    : limits_(limits), joints_(settings.joints), position_(start) {
     const auto window = static_cast<std::uint64_t>(std::clamp(settings.window, 1, widest_window));
     chunk_ = std::max<std::uint64_t>(1, window / 4);
     batch_ = window + chunk_;
@@ -96,6 +96,10 @@ Result<void> Planner::push(const Move& move) {
     double joint = 0;
     if (tail_ != ready_) {
         joint = limits_.joint_squared(last_, last_along_.speed, path, along.speed, last_path_, last_tolerance_mm_);
+        if (joint > 0 && joints_) {
+            const double speed = joints_->joint_speed(last_, path);
+            joint = std::min(joint, speed * speed);
+        }
         if (joint == 0) flush();
     }
     append(move, path, along, joint);

@@ -20,10 +20,20 @@
 
 namespace motionrack::control {
 
+/// What the hardware that drives the path asks of joints beside what the machine does.
+class JointRule {
+  public:
+    virtual ~JointRule() = default;
+    /// The greatest speed along the path at the joint of two moves, mm/s (degrees/s); infinity if there is no limit.
+    virtual double joint_speed(const Geometry& before, const Geometry& after) const = 0;
+};
+
 struct PlannerSettings {
     /// Every move is planned with at least this many moves after it in view, unless the path stands still before; 1 ..
     /// 1'000'000.
     int window = 1024;
+    /// May be null; must outlive the planner.
+    const JointRule* joints = nullptr;
 };
 
 /// Plans a path for a machine. Allocates only when it is made and for the text of an error.
@@ -74,6 +84,7 @@ class Planner {
     void forward(std::uint64_t until);
 
     PathLimits limits_;
+    const JointRule* joints_ = nullptr;
     std::vector<PlannedMove> slots_;
     std::vector<Node> nodes_;
     std::uint64_t mask_ = 0;

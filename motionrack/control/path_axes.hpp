@@ -3,6 +3,7 @@
 
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/time.hpp>
+#include <motionrack/control/path.hpp>
 #include <motionrack/control/plan.hpp>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ class PathAxes {
     virtual ~PathAxes() = default;
     /// Prepares a new path from where the axes stand. Blocks count from 0 again.
     virtual Result<void> begin() = 0;
+    /// What the card asks of joints; null: nothing.
+    virtual const JointRule* joint_rule() const { return nullptr; }
     /// Takes the next move; returns when the card has room for another one. Errors: Trouble::machine where the motion was stopped by a
     /// limit, an alarm or lost contact (nothing more is driven), Trouble::stopped where the user asked to stop.
     virtual Result<void> follow(const PlannedMove& move) = 0;

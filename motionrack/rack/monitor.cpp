@@ -17,6 +17,7 @@ void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
         if (std::fabs(away) > full_step) settle();
     }
     if (!pending) good = before;
+    if (std::fabs(rate - before) > jump_hz) ++jumps;
     present = rate;
     since = now;
     const double step = std::fabs(rate - good);
@@ -27,7 +28,6 @@ void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
     } else if (!pending) {
         pending = true;
         away = 0;
-        ++jumps;
     }
 }
 

@@ -61,6 +61,8 @@ class Motion {
     virtual int listen(MotionListener& listener) = 0;
     /// From now on (the owner's present instant) edges are made and handed over; nullptr: nobody listens.
     virtual void listen_edges(EdgeListener* listener) = 0;
+    /// Hands over the edges up to the kernel's present instant now, if somebody listens.
+    virtual void hand_over_edges() = 0;
 
     static constexpr int max_listeners = 6;
 };

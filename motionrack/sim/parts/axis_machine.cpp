@@ -99,11 +99,12 @@ void AxisMachine::watch(Face face, int slot, Range counts) {
 // ---- What the pulses tell -------------------------------------------------------------------------------------------
 
 void AxisMachine::rate_changed(double pulses_before, double rate, Instant now) {
-    if (state_.strain.deadline != never) motor_.note_rate(state_.strain.rate_hz);
-    else motor_.note_rate(pulses_before);  // along a curve the rate has drifted since it was told last
-    if (motor_.jumps(rate) && motor_.in_step()) return strain(rate, now);
+    motor_.note_rate(pulses_before);  // along a curve the rate has drifted since it was told last
+    feel(now);
+    const double jump = std::fabs(rate - state_.strain.steady_hz);
+    if (motor_.in_step() && jump > motor_.settings().start_stop_hz) return strain(rate, now);
     state_.strain.deadline = never;
-    if (!motor_.follows(rate)) {
+    if (!motor_.in_step() || std::fabs(rate) > motor_.settings().pull_out_hz) {
         change_motor(now, [&] { motor_.change_rate(rate, pulses_at(now)); });
         return;
     }
@@ -115,26 +116,48 @@ void AxisMachine::rate_changed(double pulses_before, double rate, Instant now) {
     tell_rate(motor_.rotor_rate(before), now);
 }
 
+/// Time has passed at the present rate.
+void AxisMachine::feel(Instant now) {
+    Strain& s = state_.strain;
+    const double part = std::min(1.0, to_seconds(now - s.steady_at) * 1e3);
+    s.steady_hz += (state_.motor.rate_hz - s.steady_hz) * part;
+    s.steady_at = now;
+}
+
 /// The motor is to follow `rate` and cannot; how long until it shows?
 void AxisMachine::strain(double rate, Instant now) {
     Strain& s = state_.strain;
-    const double told = s.deadline != never ? s.rate_hz : state_.motor.rate_hz;
-    if (s.deadline == never) s = {state_.motor.rate_hz, now, never, pulses_at(now)};
+    const double told = state_.motor.rate_hz;
+    if (s.deadline == never) {
+        s.rate_hz = s.steady_hz;
+        s.since = now;
+        s.pulses = pulses_at(now);
+    }
     const double full_step = static_cast<double>(motor_.settings().microsteps);
     const double away = static_cast<double>(pulses_at(now) - s.pulses) - s.rate_hz * to_seconds(now - s.since);
-    const double left = full_step - std::fabs(away);
-    s.deadline = now + from_seconds(std::max(0.0, left) / std::fabs(rate - s.rate_hz));
+    s.deadline = now + from_seconds(std::max(0.0, full_step - std::fabs(away)) / std::fabs(rate - s.rate_hz));
     motor_.note_rate(rate);
     put_off();
     tell_rate(told, now);
 }
 
-/// A full step away from where it should be: the motor is out of step (or, if the rate is low enough, locks elsewhere).
+/// A full step away from where it should be: out of step (or, if the rate is low enough, locked elsewhere), unless the pulses
+/// since then were not that fast on the whole.
 void AxisMachine::give_way(Instant now) {
+    Strain& s = state_.strain;
+    s.deadline = never;
+    const double mean = static_cast<double>(pulses_at(now) - s.pulses) / std::max(1e-9, to_seconds(now - s.since));
+    if (std::fabs(mean - s.rate_hz) <= motor_.settings().start_stop_hz) {
+        s.steady_hz = mean;
+        s.steady_at = now;
+        return;
+    }
+    pulses_->hand_over_edges();  // those before the rotor is lost are still its own
     const double rate = state_.motor.rate_hz;
-    motor_.note_rate(state_.strain.rate_hz);
-    state_.strain.deadline = never;
+    motor_.note_rate(s.rate_hz);
     change_motor(now, [&] { motor_.change_rate(rate, pulses_at(now)); });
+    s.steady_hz = rate;
+    s.steady_at = now;
 }
 
 void AxisMachine::tell_rate(double before, Instant now) {

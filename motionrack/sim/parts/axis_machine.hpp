@@ -111,6 +111,7 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
         }
         int listen(sim::MotionListener& listener) override { return machine_.listen(face_, listener); }
         void listen_edges(sim::EdgeListener* listener) override { machine_.listen_edges(face_, listener); }
+        void hand_over_edges() override { machine_.pulses_->hand_over_edges(); }
 
       private:
         AxisMachine& machine_;
@@ -123,7 +124,9 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
     /// The pulse rate has changed by more than the motor follows at once. It falls out of step when the pulses have gone one full step
     /// away from where the rate before would have them, not sooner: a pulse early or late does no harm.
     struct Strain {
-        double rate_hz = 0;       // before
+        double steady_hz = 0;     // the rate as the rotor's inertia feels it: the pulses' rate, smoothed over a millisecond
+        Instant steady_at{};
+        double rate_hz = 0;       // the steady rate when the strain began
         Instant since{};
         Instant deadline = never; // never: no strain
         std::int64_t pulses = 0;  // at `since`
@@ -168,6 +171,7 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
     bool check_ends(Instant now);
     void aim(Instant now);
     void put_off();
+    void feel(Instant now);
     void strain(double rate, Instant now);
     void give_way(Instant now);
     void tell_rate(double before, Instant now);

@@ -56,8 +56,6 @@ class Stepper {
         return in_step() && std::fabs(rate_hz - state_.rate_hz) <= settings_.start_stop_hz &&
                std::fabs(rate_hz) <= settings_.pull_out_hz;
     }
-    /// A change that the rotor cannot follow at once.
-    bool jumps(double rate_hz) const { return std::fabs(rate_hz - state_.rate_hz) > settings_.start_stop_hz; }
     void note_rate(double rate_hz) { state_.rate_hz = rate_hz; }
 
     /// The pulse rate becomes `rate_hz` and follows() said no, or the rotor is not in step; `pulses`: the count now.

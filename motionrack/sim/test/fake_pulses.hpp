@@ -43,6 +43,8 @@ class FakePulses final : public Device, public Motion {
         state_.edges_made = steps(kernel_.now());
     }
 
+    void hand_over_edges() override { make_edges(kernel_.now()); }
+
     // ---- Device
     void act(Instant now) override {
         if (state_.next_law < laws_.size() && laws_[state_.next_law].at <= now)

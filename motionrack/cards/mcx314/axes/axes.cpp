@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace motionrack::mcx314 {
 
 namespace {
@@ -42,6 +44,20 @@ Result<void> Axes::set_up(const control::Point& position) {
     }
     clear_interrupts();
     return {};
+}
+
+/// At a joint the generator's rate goes on, but a basic pulse is another length of path on each side: the speed of every axis jumps by
+/// the difference, which its start speed must allow.
+double Axes::joint_speed(const control::Geometry& before, const control::Geometry& after) const {
+    const double a = basic_pulses_along(map_, drawing_of(map_, before), before.tangent_out);
+    const double b = basic_pulses_along(map_, drawing_of(map_, after), after.tangent_in);
+    constexpr double reserve = 0.95;  // for whole speed units
+    double speed = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < map_.channel.size(); ++i) {
+        const double jump = std::fabs(before.tangent_out[i] / a - after.tangent_in[i] / b) * std::min(a, b);
+        if (map_.channel[i] >= 0 && jump > 1e-9) speed = std::min(speed, reserve * map_.limits[i].start_speed / jump);
+    }
+    return speed;
 }
 
 Result<void> Axes::begin() {

@@ -14,7 +14,7 @@
 
 namespace motionrack::mcx314 {
 
-class Axes final : public control::PathAxes {
+class Axes final : public control::PathAxes, private control::JointRule {
   public:
     /// Part of each axis' acceleration that the planner must keep back, because the chip's speeds and accelerations are whole numbers.
     static constexpr double kept_back = 0.03;
@@ -29,6 +29,7 @@ class Axes final : public control::PathAxes {
     Result<void> begin() override;
     Result<void> follow(const control::PlannedMove& move) override;
     Result<void> finish() override;
+    const control::JointRule* joint_rule() const override { return this; }
     void stop(bool immediate) override;
     control::Point commanded_position() override;
     std::vector<control::PathNote> take_notes() override;
@@ -40,6 +41,7 @@ class Axes final : public control::PathAxes {
     std::int64_t segments() const { return segments_; }
 
   private:
+    double joint_speed(const control::Geometry& before, const control::Geometry& after) const override;
     Result<void> play_ready(std::size_t keep);
     Result<void> play(const Segment& segment, const Segment* next);
     Result<void> play_pause(const Segment& segment);

@@ -15,6 +15,37 @@ Pulses4 AxisMap::pulses(const control::Point& position) const {
     return out;
 }
 
+Drawing drawing_of(const AxisMap& map, const control::Geometry& path) {
+    const control::Point worst = control::worst_components(path);
+    int moving = 0, last = -1;
+    bool rotary = false;
+    double scale = 0, least = 1e300;
+    for (std::size_t i = 0; i < worst.size(); ++i) {
+        if (map.channel[i] < 0 || worst[i] * path.length * map.limits[i].pulses_per_unit < 0.5) continue;
+        ++moving;
+        last = map.channel[i];
+        rotary = rotary || i >= 3;
+        scale = std::max(scale, map.limits[i].pulses_per_unit);
+        least = std::min(least, map.limits[i].pulses_per_unit);
+    }
+    Drawing out;
+    out.companion = moving > 3 ? last : -1;
+    out.constant_vector = moving == 2 && !rotary && scale - least <= 1e-9 * scale;
+    return out;
+}
+
+double basic_pulses_along(const AxisMap& map, const Drawing& drawing, const control::Point& tangent) {
+    double most = 0, second = 0;
+    for (std::size_t i = 0; i < tangent.size(); ++i) {
+        if (map.channel[i] < 0 || map.channel[i] == drawing.companion) continue;
+        const double rate = std::fabs(tangent[i]) * map.limits[i].pulses_per_unit;
+        second = std::max(second, std::min(most, rate));
+        most = std::max(most, rate);
+    }
+    constexpr double both_axes_extra = 0.41421356237309503;  // R of the second axis over that of the first, less one
+    return std::max(1e-3, drawing.constant_vector ? most + both_axes_extra * second : most);
+}
+
 namespace {
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }

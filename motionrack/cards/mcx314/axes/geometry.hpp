@@ -3,6 +3,7 @@
 
 #include <array>
 #include <motionrack/cards/mcx314/axes/segment.hpp>
+#include <motionrack/control/geometry.hpp>
 #include <motionrack/control/limits.hpp>
 #include <motionrack/control/plan.hpp>
 #include <optional>
@@ -18,6 +19,15 @@ struct AxisMap {
     /// The nearest whole pulse to a position, per channel.
     Pulses4 pulses(const control::Point& position) const;
 };
+
+/// Basic pulses of the chip for one mm (degree) along `tangent` of a path, of which the axes in `path` move: the long axis gives them, with
+/// constant vector speed a pulse of two axes counts 1.414. `companion`: a fourth moving axis that is not interpolated, -1: none.
+struct Drawing {
+    bool constant_vector = false;
+    int companion = -1;  ///< channel
+};
+Drawing drawing_of(const AxisMap& map, const control::Geometry& path);
+double basic_pulses_along(const AxisMap& map, const Drawing& drawing, const control::Point& tangent);
 
 /// An arc of less than a turn, wanted from the chip: absolute pulses of two axes with the same length of a pulse.
 struct ArcRequest {

@@ -11,8 +11,6 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-// R of the second axis over R of the first in constant vector speed, less one.
-constexpr double both_axes_extra = 0.41421356237309503;
 // The planner keeps a little of each axis' acceleration back (Mcx314Axes::kept_back); this much of it is given to the chip, so that
 // its whole-number steps are never slower than the plan.
 constexpr double acceleration_reserve = 1.015;
@@ -60,47 +58,19 @@ Segmenter::Work Segmenter::classify(const control::PlannedMove& move) {
         work.shape = Shape::pause;
         return work;
     }
-    const Pulses4 from = map_.pulses(move.start);
-    int moving = 0, last = -1;
-    for (int i = 0; i < control::axis_count; ++i) {
-        const int c = map_.channel[static_cast<std::size_t>(i)];
-        const bool in_plane = work.path.shape == control::PathShape::arc && (i == work.path.first || i == work.path.second);
-        if (c < 0 || (!in_plane && from[static_cast<std::size_t>(c)] == work.to[static_cast<std::size_t>(c)])) continue;
-        ++moving;
-        last = c;
-    }
-    if (moving > 3) work.companion = last;
-    if (work.path.shape == control::PathShape::arc) {
-        const double a = map_.limits[work.path.first].pulses_per_unit, b = map_.limits[work.path.second].pulses_per_unit;
-        work.shape = moving == 2 && std::fabs(a - b) <= 1e-9 * a ? Shape::chip_arc : Shape::chords;
-    }
-    if (work.shape == Shape::chip_arc) {
-        work.constant_vector = true;
+    const Drawing drawing = drawing_of(map_, work.path);
+    work.companion = drawing.companion;
+    work.constant_vector = drawing.constant_vector;
+    if (work.path.shape == control::PathShape::arc) work.shape = drawing.constant_vector ? Shape::chip_arc : Shape::chords;
+    work.units_in = units_along(work, work.path.tangent_in);
+    work.units_out = units_along(work, work.path.tangent_out);
+    if (work.shape == Shape::chip_arc)  // with constant vector speed the path is never faster than this
         work.units_in = work.units_out = map_.limits[work.path.first].pulses_per_unit / pulses_per_v_;
-    } else {
-        const bool two_linear = moving == 2 && last >= 0 && work.path.shape == control::PathShape::line &&
-                                work.path.tangent_in[3] == 0 && work.path.tangent_in[4] == 0 && work.path.tangent_in[5] == 0;
-        work.constant_vector = two_linear;
-        work.units_in = units_along(work, work.path.tangent_in);
-        work.units_out = units_along(work, work.path.tangent_out);
-    }
     return work;
 }
 
 double Segmenter::units_along(const Work& work, const control::Point& tangent) const {
-    double most = 0, second = 0;
-    for (std::size_t i = 0; i < tangent.size(); ++i) {
-        if (map_.channel[i] < 0 || map_.channel[i] == work.companion) continue;
-        const double rate = std::fabs(tangent[i]) * map_.limits[i].pulses_per_unit;
-        if (rate > most) {
-            second = most;
-            most = rate;
-        } else {
-            second = std::max(second, rate);
-        }
-    }
-    if (most <= 0) most = 1e-3;
-    return (work.constant_vector ? most + both_axes_extra * second : most) / pulses_per_v_;
+    return basic_pulses_along(map_, {work.constant_vector, work.companion}, tangent) / pulses_per_v_;
 }
 
 std::int32_t Segmenter::speed_units(double units, double speed) const {

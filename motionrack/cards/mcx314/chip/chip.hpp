@@ -70,6 +70,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
         void watch(int slot, std::int64_t below, std::int64_t above) override { chip->watch(axis, slot, below, above); }
         int listen(sim::MotionListener& listener) override;
         void listen_edges(sim::EdgeListener* listener) override { chip->listen_edges(axis, listener); }
+        void hand_over_edges() override { chip->hand_over_edges(axis); }
 
         Chip* chip = nullptr;
         int axis = 0;
@@ -110,6 +111,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     double rate_of(int axis, Instant t) const;
     void watch(int axis, int slot, std::int64_t below, std::int64_t above);
     void listen_edges(int axis, sim::EdgeListener* listener);
+    void hand_over_edges(int axis);
 
     // wires.cpp: inputs and outputs
     void set_wants(int axis);

@@ -21,6 +21,12 @@ void Chip::listen_edges(int axis, sim::EdgeListener* listener) {
     outputs_[axis].batch.size = 0;
 }
 
+void Chip::hand_over_edges(int axis) {
+    if (!outputs_[axis].edge_listener) return;
+    advance_to(tick_of(kernel_.now()));
+    flush_edges(axis);
+}
+
 void Chip::flush_edges(int axis) {
     sim::EdgeBatch& batch = outputs_[axis].batch;
     if (batch.size == 0) return;

@@ -76,6 +76,7 @@ class HandWheel final : public sim::Motion {
     void watch(int, std::int64_t below, std::int64_t above) override { below_ = below, above_ = above; }
     int listen(sim::MotionListener& listener) override { return listener_ = &listener, 0; }
     void listen_edges(sim::EdgeListener*) override {}
+    void hand_over_edges() override {}
     /// Moves count by count, telling of what is watched.
     void turn(std::int64_t to, Instant now) {
         while (count_ != to) {
