@@ -2,7 +2,7 @@
 //
 //   text --Reader--> Move --Planner--> PlannedMove --PathAxes--> card
 //
-// The whole text is read and checked before anything moves (check_program); run reads it a second time.
+// Callers check the whole text before anything moves (check_program), unless they stream; run then reads it a second time.
 #pragma once
 
 #include <cstdint>

@@ -103,7 +103,9 @@ std::vector<AxisOutcome> Job::axis_outcomes() {
         one.limits = rack_.config().limits()[static_cast<std::size_t>(one.index)];
         const std::int64_t commanded = axis.card->pulses(axis.channel).count(now);
         one.pulses_sent = axis.card->pulses_made(axis.channel);
+        one.pulses_net = commanded;
         one.pulse_position = axis.card->pulse_counter(axis.channel);
+        one.pulse_start = static_cast<std::int64_t>(std::floor(axis.config.start_position * axis.config.pulses_per_unit() + 0.5));
         one.counts_read = axis.card->encoder_counter(axis.channel);
         one.lost_pulses = axis.machine->lost_steps(now);
         const double counts_per_pulse =

@@ -36,7 +36,9 @@ struct AxisOutcome {
     std::string unit;
     control::AxisLimits limits;
     std::int64_t pulses_sent = 0;      ///< pulses of both directions since the job began
+    std::int64_t pulses_net = 0;       ///< of them, forward less backward
     std::int64_t pulse_position = 0;   ///< the card's counter LP at the end
+    std::int64_t pulse_start = 0;      ///< and at the start
     std::int64_t counts_read = 0;      ///< the card's encoder counter EP at the end
     std::int64_t counts_expected = 0;  ///< what EP would be if every pulse had moved the motor
     std::int64_t lost_pulses = 0;      ///< pulses that the motor did not follow

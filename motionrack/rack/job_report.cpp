@@ -2,10 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/rack/job_report.hpp>
 #include <nlohmann/json.hpp>
@@ -60,7 +57,7 @@ trace::ReportSegment planned_segment(const control::PlannedMove& planned) {
     return segment;
 }
 
-void add_axes(trace::ReportData& data, const Rack& rack, const Job& job, const JobOutcome& outcome) {
+void add_axes(trace::ReportData& data, const Job& job, const JobOutcome& outcome) {
     const std::vector<Sample>& samples = job.monitor().samples();
     for (const AxisOutcome& axis : outcome.axes) {
         trace::ReportAxis out;
@@ -72,7 +69,8 @@ void add_axes(trace::ReportData& data, const Rack& rack, const Job& job, const J
         out.max_speed = axis.limits.max_speed;
         out.max_accel = axis.limits.max_accel;
         out.pulses_sent = axis.pulses_sent;
-        out.pulse_counter = axis.pulse_position;
+        out.pulses_net = axis.pulses_net;
+        out.pulse_counter = axis.pulse_position - axis.pulse_start;
         out.counts_read = axis.counts_read;
         out.counts_expected = axis.counts_expected;
         out.lost_steps = axis.lost_pulses;
@@ -88,7 +86,6 @@ void add_axes(trace::ReportData& data, const Rack& rack, const Job& job, const J
         }
         data.axes.push_back(std::move(out));
     }
-    (void)rack;
 }
 
 std::string verdict_text(const JobOutcome& outcome) {
@@ -112,7 +109,7 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
                     {"Moves", fmt::format("{}", outcome.run.plan.moves), ""},
                     {"Worst deviation", fmt::format("{:.4f}", outcome.worst.mm), "mm"},
                     {"Chip segments", fmt::format("{}", outcome.chip_segments), ""}};
-    add_axes(data, rack, job, outcome);
+    add_axes(data, job, outcome);
     const std::vector<Sample>& samples = job.monitor().samples();
     const Instant began = samples.empty() ? Instant{0} : samples.front().at;
     for (const Sample& sample : samples) {
@@ -198,34 +195,6 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
     for (const JobWarning& warning : outcome.warnings)
         json["warnings"].push_back({{"seconds", to_seconds(warning.at)}, {"line", warning.line}, {"text", warning.text}});
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-// ---- samples --------------------------------------------------------------------------------------------------------------------
-
-Result<void> write_samples_csv(const Rack& rack, const Job& job, const std::string& path) {
-    std::string out = "seconds";
-    for (const RackAxis& axis : rack.config().axes)
-        out += fmt::format(",{0}_position_{1},{0}_speed_{1}_s", axis.letter, axis.unit());
-    out += ",deviation_mm\r\n";
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    bool good = file != nullptr;
-    const std::vector<Sample>& samples = job.monitor().samples();
-    for (std::size_t s = 0; good && s < samples.size(); ++s) {
-        out += fmt::format("{:.7f}", to_seconds(samples[s].at));
-        for (const RackAxis& axis : rack.config().axes) {
-            const auto i = static_cast<std::size_t>(axis.index());
-            out += fmt::format(",{:.6f},{:.6f}", samples[s].position[i], samples[s].speed[i]);
-        }
-        out += fmt::format(",{:.6f}\r\n", job.monitor().deviations()[s]);
-        if (out.size() < 1 << 18) continue;
-        good = std::fwrite(out.data(), 1, out.size(), file) == out.size();
-        out.clear();
-    }
-    if (good) good = std::fwrite(out.data(), 1, out.size(), file) == out.size();
-    const int why = errno;
-    if (file != nullptr) good = std::fclose(file) == 0 && good;
-    if (!good) return fail(Trouble::io, fmt::format("{} cannot be written: {}. Choose another name or make room.", path, std::strerror(why)));
-    return {};
 }
 
 }  // namespace motionrack::rack

@@ -1,4 +1,4 @@
-// What a job was, as a report, a summary and a table of samples.
+// What a job was, as a report and a summary.
 #pragma once
 
 #include <motionrack/rack/job.hpp>
@@ -15,8 +15,5 @@ std::string summary_of(const RackConfig& config, const JobOutcome& outcome);
 
 /// The summary as JSON.
 std::string summary_json(const RackConfig& config, const JobOutcome& outcome);
-
-/// The samples as CSV (RFC 4180): seconds, position and speed of each axis, deviation.
-Result<void> write_samples_csv(const Rack& rack, const Job& job, const std::string& path);
 
 }  // namespace motionrack::rack

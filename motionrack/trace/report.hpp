@@ -34,8 +34,9 @@ struct ReportAxis {
     double max_position = 0;
     double max_speed = 0;              ///< limit; 0: none
     double max_accel = 0;              ///< limit; 0: none
-    std::int64_t pulses_sent = 0;      ///< counted on the wire, forward less backward
-    std::int64_t pulse_counter = 0;    ///< the card's own counter of what it sent
+    std::int64_t pulses_sent = 0;      ///< counted on the wire, both directions
+    std::int64_t pulses_net = 0;       ///< counted on the wire, forward less backward
+    std::int64_t pulse_counter = 0;    ///< by how much the card's own counter of them changed
     std::int64_t counts_read = 0;      ///< encoder counts the card read back
     std::int64_t counts_expected = 0;  ///< encoder counts that the pulses sent should give
     std::int64_t lost_steps = 0;

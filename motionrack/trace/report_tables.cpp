@@ -41,13 +41,13 @@ std::string pair(long long first, long long second) {
 
 std::string axis_row(const ReportAxis& axis) {
     const std::string unit = shown(axis.unit, 20);
-    const bool same = axis.pulses_sent == axis.pulse_counter;
+    const bool same = axis.pulses_net == axis.pulse_counter;
     const std::string lost =
         axis.lost_steps == 0 ? "none" : "<b class=\"bad\">" + grouped(axis.lost_steps) + " lost</b>";
     std::string out = "<tr><th scope=\"row\">" + shown(axis.name, 40) + "</th>";
     out += cell(grouped(axis.pulses_sent) +
-                (same ? "<br><small>card says the same</small>"
-                      : "<br><b class=\"bad\">card says " + grouped(axis.pulse_counter) + "</b>"));
+                (same ? "<br><small>card counts the same</small>"
+                      : "<br><b class=\"bad\">net " + grouped(axis.pulses_net) + ", the card counts " + grouped(axis.pulse_counter) + "</b>"));
     out += cell(pair(axis.counts_read, axis.counts_expected)) + cell(lost);
     out += cell(against(axis.top_speed, axis.max_speed, unit + "/s")) +
            cell(against(axis.top_accel, axis.max_accel, unit + "/s\xC2\xB2"));

@@ -11,6 +11,7 @@
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/job_report.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/trace/csv.hpp>
 #include <motionrack/trace/report.hpp>
 #include <vector>
 
@@ -27,7 +28,7 @@ struct RunOptions {
     std::string program, rack, report = "report.html", vcd, csv;
     std::vector<std::string> signals;
     double timescale_ns = 100;
-    bool json = false, quiet = false, no_report = false, block_delete = false;
+    bool json = false, quiet = false, no_report = false, block_delete = false, stream = false;
 };
 
 int prepare_recorder(rack::Rack& rack, const RunOptions& options, std::unique_ptr<rack::WaveRecorder>& recorder) {
@@ -46,14 +47,16 @@ int write_results(rack::Rack& rack, const rack::Job& job, const rack::JobOutcome
                   const std::string& text, const std::string& name) {
     int code = exit_done;
     std::vector<std::string> written;
+    trace::ReportData data;
+    if (!options.no_report || !options.csv.empty()) data = rack::report_of(rack, job, outcome, text, name);
     if (!options.no_report) {
-        if (const Result<void> done = trace::write_report(rack::report_of(rack, job, outcome, text, name), options.report); !done)
+        if (const Result<void> done = trace::write_report(data, options.report); !done)
             code = report(done.error());
         else
             written.push_back(options.report);
     }
     if (!options.csv.empty()) {
-        if (const Result<void> done = rack::write_samples_csv(rack, job, options.csv); !done)
+        if (const Result<void> done = trace::write_csv(data, options.csv); !done)
             code = report(done.error());
         else
             written.push_back(options.csv);
@@ -76,7 +79,8 @@ int run(const RunOptions& options) {
     }
     const control::gcode::Settings settings = reader_settings(*config, options.block_delete);
     if (const Result<void> good = control::gcode::check_settings(settings); !good) return report(good.error());
-    if (const int bad = print_problems(control::gcode::check_program(text, settings, 20, name), name); bad != exit_done) return bad;
+    if (!options.stream)
+        if (const int bad = print_problems(control::gcode::check_program(text, settings, 20, name), name); bad != exit_done) return bad;
 
     rack::Rack rack(*config);
     std::unique_ptr<rack::WaveRecorder> recorder;
@@ -119,6 +123,7 @@ void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
     command->add_option("--timescale-ns", options->timescale_ns, "time unit of the VCD file: 0.1, 1, 10, 100 or 1000 ns")->capture_default_str();
     command->add_option("--csv", options->csv, "write the samples (position, speed, deviation every ms) as CSV");
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
+    command->add_flag("--stream", options->stream, "move line by line as it is read, without checking the whole program first");
     command->add_flag("--json", options->json, "print the summary as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");
 }

@@ -51,14 +51,9 @@ class Stepper {
     double rotor_rate(double rate_hz) const { return state_.hold == RotorHold::in_step ? rate_hz : 0; }
     bool in_step() const { return state_.hold == RotorHold::in_step; }
 
-    /// A rotor in step that stays so at the new rate: nothing to do but to note it.
-    bool follows(double rate_hz) const {
-        return in_step() && std::fabs(rate_hz - state_.rate_hz) <= settings_.start_stop_hz &&
-               std::fabs(rate_hz) <= settings_.pull_out_hz;
-    }
     void note_rate(double rate_hz) { state_.rate_hz = rate_hz; }
 
-    /// The pulse rate becomes `rate_hz` and follows() said no, or the rotor is not in step; `pulses`: the count now.
+    /// The pulse rate becomes `rate_hz` and the rotor cannot follow, or is not in step; `pulses`: the count now.
     void change_rate(double rate_hz, std::int64_t pulses);
     /// The rotor has come to an end of travel at `end` and cannot turn on in `direction` (+1 or -1).
     void block(int direction, std::int64_t end, std::int64_t pulses);
