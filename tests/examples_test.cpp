@@ -1,0 +1,105 @@
+// Every example does what its folder says: the same output, the same exit code.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+struct Ran {
+    std::string out;
+    int code = -1;
+};
+
+Ran run(const std::filesystem::path& folder, const std::string& command) {
+    Ran ran;
+    std::FILE* pipe = ::popen(("cd '" + folder.string() + "' && " + command + " 2>/dev/null").c_str(), "r");
+    if (!pipe) return ran;
+    std::array<char, 4096> buffer{};
+    for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) ran.out.append(buffer.data(), got);
+    const int status = ::pclose(pipe);
+    ran.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return ran;
+}
+
+const std::filesystem::path examples = std::filesystem::path(MOTIONRACK_SOURCE_DIR) / "examples";
+
+class Example : public testing::TestWithParam<std::string> {};
+
+TEST_P(Example, PrintsWhatItsFolderSays) {
+    const std::filesystem::path folder = examples / GetParam();
+    std::istringstream commands(text_of(folder / "command")), codes(text_of(folder / "exit_code"));
+    std::string printed, command;
+    int commands_run = 0;
+    while (std::getline(commands, command)) {
+        const Ran ran = run(folder, std::string(MOTIONRACK_PROGRAM) + " " + command);
+        int expected = -1;
+        codes >> expected;
+        EXPECT_EQ(ran.code, expected) << command;
+        printed += ran.out;
+        ++commands_run;
+    }
+    EXPECT_GT(commands_run, 0);
+    EXPECT_EQ(printed, text_of(folder / "expected.txt"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Folders, Example, testing::Values("01_first_move", "02_part", "03_helix", "04_s_curve", "05_limit_hit"));
+
+TEST(Examples, TheLibraryExampleEndsWhereItsProgramSays) {
+    const Ran ran = run(examples, MOTIONRACK_LIBRARY_EXAMPLE);
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_NE(ran.out.find("X 20.0000 mm"), std::string::npos) << ran.out;
+    EXPECT_NE(ran.out.find("Y 15.0000 mm"), std::string::npos) << ran.out;
+}
+
+TEST(Examples, TheBuiltInExampleIsThePart) {
+    const Ran built_in = run(examples, std::string(MOTIONRACK_PROGRAM) + " run --no-report");
+    EXPECT_EQ(built_in.code, 0);
+    EXPECT_EQ(built_in.out, text_of(examples / "02_part" / "expected.txt"));
+}
+
+TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
+    for (const char* command : {"run", "check", "new", "describe", "trace", "canon", "bench", "completion"}) {
+        const Ran help = run(examples, std::string(MOTIONRACK_PROGRAM) + " " + command + " --help");
+        EXPECT_EQ(help.code, 0) << command;
+        EXPECT_NE(help.out.find("Example: "), std::string::npos) << command;
+    }
+}
+
+TEST(CommandLine, ExitCodesTellWhatWentWrong) {
+    const std::string program = MOTIONRACK_PROGRAM;
+    EXPECT_EQ(run(examples, program + " dance").code, 1);
+    EXPECT_EQ(run(examples, "printf 'G1 X5\\n' | " + program + " run - --no-report").code, 2);
+    EXPECT_EQ(run(examples, program + " run no_such_file.ngc").code, 5);
+    EXPECT_EQ(run(examples, program + " describe mcx315").code, 1);
+    EXPECT_TRUE(nlohmann::json::accept(run(examples, program + " describe mcx314 --json").out));
+    EXPECT_TRUE(nlohmann::json::accept(run(examples, program + " run --json --no-report").out));
+}
+
+TEST(CommandLine, InterruptedItStopsAlongThePathAndKeepsTheReport) {
+    const auto folder = std::filesystem::temp_directory_path() / "motionrack_interrupt_test";
+    std::filesystem::create_directories(folder);
+    std::filesystem::remove(folder / "report.html");
+    // A program that goes on for hours of virtual time; `timeout` sends the interrupt.
+    const Ran ran = run(folder, "yes 'G1 X100 F60\nG1 X0' | head -n 2000000 > long.ngc; timeout -s INT 2 " + std::string(MOTIONRACK_PROGRAM) +
+                                    " run long.ngc --stream; code=$?; rm -f long.ngc; exit $code");
+    EXPECT_TRUE(ran.code == 124 || ran.code == 130) << ran.code;  // timeout reports its own code
+    EXPECT_NE(ran.out.find("Stopped on request in line"), std::string::npos) << ran.out;
+    EXPECT_TRUE(std::filesystem::exists(folder / "report.html"));
+    std::filesystem::remove_all(folder);
+}
+
+}  // namespace

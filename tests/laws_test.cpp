@@ -1,0 +1,118 @@
+// The laws of the house: who may include whom, how long a file may be, what must not appear in rooms that are deterministic.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = MOTIONRACK_SOURCE_DIR;
+
+std::vector<fs::path> sources(const fs::path& folder) {
+    std::vector<fs::path> out;
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+        if (entry.path().extension() == ".hpp" || entry.path().extension() == ".cpp") out.push_back(entry.path());
+    return out;
+}
+
+std::vector<std::string> lines_of(const fs::path& path) {
+    std::ifstream file(path);
+    std::vector<std::string> out;
+    for (std::string line; std::getline(file, line);) out.push_back(line);
+    return out;
+}
+
+/// "cards/mcx314/chip/chip.hpp" -> "mcx314/chip"; a card's map and arithmetic are its "mcx314/map".
+std::string room_of(const std::string& path) {
+    if (path.find("/test/") != std::string::npos) return "test";
+    if (path.rfind("cards/", 0) == 0) {
+        const std::size_t card = path.find('/', 6);
+        const std::string name = path.substr(6, card - 6), rest = path.substr(card + 1);
+        for (const char* part : {"chip", "driver", "axes"})
+            if (rest.rfind(std::string(part) + "/", 0) == 0) return name + "/" + part;
+        return name + "/map";
+    }
+    if (path.rfind("sim/parts/", 0) == 0) return "parts";
+    return path.substr(0, path.find('/'));
+}
+
+const std::map<std::string, std::set<std::string>> may_include = {
+    {"base", {}},
+    {"sim", {"base"}},
+    {"parts", {"base", "sim"}},
+    {"control", {"base"}},
+    {"trace", {"base", "sim"}},
+    {"mcx314/map", {"base"}},
+    {"mcx314/chip", {"base", "sim", "mcx314/map"}},
+    {"mcx314/driver", {"base", "mcx314/map"}},
+    {"mcx314/axes", {"base", "control", "mcx314/map", "mcx314/driver"}},
+    {"rack", {"base", "sim", "parts", "control", "trace", "mcx314/map", "mcx314/chip", "mcx314/driver", "mcx314/axes"}},
+    {"frontends", {"base", "control", "trace", "rack"}},
+};
+
+TEST(Laws, RoomsIncludeOnlyTheRoomsTheyMay) {
+    const std::regex include(R"(#include <motionrack/([^>]+)>)");
+    for (const fs::path& path : sources("motionrack")) {
+        const std::string own = room_of(fs::relative(path, root / "motionrack").generic_string());
+        if (own == "test") continue;
+        ASSERT_TRUE(may_include.count(own)) << path << " is in no known room";
+        for (const std::string& line : lines_of(path)) {
+            std::smatch match;
+            if (!std::regex_search(line, match, include)) continue;
+            const std::string other = room_of(match[1]);
+            EXPECT_TRUE(other == own || may_include.at(own).count(other)) << path << " includes " << match[1];
+        }
+    }
+}
+
+TEST(Laws, FilesAreSmall) {
+    for (const char* folder : {"motionrack", "tests", "bench", "examples"})
+        for (const fs::path& path : sources(folder)) EXPECT_LE(lines_of(path).size(), 400u) << path;
+}
+
+TEST(Laws, DeterministicRoomsKnowNoWallClockAndNoLuck) {
+    const std::regex forbidden(R"(steady_clock|system_clock|sleep_for|usleep|std::rand\b|fast-math|march=native|std::sin\(|std::cos\(|std::atan2|std::pow\(|std::exp\()");
+    for (const char* folder : {"motionrack/base", "motionrack/sim", "motionrack/cards", "motionrack/control"})
+        for (const fs::path& path : sources(folder)) {
+            if (path.string().find("/test/") != std::string::npos) continue;
+            for (const std::string& line : lines_of(path)) EXPECT_FALSE(std::regex_search(line, forbidden)) << path << ": " << line;
+        }
+}
+
+TEST(Laws, JourneysNameWhatExists) {
+    std::string all;
+    for (const fs::path& path : sources("motionrack"))
+        for (const std::string& line : lines_of(path)) all += line + "\n";
+    const std::regex name(R"(`([A-Za-z_]+(::[A-Za-z_]+)*)`)");
+    int names = 0;
+    for (const std::string& line : lines_of(root / "docs/explanations/journeys.md"))
+        for (auto it = std::sregex_iterator(line.begin(), line.end(), name); it != std::sregex_iterator(); ++it) {
+            const std::string full = (*it)[1];
+            const std::string last = full.substr(full.rfind(':') == std::string::npos ? 0 : full.rfind(':') + 1);
+            EXPECT_NE(all.find(last), std::string::npos) << "journeys.md names " << full << ", which is not in the code";
+            if (full.find("::") != std::string::npos) {
+                const std::string before = full.substr(0, full.rfind("::"));
+                EXPECT_NE(all.find(before.substr(before.rfind(':') == std::string::npos ? 0 : before.rfind(':') + 1)), std::string::npos) << full;
+            }
+            ++names;
+        }
+    EXPECT_GT(names, 15);
+}
+
+TEST(Laws, EveryPageOfTheDocumentationIsLinked) {
+    std::string index;
+    for (const std::string& line : lines_of(root / "docs/README.md")) index += line + "\n";
+    for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
+        if (entry.path().extension() != ".md") continue;
+        const std::string relative = fs::relative(entry.path(), root / "docs").generic_string();
+        if (relative != "README.md") EXPECT_NE(index.find("(" + relative + ")"), std::string::npos) << relative << " is not linked from docs/README.md";
+    }
+}
+
+}  // namespace
