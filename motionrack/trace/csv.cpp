@@ -1,11 +1,15 @@
 // The CSV writer.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <limits>
 #include <motionrack/trace/csv.hpp>
+#include <motionrack/trace/report_parts.hpp>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -27,6 +31,39 @@ std::string column_name(const std::string& axis, const std::string& quantity, co
         out += plain ? c : c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : '_';
     }
     return out;
+}
+
+struct Event {
+    std::optional<double> seconds;
+    std::string_view name;
+    int line = 0;
+    std::optional<Xyz> at;
+    std::string text;
+};
+
+std::optional<double> instant(double seconds) {
+    if (seconds >= 0 && std::isfinite(seconds)) return seconds;
+    return std::nullopt;
+}
+
+std::vector<Event> events_of(const ReportData& data) {
+    std::vector<Event> events;
+    const auto add = [&](double seconds, std::string_view name, int line, std::string text) {
+        const std::optional<double> when = instant(seconds);
+        events.push_back({when, name, line, when ? driven_at(data, *when) : std::nullopt, std::move(text)});
+    };
+    for (const ReportBlock& block : data.blocks) add(block.start, "block", block.line, block.kind);
+    for (const ReportWarning& warning : data.warnings) add(warning.seconds, "warning", warning.line, warning.text);
+    if (data.worst) {
+        const ReportWorst& worst = *data.worst;
+        const std::string text = std::isfinite(worst.mm) ? fmt::format("{} mm", worst.mm) : "";
+        events.push_back({instant(worst.seconds), "worst deviation", worst.line, worst.at, text});
+    }
+    if (data.stop)
+        events.push_back({instant(data.stop->seconds), "stop", data.stop->line, data.stop->at, data.stop->text});
+    std::stable_sort(events.begin(), events.end(),
+                     [](const Event& a, const Event& b) { return a.seconds < b.seconds; });
+    return events;
 }
 
 }  // namespace
@@ -168,6 +205,20 @@ Result<void> write_csv(const ReportData& data, const std::string& path) {
                 csv.add(std::string_view());
             }
         }
+        csv.end_line();
+    }
+    return csv.close();
+}
+
+Result<void> write_events_csv(const ReportData& data, const std::string& path) {
+    const double none = std::numeric_limits<double>::quiet_NaN();  // an empty field
+    MOTIONRACK_TRY(CsvWriter csv, CsvWriter::create(path, {"time_s", "event", "line", "x_mm", "y_mm", "z_mm", "text"}));
+    for (const Event& event : events_of(data)) {
+        csv.add(event.seconds.value_or(none));
+        csv.add(event.name);
+        csv.add(event.line > 0 ? std::to_string(event.line) : std::string());
+        for (std::size_t c = 0; c < 3; ++c) csv.add(event.at ? (*event.at)[c] : none);
+        csv.add(event.text);
         csv.end_line();
     }
     return csv.close();

@@ -3,6 +3,9 @@
 //     time_s,x_position_mm,x_speed_mm_s
 //     0,0,0
 //     0.001,0.0125,25
+//
+//     time_s,event,line,x_mm,y_mm,z_mm,text
+//     0,block,3,0,0,0,arc
 #pragma once
 
 #include <cstdint>
@@ -51,6 +54,11 @@ class CsvWriter {
     std::size_t columns_ = 0;
     std::size_t fields_ = 0;
 };
+
+/// What happened in a run, in order of time: the start of each block, warnings, the worst deviation, the stop. Columns
+/// time_s, event ("block", "warning", "worst deviation", "stop"), line, x_mm, y_mm, z_mm (where the machine was), text
+/// (the block's kind, what the warning says). What is not known is empty; what has no instant comes first. Errors: io.
+Result<void> write_events_csv(const ReportData& data, const std::string& path);
 
 /// All samples of a run, not thinned: time, position, speed and acceleration of each axis that has them, the driven
 /// path and the deviation. Errors: io.

@@ -50,6 +50,7 @@ std::string report_html(const ReportData& data) {
         {"style", report_style},
         {"header", header_html(data)},
         {"path_hidden", path ? "" : " hidden"},
+        {"stop_hidden", data.stop ? "" : " hidden"},
         {"charts_hidden", charts.empty() ? " hidden" : ""},
         {"plan", path ? path_svg(data, PathView::plan) : ""},
         {"perspective", path ? path_svg(data, PathView::perspective) : ""},

@@ -159,23 +159,36 @@ void add_axis(const ReportData& data, std::size_t index, std::vector<PageChart>&
     }
 }
 
-std::string limit_words(const SvgChart& chart) {
-    if (chart.limits.empty()) return {};
-    if (chart.limits.size() == 1) return "tolerance " + number(chart.limits[0].value);
-    const double first = chart.limits[0].value, second = chart.limits[1].value;
+std::string limits_as_text(const std::vector<SvgLimit>& limits) {
+    if (limits.size() == 1) return "tolerance " + number(limits[0].value);
+    const double first = limits[0].value, second = limits[1].value;
     if (first == -second && first > 0) return "limit \xC2\xB1" + number(first);
     return "travel " + number(first) + " \xE2\x80\xA6 " + number(second);
+}
+
+/// What the limits are, and that they are off the chart where no line of them is in it. `drawn`: some line is.
+std::string limit_words(const SvgChart& chart, bool& drawn) {
+    drawn = false;
+    if (chart.limits.empty()) return {};
+    const ChartRange range = range_of(chart);
+    for (const SvgLimit& limit : chart.limits) {
+        drawn = drawn || (limit.value >= range.low && limit.value <= range.high);
+    }
+    const std::string words = limits_as_text(chart.limits);
+    return drawn ? words : words + ", off the chart";
 }
 
 std::string chart_html(const PageChart& entry, std::size_t index, int width, int height) {
     SvgLook look;
     look.width = width;
     look.height = height;
-    const std::string limit = limit_words(entry.chart);
+    bool drawn = false;
+    const std::string limit = limit_words(entry.chart, drawn);
     return fmt::format(
         "<figure class=\"chart\" data-chart=\"{}\"><figcaption><span class=\"name\">{}</span>"
-        "<output></output><span class=\"limit-words\">{}</span></figcaption>\n<div class=\"plot\">{}</div></figure>\n",
-        index, shown(entry.chart.title), escaped(limit), svg_chart(entry.chart, look));
+        "<output></output><span class=\"limit-words{}\">{}</span></figcaption>\n<div "
+        "class=\"plot\">{}</div></figure>\n",
+        index, shown(entry.chart.title), drawn ? " drawn" : "", escaped(limit), svg_chart(entry.chart, look));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <motionrack/trace/report.hpp>
 #include <motionrack/trace/svg.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct PageChart {
     SvgChart chart;
 };
 std::vector<PageChart> charts_of(const ReportData& data);
+
+/// Where the machine was at an instant, in mm; nothing where that was not recorded.
+std::optional<Xyz> driven_at(const ReportData& data, double seconds);
 
 std::string header_html(const ReportData& data);
 std::string charts_html(const ReportData& data, const std::vector<PageChart>& charts);

@@ -45,9 +45,9 @@ std::string axis_row(const ReportAxis& axis) {
     const std::string lost =
         axis.lost_steps == 0 ? "none" : "<b class=\"bad\">" + grouped(axis.lost_steps) + " lost</b>";
     std::string out = "<tr><th scope=\"row\">" + shown(axis.name, 40) + "</th>";
-    out += cell(grouped(axis.pulses_sent) +
-                (same ? "<br><small>card counts the same</small>"
-                      : "<br><b class=\"bad\">net " + grouped(axis.pulses_net) + ", the card counts " + grouped(axis.pulse_counter) + "</b>"));
+    out += cell(grouped(axis.pulses_sent) + (same ? "<br><small>card counts the same</small>"
+                                                  : "<br><b class=\"bad\">net " + grouped(axis.pulses_net) +
+                                                        ", the card counts " + grouped(axis.pulse_counter) + "</b>"));
     out += cell(pair(axis.counts_read, axis.counts_expected)) + cell(lost);
     out += cell(against(axis.top_speed, axis.max_speed, unit + "/s")) +
            cell(against(axis.top_accel, axis.max_accel, unit + "/s\xC2\xB2"));
@@ -68,6 +68,10 @@ std::string block_row(const ReportBlock& block, std::size_t index) {
     return out + cell(number(block.deviation_mm, 4)) + "</tr>\n";
 }
 
+std::string place_html(const Xyz& at) {
+    return "X&nbsp;" + number(at[0], 3) + " Y&nbsp;" + number(at[1], 3) + " Z&nbsp;" + number(at[2], 3);
+}
+
 std::string table(const char* id, const char* caption, const std::vector<std::string>& heads, const std::string& rows) {
     std::string out = fmt::format(
         "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{}\"><table id=\"{}\">"
@@ -85,6 +89,23 @@ std::string section(const char* id, const char* title, const std::string& inside
 
 std::string shown(const std::string& text, std::size_t most) {
     return escaped(cut(text, most));
+}
+
+std::optional<Xyz> driven_at(const ReportData& data, double seconds) {
+    const std::size_t count = std::min(data.driven.size(), data.seconds.size());
+    if (!std::isfinite(seconds)) return {};
+    const auto end = data.seconds.begin() + static_cast<std::ptrdiff_t>(count);
+    const auto after = std::upper_bound(data.seconds.begin(), end, seconds);
+    if (after == data.seconds.begin() || (after == end && (count == 0 || seconds > data.seconds[count - 1]))) return {};
+    const auto i = static_cast<std::size_t>(after - data.seconds.begin()) - 1, next = std::min(i + 1, count - 1);
+    const double span = data.seconds[next] - data.seconds[i];
+    const double part = span > 0 ? (seconds - data.seconds[i]) / span : 0;
+    Xyz at{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        at[c] = data.driven[i][c] + part * (data.driven[next][c] - data.driven[i][c]);
+        if (!std::isfinite(at[c])) return {};
+    }
+    return at;
 }
 
 std::string header_html(const ReportData& data) {
@@ -145,16 +166,17 @@ std::string warnings_html(const ReportData& data) {
         rows += instant ? fmt::format("<tr data-time=\"{}\">", warning.seconds) : "<tr>";
         rows += cell(instant ? number(warning.seconds, 4) : "") +
                 cell(warning.line > 0 ? std::to_string(warning.line) : "");
-        rows += cell(shown(warning.text, 400), "t") + "</tr>\n";
+        const std::optional<Xyz> at = instant ? driven_at(data, warning.seconds) : std::nullopt;
+        rows += cell(at ? place_html(*at) : "") + cell(shown(warning.text, 400), "t") + "</tr>\n";
     }
     std::string note;
     if (count < data.warnings.size()) {
         note = "<p class=\"hint\">The first " + grouped(static_cast<long long>(count)) + " of " +
                grouped(static_cast<long long>(data.warnings.size())) + " warnings are listed.</p>\n";
     }
-    return section(
-        "warnings", "Warnings",
-        note + table("warning-table", "Warnings, in the order they came", {"Time, s", "Line", "What happened"}, rows));
+    return section("warnings", "Warnings",
+                   note + table("warning-table", "Warnings, in the order they came",
+                                {"Time, s", "Line", "Machine at, mm", "What happened"}, rows));
 }
 
 std::string notes_html(const ReportData& data) {

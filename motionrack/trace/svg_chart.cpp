@@ -52,7 +52,8 @@ std::string straight(double x1, double y1, double x2, double y2, const char* kin
 std::string scales(const Frame& frame) {
     std::string out;
     const double width = frame.look.width, height = frame.look.height;
-    const double step = nice_step(frame.range.high - frame.range.low, std::max(2, static_cast<int>(height / 36)));
+    const double step =
+        nice_step(frame.range.high - frame.range.low, std::max(2, static_cast<int>((height - top - bottom) / 22)));
     for (int i = 0; i < 100; ++i) {
         const double value = (std::ceil(frame.range.low / step - 1e-9) + i) * step;
         if (value > frame.range.high + step * 1e-9) break;

@@ -19,7 +19,8 @@ constexpr const char* style =
     ".grid{stroke:#e3e8ed}.box{stroke:#8a97a3;stroke-dasharray:2 3}.planned{stroke:#b9cbe0;stroke-width:5;"
     "stroke-linejoin:round}.planned.traverse{stroke-dasharray:7 7}.driven{stroke:#0b5cab;"
     "stroke-width:1.5}.mark *{stroke:#fff;stroke-width:1.5}.start *{fill:#1a7f37}.end *{fill:#1f2933}"
-    ".worst *,.stop *{stroke:#b3261e;stroke-width:3}.limit{stroke:#b3261e;stroke-dasharray:6 4}"
+    ".worst *{stroke:#b3261e;stroke-width:3}.stop "
+    "*{fill:#b3261e;stroke-width:2}.arrow{fill:#0b5cab}.limit{stroke:#b3261e;stroke-dasharray:6 4}"
     ".line{stroke-width:1.5;stroke:#0b5cab}.line.x{stroke:#b3261e}.line.y{stroke:#1a7f37}.line.z{stroke:#0b5cab}"
     ".line.a{stroke:#7a3fb0}.line.b{stroke:#8a5a00}.line.c{stroke:#00707a}.title{font-weight:600;font-size:13px}"
     "</style>";

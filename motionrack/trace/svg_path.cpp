@@ -123,7 +123,40 @@ std::string mark(const Flat& at, const char* kind, const std::string& title) {
     const std::string_view which = kind;
     if (which == "start") return place + "<circle r=\"6\"/></g>\n";
     if (which == "end") return place + "<path d=\"M-5-5H5V5H-5Z\"/></g>\n";
+    if (which == "stop") return place + "<path d=\"M-4-9H4L9-4V4L4 9H-4L-9 4V-4Z\"/><path d=\"M-5 0H5\"/></g>\n";
     return place + "<path d=\"M-6-6L6 6M-6 6L6-6\"/></g>\n";
+}
+
+double length_of(const std::vector<Flat>& points) {
+    double sum = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double x = points[i].x - points[i - 1].x, y = points[i].y - points[i - 1].y;
+        sum += std::sqrt(x * x + y * y);
+    }
+    return sum;
+}
+
+/// Arrows along a line, which tell the way it was driven; about forty at most, so that they do not hide a dense path.
+std::string arrows(const std::vector<Flat>& points) {
+    const double apart = std::max(90.0, length_of(points) / 40);
+    if (!std::isfinite(apart)) return {};
+    std::string out;
+    double run = apart / 2;  // since the last arrow
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const Flat &a = points[i - 1], &b = points[i];
+        const double x = b.x - a.x, y = b.y - a.y, length = std::sqrt(x * x + y * y);
+        if (!(length > 0)) continue;
+        const double ux = x / length, uy = y / length;
+        for (double along = apart - run; along <= length; along += apart) {
+            const Flat p{a.x + ux * along, a.y + uy * along};
+            out += fmt::format("<path class=\"arrow\" d=\"M{} {}L{} {} {} {}Z\"/>\n", coordinate(p.x + 6 * ux),
+                               coordinate(p.y + 6 * uy), coordinate(p.x - 4 * ux - 4.5 * uy),
+                               coordinate(p.y - 4 * uy + 4.5 * ux), coordinate(p.x - 4 * ux + 4.5 * uy),
+                               coordinate(p.y - 4 * uy - 4.5 * ux));
+        }
+        run = std::fmod(run + length, apart);
+    }
+    return out;
 }
 
 std::string driven_line(const ReportData& data, const Projection& at) {
@@ -134,7 +167,7 @@ std::string driven_line(const ReportData& data, const Projection& at) {
     for (const std::size_t i : thin_path(points, {}, extent_of_path(data).diagonal() / 3000, most_points).kept) {
         flat.push_back(at(data.driven[i]));
     }
-    return line_through(flat, "driven");
+    return line_through(flat, "driven") + arrows(flat);
 }
 
 std::string planned_lines(const ReportData& data, const Projection& at) {

@@ -20,8 +20,9 @@ namespace motionrack::trace {
 
 struct VcdSettings {
     /// What one unit of the file's time is: 1, 10 or 100 of ps (from 100 ps), ns, us, ms, or 1 s. Changes inside one
-    /// unit keep their order and share its time. Programs that sample at the timescale (sigrok) need a coarse one: 1 s
-    /// of 100 ps is 1e10 samples, of 100 ns 1e7. 125 ns is no VCD timescale; 1 ns holds its edges exactly.
+    /// unit keep their order and share its time. sigrok and PulseView sample at the timescale, and 1 s of 100 ps is
+    /// 1e10 samples: let them read such a file with `sigrok-cli -I vcd:downsample=1000` (100 ns a sample; without it
+    /// it takes more than a minute), or write 100 ns at once. 125 ns is no VCD timescale; 1 ns holds its edges exactly.
     Duration timescale{1};
     /// "x_step" instead of "step" for a wire of the scope x: sigrok and PulseView show the last name only.
     bool full_names = false;

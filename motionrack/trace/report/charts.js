@@ -1,21 +1,14 @@
 // Charts over time: one picture each, all with the same cursor and the same zoom.
 const edge = { left: 56, right: 12, top: 8, bottom: 20 };
 
-const drawChart = (view, colours) => {
-  const { chart, canvas } = view;
-  const { pen, width, height } = prepared(canvas);
-  if (width < 80) return;
-  const [low, high] = chart.range;
-  const inner = width - edge.left - edge.right, deep = height - edge.top - edge.bottom;
-  const x = (t) => edge.left + (t - state.from) / (state.to - state.from) * inner;
-  const y = (v) => edge.top + deep - (v - low) / (high - low) * deep;
-
+const drawScales = (pen, view, place, colours) => {
+  const [low, high] = view.chart.range, { x, y, inner, deep, width, height } = place;
   pen.strokeStyle = colours.grid;
   pen.fillStyle = colours.soft;
   pen.lineWidth = 1;
   pen.beginPath();
   pen.textAlign = "right";
-  for (const tick of ticks(low, high, deep / 32)) {
+  for (const tick of ticks(low, high, deep / 22)) {
     pen.moveTo(edge.left, Math.round(y(tick.value)) + 0.5);
     pen.lineTo(width - edge.right, Math.round(y(tick.value)) + 0.5);
     pen.fillText(tick.text.replace("-", "\u2212"), edge.left - 6, y(tick.value) + 4);
@@ -27,55 +20,70 @@ const drawChart = (view, colours) => {
     pen.fillText(tick.text, clamp(x(tick.value), edge.left + 6, width - 14), height - 5);
   }
   pen.stroke();
+};
 
+const drawLimits = (pen, view, { y, width }, colours) => {
+  pen.strokeStyle = colours.wrong;
+  pen.setLineDash([6, 4]);
+  pen.beginPath();
+  for (const limit of view.chart.limits) { pen.moveTo(edge.left, y(limit)); pen.lineTo(width - edge.right, y(limit)); }
+  pen.stroke();
+  pen.setLineDash([]);
+};
+
+const drawSeries = (pen, view, { x, y }, colours) => {
+  const { t, v, look } = view.chart;
+  const first = Math.max(0, indexAt(t, state.from)), last = Math.min(t.length - 1, indexAt(t, state.to) + 1);
+  pen.strokeStyle = colours[look] || colours.d;
+  pen.lineWidth = 1.5;
+  pen.lineJoin = "round";
+  pen.beginPath();
+  for (let i = first; i <= last; ++i) { if (i === first) pen.moveTo(x(t[i]), y(v[i])); else pen.lineTo(x(t[i]), y(v[i])); }
+  pen.stroke();
+};
+
+const drawBand = (pen, from, to, deep, ink) => {
+  pen.globalAlpha = 0.16;
+  pen.fillStyle = ink;
+  pen.fillRect(from, edge.top, to - from, deep);
+  pen.globalAlpha = 1;
+};
+
+const drawCursor = (pen, view, { x, y, deep }, colours) => {
+  view.output.textContent = "";
+  if (state.time === null) return;
+  const value = valueAt(view.chart.t, view.chart.v, state.time);
+  pen.strokeStyle = pen.fillStyle = colours.ink;
+  pen.lineWidth = 1;
+  pen.beginPath();
+  pen.moveTo(x(state.time), edge.top);
+  pen.lineTo(x(state.time), edge.top + deep);
+  pen.stroke();
+  pen.beginPath();
+  pen.arc(x(state.time), y(value), 3, 0, 7);
+  pen.fill();
+  view.output.textContent = shownNumber(value);
+};
+
+const drawChart = (view, colours) => {
+  const { pen, width, height } = prepared(view.canvas);
+  if (width < 80) return;
+  const [low, high] = view.chart.range;
+  const inner = width - edge.left - edge.right, deep = height - edge.top - edge.bottom;
+  const x = (t) => edge.left + (t - state.from) / (state.to - state.from) * inner;
+  const y = (v) => edge.top + deep - (v - low) / (high - low) * deep;
+  const place = { x, y, inner, deep, width, height };
+  drawScales(pen, view, place, colours);
   pen.save();
   pen.beginPath();
   pen.rect(edge.left, edge.top - 3, inner, deep + 6);
   pen.clip();
-  if (state.block >= 0 && blocks[state.block]) {
-    const [, from, to] = blocks[state.block];
-    pen.globalAlpha = 0.16;
-    pen.fillStyle = colours.hot;
-    pen.fillRect(x(from), edge.top, Math.max(2, x(to) - x(from)), deep);
-    pen.globalAlpha = 1;
-  }
-  pen.strokeStyle = colours.wrong;
-  pen.setLineDash([6, 4]);
-  pen.beginPath();
-  for (const limit of chart.limits) { pen.moveTo(edge.left, y(limit)); pen.lineTo(width - edge.right, y(limit)); }
-  pen.stroke();
-  pen.setLineDash([]);
-
-  const first = Math.max(0, indexAt(chart.t, state.from)), last = Math.min(chart.t.length - 1, indexAt(chart.t, state.to) + 1);
-  pen.strokeStyle = colours[chart.look] || colours.d;
-  pen.lineWidth = 1.5;
-  pen.lineJoin = "round";
-  pen.beginPath();
-  for (let i = first; i <= last; ++i) { if (i === first) pen.moveTo(x(chart.t[i]), y(chart.v[i])); else pen.lineTo(x(chart.t[i]), y(chart.v[i])); }
-  pen.stroke();
-
-  if (view.dragFrom !== null) {
-    pen.globalAlpha = 0.15;
-    pen.fillStyle = colours.accent;
-    pen.fillRect(Math.min(view.dragFrom, view.dragTo), edge.top, Math.abs(view.dragTo - view.dragFrom), deep);
-    pen.globalAlpha = 1;
-  }
-  if (state.time !== null) {
-    const value = valueAt(chart.t, chart.v, state.time);
-    pen.strokeStyle = colours.ink;
-    pen.lineWidth = 1;
-    pen.beginPath();
-    pen.moveTo(x(state.time), edge.top);
-    pen.lineTo(x(state.time), edge.top + deep);
-    pen.stroke();
-    pen.fillStyle = colours.ink;
-    pen.beginPath();
-    pen.arc(x(state.time), y(value), 3, 0, 7);
-    pen.fill();
-    view.output.textContent = shownNumber(value);
-  } else {
-    view.output.textContent = "";
-  }
+  const block = blocks[state.block];
+  if (block) drawBand(pen, x(block[1]), Math.max(x(block[1]) + 2, x(block[2])), deep, colours.hot);
+  drawLimits(pen, view, place, colours);
+  drawSeries(pen, view, place, colours);
+  if (view.dragFrom !== null) drawBand(pen, Math.min(view.dragFrom, view.dragTo), Math.max(view.dragFrom, view.dragTo), deep, colours.accent);
+  drawCursor(pen, view, place, colours);
   pen.restore();
 };
 

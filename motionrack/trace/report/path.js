@@ -171,6 +171,59 @@ const drawDriven = (pen, view, to, colours) => {
   pen.stroke();
 };
 
+// The part (0 .. 1 each end) of the edge a b that lies in the picture; null if none does.
+const insidePart = ([ax, ay], [bx, by], width, height) => {
+  let from = 0, end = 1;
+  for (const [at, step, size] of [[ax, bx - ax, width], [ay, by - ay, height]]) {
+    if (step === 0) { if (at < 0 || at > size) return null; continue; }
+    const [near, far] = step > 0 ? [-at / step, (size - at) / step] : [(size - at) / step, -at / step];
+    from = Math.max(from, near);
+    end = Math.min(end, far);
+  }
+  return from < end ? [from, end] : null;
+};
+
+// Arrows tell the way it was driven; about forty at most, so that they do not hide a dense path.
+const drawArrows = (pen, points, width, height, colours) => {
+  const parts = [];
+  let run = 0, seen = 0;
+  for (let i = 1; i < points.length; ++i) {
+    const a = points[i - 1], b = points[i], length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    const part = length > 0 ? insidePart(a, b, width, height) : null;
+    if (part) { parts.push([a, b, run, length, part]); seen += (part[1] - part[0]) * length; }
+    run += length;
+  }
+  const apart = Math.max(90, seen / 40);
+  pen.fillStyle = state.bySpeed ? colours.ink : colours.driven;
+  pen.strokeStyle = colours.card;
+  pen.lineWidth = 1;
+  pen.beginPath();
+  for (const [[ax, ay], [bx, by], before, length, part] of parts) {
+    const ux = (bx - ax) / length, uy = (by - ay) / length;
+    for (let k = Math.ceil((before + part[0] * length) / apart - 0.5); (k + 0.5) * apart < before + part[1] * length; ++k) {
+      const along = (k + 0.5) * apart - before, x = ax + ux * along, y = ay + uy * along;
+      pen.moveTo(x + 6 * ux, y + 6 * uy);
+      pen.lineTo(x - 4 * ux - 4.5 * uy, y - 4 * uy + 4.5 * ux);
+      pen.lineTo(x - 4 * ux + 4.5 * uy, y - 4 * uy - 4.5 * ux);
+      pen.closePath();
+    }
+  }
+  pen.fill();
+  pen.stroke();
+};
+
+const drawStop = (pen, x, y, colours) => {
+  pen.fillStyle = colours.wrong;
+  pen.strokeStyle = colours.card;
+  pen.lineWidth = 2;
+  pen.beginPath();
+  trace(pen, [[-4, -9], [4, -9], [9, -4], [9, 4], [4, 9], [-4, 9], [-9, 4], [-9, -4]].map(([dx, dy]) => [x + dx, y + dy]));
+  pen.closePath();
+  pen.fill();
+  trace(pen, [[x - 5, y], [x + 5, y]]);
+  pen.stroke();
+};
+
 const drawMarks = (pen, view, to, colours) => {
   pen.lineWidth = 1.5;
   pen.strokeStyle = colours.card;
@@ -184,14 +237,14 @@ const drawMarks = (pen, view, to, colours) => {
   }
   pen.strokeStyle = colours.wrong;
   pen.lineWidth = 3;
-  for (const place3 of [drawing.worst, drawing.stop]) {
-    if (!place3) continue;
-    const [x, y] = to(...place3.at);
+  if (drawing.worst) {
+    const [x, y] = to(...drawing.worst.at);
     pen.beginPath();
     trace(pen, [[x - 6, y - 6], [x + 6, y + 6]]);
     trace(pen, [[x - 6, y + 6], [x + 6, y - 6]]);
     pen.stroke();
   }
+  if (drawing.stop) drawStop(pen, ...to(...drawing.stop.at), colours);
   if (state.time !== null && last >= 0) {
     const [x, y] = to(...drivenAt(state.time));
     pen.fillStyle = colours.hot;
@@ -208,6 +261,7 @@ const drawPath = (view, colours) => {
   drawGround(pen, view, to, width, height, colours);
   drawPlanned(pen, view, to, colours);
   drawDriven(pen, view, to, colours);
+  drawArrows(pen, view.points, width, height, colours);
   drawMarks(pen, view, to, colours);
   const point = state.time === null || driven.t.length === 0 ? null : drivenAt(state.time);
   view.output.textContent = point ? ["X", "Y", "Z"].map((name, i) => name + " " + shownNumber(point[i])).join("  ") : "";

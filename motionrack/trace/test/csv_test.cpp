@@ -60,6 +60,32 @@ TEST(WriteCsv, NamesEveryColumnWithItsUnit) {
               "0.001,0.0125,25,500,,0.001,0.0125,0,-1\r\n");
 }
 
+TEST(WriteEventsCsv, TellsBlocksWarningsWorstDeviationAndStopInOrderOfTime) {
+    ReportData data;
+    data.seconds = {0, 1, 2};
+    data.driven = {{0, 0, 5}, {10, 0, 5}, {10, 4, 5}};
+    data.blocks.resize(2);
+    data.blocks[0].line = 3;
+    data.blocks[0].kind = "line";
+    data.blocks[1].line = 4;
+    data.blocks[1].kind = "arc";
+    data.blocks[1].start = 1;
+    data.warnings = {{1.5, 4, "Y, close to \"+\""}, {-1, 0, "No instant"}, {7, 0, "Later than the path"}};
+    data.worst = ReportWorst{0.25, 0.5, 3, {5, 0.25, 5}};
+    data.stop = ReportStop{2, 4, {10, 4, 5}, "Limit switch"};
+    const Scratch scratch;
+    ASSERT_TRUE(write_events_csv(data, scratch.path("e.csv")));
+    EXPECT_EQ(file_text(scratch.path("e.csv")),
+              "time_s,event,line,x_mm,y_mm,z_mm,text\r\n"
+              ",warning,,,,,No instant\r\n"
+              "0,block,3,0,0,5,line\r\n"
+              "0.5,worst deviation,3,5,0.25,5,0.25 mm\r\n"
+              "1,block,4,10,0,5,arc\r\n"
+              "1.5,warning,4,10,2,5,\"Y, close to \"\"+\"\"\"\r\n"
+              "2,stop,4,10,4,5,Limit switch\r\n"
+              "7,warning,,,,,Later than the path\r\n");
+}
+
 TEST(CsvWriter, SaysOnceAtTheEndThatTheDiskIsFull) {
     if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
     auto csv = CsvWriter::create("/dev/full", {"a"});

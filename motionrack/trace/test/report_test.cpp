@@ -88,6 +88,38 @@ TEST(Report, TellsVerdictNumbersAxesBlocksWarningsAndNotes) {
     EXPECT_EQ(page.find("{{"), std::string::npos);
 }
 
+TEST(Report, SaysWhereTheMachineWasAtAWarning) {
+    ReportData data = circle(1001);
+    data.warnings = {{3.12, 7, "Quarter"}, {50, 0, "After the end"}, {-1, 0, "No instant"}};
+    const std::string page = report_html(data);
+    EXPECT_NE(page.find("X&nbsp;0 Y&nbsp;20 Z&nbsp;0</td><td class=\"t\">Quarter"), std::string::npos);
+    EXPECT_NE(page.find("<td class=\"n\"></td><td class=\"t\">After the end"), std::string::npos);
+    EXPECT_NE(page.find("<td class=\"n\"></td><td class=\"t\">No instant"), std::string::npos);
+}
+
+TEST(Report, SaysWhichLimitsAreOffTheChart) {
+    ReportData data = circle(1000);
+    EXPECT_NE(report_html(data).find("limit-words drawn\">limit \xC2\xB1"
+                                     "100<"),
+              std::string::npos);
+    data.axes[0].max_speed = 4000;
+    EXPECT_NE(report_html(data).find("limit-words\">limit \xC2\xB1"
+                                     "4000, off the chart<"),
+              std::string::npos);
+}
+
+TEST(Report, HoldsTheCardsCounterAgainstTheNetPulses) {
+    ReportData data = circle(100);
+    data.axes[0].pulses_sent = 900;
+    data.axes[0].pulses_net = data.axes[0].pulse_counter = 100;
+    data.axes[1].pulses_net = data.axes[1].pulse_counter = 5;
+    EXPECT_EQ(count(report_html(data), "card counts the same"), 2U);
+    data.axes[0].pulse_counter = 99;
+    const std::string page = report_html(data);
+    EXPECT_EQ(count(page, "card counts the same"), 1U);
+    EXPECT_NE(page.find("net 100, the card counts 99"), std::string::npos);
+}
+
 TEST(Report, OfTheSameRunHasTheSameBytes) {
     EXPECT_EQ(report_html(circle(5000)), report_html(circle(5000)));
 }

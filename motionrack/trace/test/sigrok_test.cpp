@@ -3,7 +3,7 @@
 //     sigrok-cli -I vcd -i run.vcd -P counter:data=x_step:data_edge=rising -A counter=edge_count
 //     sigrok-cli -I vcd -i run.vcd -P stepper_motor:step=x_step:dir=x_dir -A stepper_motor=position
 //     sigrok-cli -I vcd -i run.vcd -P graycode:d0=x_b:d1=x_a -A graycode=count
-//     sigrok-cli -I vcd:downsample=10 ...   samples at a tenth of the timescale
+//     sigrok-cli -I vcd:downsample=1000 ...   samples at a thousandth of the timescale: 100 ns of a file of 100 ps
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,9 +20,9 @@ constexpr int forward = 700;
 constexpr int backward = 300;
 
 /// A step, direction, A and B wire of an axis that goes `forward` steps and `backward` steps back, 10 us each.
-void write_moves(const std::string& path) {
+void write_moves(const std::string& path, Duration timescale) {
     VcdSettings settings;
-    settings.timescale = nanoseconds(100);
+    settings.timescale = timescale;
     settings.full_names = true;
     auto vcd = VcdWriter::create(path, settings);
     ASSERT_TRUE(vcd);
@@ -69,31 +69,39 @@ bool has_sigrok() {
     return std::system("sigrok-cli --version >/dev/null 2>&1") == 0;
 }
 
-class SigrokReads : public testing::TestWithParam<const char*> {};
+struct Reading {
+    Duration timescale;
+    const char* input;
+};
+
+class SigrokReads : public testing::TestWithParam<Reading> {};
 
 TEST_P(SigrokReads, AsManyStepsAndCountsAsWereWritten) {
     if (!has_sigrok()) GTEST_SKIP() << "sigrok-cli is not installed: apt-get install sigrok-cli";
     const Scratch scratch;
     const std::string path = scratch.path("run.vcd");
-    write_moves(path);
+    write_moves(path, GetParam().timescale);
 
-    const auto rising = ask(path, GetParam(), "counter:data=x_step:data_edge=rising", "counter=edge_count");
+    const auto rising = ask(path, GetParam().input, "counter:data=x_step:data_edge=rising", "counter=edge_count");
     ASSERT_FALSE(rising.empty());
     EXPECT_EQ(rising.back(), forward + backward);
 
     // The decoders of motors and encoders tell each place when it is left, so the last one told is one step short.
-    const auto places = ask(path, GetParam(), "stepper_motor:step=x_step:dir=x_dir", "stepper_motor=position");
+    const auto places = ask(path, GetParam().input, "stepper_motor:step=x_step:dir=x_dir", "stepper_motor=position");
     ASSERT_EQ(places.size(), static_cast<std::size_t>(forward + backward - 1));
     EXPECT_EQ(places[forward - 1], forward);
     EXPECT_EQ(places.back() - 1, forward - backward);
 
-    const auto counts = ask(path, GetParam(), "graycode:d0=x_a:d1=x_b", "graycode=count");
+    const auto counts = ask(path, GetParam().input, "graycode:d0=x_a:d1=x_b", "graycode=count");
     ASSERT_EQ(counts.size(), static_cast<std::size_t>(forward + backward));
     EXPECT_EQ(counts[forward], forward);
     EXPECT_EQ(counts.back() - 1, forward - backward);
 }
 
-INSTANTIATE_TEST_SUITE_P(AtTheTimescaleAndBelow, SigrokReads, testing::Values("vcd", "vcd:downsample=10"));
+INSTANTIATE_TEST_SUITE_P(AtTheTimescaleAndBelow, SigrokReads,
+                         testing::Values(Reading{nanoseconds(100), "vcd"},
+                                         Reading{nanoseconds(100), "vcd:downsample=10"},
+                                         Reading{Duration{1}, "vcd:downsample=1000"}));
 
 }  // namespace
 }  // namespace motionrack::trace

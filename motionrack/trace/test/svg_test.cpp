@@ -1,6 +1,7 @@
 // Pictures as SVG: what they hold and what range they choose.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <motionrack/trace/svg.hpp>
 
@@ -29,6 +30,33 @@ TEST(SvgPath, FromAboveHasYUpAndDrawsTraversesApart) {
     EXPECT_NE(svg.find("<polyline class=\"driven\" points=\"34,234 134,194 134,74 54,74\"/>"), std::string::npos)
         << svg;
     EXPECT_NE(svg.find("class=\"mark worst\" transform=\"translate(134 74)\""), std::string::npos) << svg;
+}
+
+TEST(SvgPath, ArrowsTellTheWayAndNeverGrowIntoACrowd) {
+    SvgLook look;
+    look.width = look.height = 268;
+    ReportData data = corner();
+    data.driven = {{0, 50, 5}, {100, 50, 5}};
+    const std::string right = svg_path(data, PathView::plan, look);
+    EXPECT_NE(right.find("class=\"arrow\" d=\"M85 134L75 138.5 75 129.5Z\""), std::string::npos) << right;
+    std::reverse(data.driven.begin(), data.driven.end());
+    const std::string left = svg_path(data, PathView::plan, look);
+    EXPECT_NE(left.find("class=\"arrow\" d=\"M183 134L193 129.5 193 138.5Z\""), std::string::npos) << left;
+    data.driven.clear();
+    for (int i = 0; i < 3000; ++i) data.driven.push_back({i % 2 == 0 ? 0.0 : 100.0, i / 30.0, 5});
+    const std::string crowd = svg_path(data, PathView::plan, look);
+    std::size_t arrows = 0;
+    for (std::size_t at = 0; (at = crowd.find("class=\"arrow\"", at)) != std::string::npos; ++at) ++arrows;
+    EXPECT_GE(arrows, 30U);
+    EXPECT_LE(arrows, 41U);
+}
+
+TEST(SvgPath, AStopLooksUnlikeTheWorstPlace) {
+    ReportData data = corner();
+    data.stop = ReportStop{1, 2, {10, 80, 5}, "Limit <Y+>"};
+    const std::string svg = svg_path(data, PathView::plan);
+    EXPECT_NE(svg.find("Stopped: Limit &lt;Y+&gt;</title><path d=\"M-4-9H4L9-4"), std::string::npos);
+    EXPECT_NE(svg.find("<path d=\"M-6-6L6 6M-6 6L6-6\"/>"), std::string::npos);
 }
 
 TEST(SvgPath, StandsAloneWithStyleAndNameOnlyWhenAsked) {
