@@ -18,11 +18,8 @@ struct PinInfo {
     std::string_view meaning;
 };
 
-constexpr bool pins_are_sound(std::span<const PinInfo> pins) {
-    for (std::size_t i = 0; i < pins.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            if (pins[i].name == pins[j].name) return false;
-    return true;
+constexpr Flaw pins_flaw(std::span<const PinInfo> pins) {
+    return names_flaw("the pins", "pin", pins);
 }
 
 struct CardMap {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <motionrack/base/declaration.hpp>
 #include <span>
 #include <string_view>
 
@@ -10,22 +11,32 @@ namespace motionrack {
 struct CommandInfo {
     std::string_view name;
     std::uint32_t code = 0;
-    int data_bytes = 0;             ///< that go with it, 0: none
-    std::int64_t least = 0;         ///< range of the data, as documented
+    int data_bytes = 0;      ///< that go with it, 0 .. 4; 0: none
+    std::int64_t least = 0;  ///< range of the data, as documented
     std::int64_t greatest = 0;
     std::string_view unit;
-    std::string_view variant;       ///< "": every variant of the card has it
+    std::string_view variant;  ///< "": every variant of the card has it
     std::string_view meaning;
+    bool reproduced = true;  ///< false: the virtual card ignores it and reports that as a condition
 };
 
-/// No code and no name twice; ranges the right way round.
-constexpr bool commands_are_sound(std::span<const CommandInfo> commands) {
+/// No code and no name twice; ranges the right way round, and no wider than the data.
+constexpr Flaw commands_flaw(std::span<const CommandInfo> commands) {
+    if (const Flaw flaw = names_flaw("the commands", "command", commands); !flaw.empty()) return flaw;
     for (std::size_t i = 0; i < commands.size(); ++i) {
-        if (commands[i].name.empty() || commands[i].least > commands[i].greatest) return false;
+        const CommandInfo& command = commands[i];
         for (std::size_t j = 0; j < i; ++j)
-            if (commands[j].code == commands[i].code || commands[j].name == commands[i].name) return false;
+            if (commands[j].code == command.code)
+                return {"the commands ", commands[j].name, " and ", command.name, " have one code"};
+        if (command.data_bytes < 0 || command.data_bytes > 4)
+            return {"the command ", command.name, " does not have 0 to 4 bytes of data"};
+        if (command.least > command.greatest) return {"the range of the command ", command.name, " is upside down"};
+        const std::int64_t values = std::int64_t{1} << (8 * command.data_bytes);
+        const std::int64_t least = command.data_bytes == 0 ? 0 : -values / 2;
+        if (command.least < least || command.greatest >= values)
+            return {"the range of the command ", command.name, " does not fit its bytes of data"};
     }
-    return true;
+    return {};
 }
 
 /// The command of that name; asking for one that is not declared does not compile.

@@ -9,9 +9,12 @@ namespace {
 
 const char* access_text(Access access) {
     switch (access) {
-        case Access::read: return "read";
-        case Access::write: return "write";
-        case Access::read_clears: return "read, clears";
+        case Access::read:
+            return "read";
+        case Access::write:
+            return "write";
+        case Access::read_clears:
+            return "read, clears";
     }
     return "";
 }
@@ -23,8 +26,38 @@ std::string bits_text(std::uint32_t mask) {
     return low == high ? fmt::format("D{}", low) : fmt::format("D{}-D{}", high, low);
 }
 
+/// With commas between thousands.
+std::string grouped(std::int64_t number) {
+    std::string out = fmt::format("{}", number);
+    for (std::size_t i = out.size(); i > (number < 0 ? 4u : 3u);) out.insert(i -= 3, 1, ',');
+    return out;
+}
+
 std::string range_text(const CommandInfo& command) {
-    return command.data_bytes == 0 || command.least == command.greatest ? "" : fmt::format("{} .. {}", command.least, command.greatest);
+    if (command.data_bytes == 0) return "";
+    return fmt::format("{} .. {}", grouped(command.least), grouped(command.greatest));
+}
+
+/// The meaning with what limits it.
+std::string remarked(const CommandInfo& command) {
+    std::string out(command.meaning);
+    if (!command.variant.empty()) out += fmt::format(" ({} only)", command.variant);
+    if (!command.reproduced) out += " (not reproduced)";
+    return out;
+}
+
+/// A cell of a Markdown table.
+std::string cell(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '|' || c == '*') out += '\\';
+        out += c;
+    }
+    return out;
+}
+
+const char* direction_text(PinDirection direction) {
+    return direction == PinDirection::input ? "input" : "output";
 }
 
 std::string quoted(std::string_view text) {
@@ -39,11 +72,75 @@ std::string quoted(std::string_view text) {
     return out + '"';
 }
 
-template <class T, class Call>
-std::string joined(std::span<const T> items, const Call& call) {
+template <class T>
+std::string list(std::span<const T> items);  // of what json() makes of each
+
+void add_markdown(std::string& out, const RegisterInfo& reg) {
+    out += fmt::format("\n### {} (offset {:02X}h, {}{}{})\n\n{}\n", reg.name, reg.offset, access_text(reg.access),
+                       reg.per_axis ? ", one an axis" : "", reg.bank.empty() ? "" : fmt::format(", {}", reg.bank),
+                       reg.meaning);
+    if (reg.fields.empty()) return;
+    out += "\n| bits | field | meaning |\n|---|---|---|\n";
+    for (const FieldInfo& field : reg.fields)
+        out += fmt::format("| {} | {} | {} |\n", bits_text(field.mask), field.name, cell(field.meaning));
+}
+
+void add_markdown(std::string& out, const MachineInfo& machine) {
+    out += fmt::format("\n## States: {}\n\n{}\n\n| state | meaning | goes to |\n|---|---|---|\n", machine.name,
+                       machine.meaning);
+    for (const StateInfo& state : machine.states) {
+        std::string next;
+        for (const TransitionInfo& t : machine.transitions)
+            if (t.from == state.name) next += fmt::format("{}{}: {}", next.empty() ? "" : "; ", t.to, t.when);
+        out += fmt::format("| {} | {} | {} |\n", state.name, cell(state.meaning), cell(next));
+    }
+}
+
+std::string json(const FieldInfo& field) {
+    return fmt::format(R"(    {{"name": {}, "mask": {}, "meaning": {}}})", quoted(field.name), field.mask,
+                       quoted(field.meaning));
+}
+
+std::string json(const RegisterInfo& reg) {
+    return fmt::format(R"(  {{"name": {}, "offset": {}, "width": {}, "access": {}, "per_axis": {}, "bank": {}, )"
+                       R"("meaning": {}, "fields": {}}})",
+                       quoted(reg.name), reg.offset, reg.width, quoted(access_text(reg.access)), reg.per_axis,
+                       quoted(reg.bank), quoted(reg.meaning), list(reg.fields));
+}
+
+std::string json(const CommandInfo& command) {
+    return fmt::format(
+        R"(  {{"name": {}, "code": {}, "data_bytes": {}, "least": {}, "greatest": {}, "unit": {}, "variant": {}, )"
+        R"("reproduced": {}, "meaning": {}}})",
+        quoted(command.name), command.code, command.data_bytes, command.least, command.greatest, quoted(command.unit),
+        quoted(command.variant), command.reproduced, quoted(command.meaning));
+}
+
+std::string json(const StateInfo& state) {
+    return fmt::format(R"(    {{"name": {}, "meaning": {}, "final": {}}})", quoted(state.name), quoted(state.meaning),
+                       state.final);
+}
+
+std::string json(const TransitionInfo& transition) {
+    return fmt::format(R"(    {{"from": {}, "to": {}, "when": {}}})", quoted(transition.from), quoted(transition.to),
+                       quoted(transition.when));
+}
+
+std::string json(const MachineInfo& machine) {
+    return fmt::format(R"(  {{"name": {}, "meaning": {}, "states": {}, "transitions": {}}})", quoted(machine.name),
+                       quoted(machine.meaning), list(machine.states), list(machine.transitions));
+}
+
+std::string json(const PinInfo& pin) {
+    return fmt::format(R"(  {{"name": {}, "direction": {}, "active_low": {}, "meaning": {}}})", quoted(pin.name),
+                       quoted(direction_text(pin.direction)), pin.active_low, quoted(pin.meaning));
+}
+
+template <class T>
+std::string list(std::span<const T> items) {
     std::string out;
-    for (const T& item : items) out += (out.empty() ? "\n" : ",\n") + call(item);
-    return out + "\n";
+    for (const T& item : items) out += (out.empty() ? "[\n" : ",\n") + json(item);
+    return out.empty() ? "[]" : out + "]";
 }
 
 }  // namespace
@@ -51,14 +148,16 @@ std::string joined(std::span<const T> items, const Call& call) {
 std::string describe_text(const CardMap& map) {
     std::string out = fmt::format("{}: {}\n\nRegisters\n", map.name, map.title);
     for (const RegisterInfo& reg : map.registers) {
-        out += fmt::format("  {:<5} {:02X}h  {:<13}{}{} {}\n", reg.name, reg.offset, access_text(reg.access), reg.per_axis ? "per axis  " : "",
-                           reg.bank.empty() ? "" : fmt::format("[{}] ", reg.bank), reg.meaning);
-        for (const FieldInfo& field : reg.fields) out += fmt::format("          {:<9}{:<8} {}\n", bits_text(field.mask), field.name, field.meaning);
+        out += fmt::format("  {:<5} {:02X}h  {:<13}{}{} {}\n", reg.name, reg.offset, access_text(reg.access),
+                           reg.per_axis ? "per axis  " : "", reg.bank.empty() ? "" : fmt::format("[{}] ", reg.bank),
+                           reg.meaning);
+        for (const FieldInfo& field : reg.fields)
+            out += fmt::format("          {:<9}{:<8} {}\n", bits_text(field.mask), field.name, field.meaning);
     }
     out += "\nCommands\n";
     for (const CommandInfo& command : map.commands)
-        out += fmt::format("  {:02X}h  {:<26}{:<28}{}{}\n", command.code, command.name, range_text(command), command.meaning,
-                           command.variant.empty() ? "" : fmt::format(" ({} only)", command.variant));
+        out += fmt::format("  {:02X}h  {:<30} {:<32} {}\n", command.code, command.name, range_text(command),
+                           remarked(command));
     for (const MachineInfo& machine : map.machines) {
         out += fmt::format("\n{}: {}\n", machine.name, machine.meaning);
         for (const StateInfo& state : machine.states) {
@@ -69,72 +168,39 @@ std::string describe_text(const CardMap& map) {
     }
     out += "\nPins (* stands for the axis letter)\n";
     for (const PinInfo& pin : map.pins)
-        out += fmt::format("  {:<8} {:<7}{:<11} {}\n", pin.name, pin.direction == PinDirection::input ? "input" : "output",
+        out += fmt::format("  {:<8} {:<7}{:<11} {}\n", pin.name, direction_text(pin.direction),
                            pin.active_low ? "active low" : "", pin.meaning);
+    out += "\nNot reproduced: the virtual card ignores it and says so.\n";
     return out;
 }
 
 std::string describe_markdown(const CardMap& map) {
-    std::string out = fmt::format("# {}\n\n{}\n\nThis page is made from the card's map: `motionrack describe {} --markdown`.\n\n## Registers\n",
-                                  map.name, map.title, map.name);
-    for (const RegisterInfo& reg : map.registers) {
-        out += fmt::format("\n### {} (offset {:02X}h, {}{}{})\n\n{}\n", reg.name, reg.offset, access_text(reg.access),
-                           reg.per_axis ? ", one an axis" : "", reg.bank.empty() ? "" : fmt::format(", {}", reg.bank), reg.meaning);
-        if (reg.fields.empty()) continue;
-        out += "\n| bits | field | meaning |\n|---|---|---|\n";
-        for (const FieldInfo& field : reg.fields) out += fmt::format("| {} | {} | {} |\n", bits_text(field.mask), field.name, field.meaning);
-    }
+    std::string out = fmt::format(
+        "# {}\n\n{}\n\nThis page is made from the card's map: `motionrack describe {} --markdown`. What is not "
+        "reproduced is "
+        "there on the real\ncard; the virtual one ignores it and says so.\n\n## Registers\n",
+        map.name, map.title, map.name);
+    for (const RegisterInfo& reg : map.registers) add_markdown(out, reg);
     out += "\n## Commands\n\n| code | name | data | range | unit | meaning |\n|---|---|---|---|---|---|\n";
     for (const CommandInfo& command : map.commands)
-        out += fmt::format("| {:02X}h | {} | {} | {} | {} | {}{} |\n", command.code, command.name,
-                           command.data_bytes ? fmt::format("{} bytes", command.data_bytes) : "-", range_text(command), command.unit,
-                           command.meaning, command.variant.empty() ? "" : fmt::format(" ({} only)", command.variant));
-    for (const MachineInfo& machine : map.machines) {
-        out += fmt::format("\n## States: {}\n\n{}\n\n| state | meaning | goes to |\n|---|---|---|\n", machine.name, machine.meaning);
-        for (const StateInfo& state : machine.states) {
-            std::string next;
-            for (const TransitionInfo& t : machine.transitions)
-                if (t.from == state.name) next += fmt::format("{}{}: {}", next.empty() ? "" : "; ", t.to, t.when);
-            out += fmt::format("| {} | {} | {} |\n", state.name, state.meaning, next);
-        }
-    }
-    out += "\n## Pins\n\n`*` stands for the axis letter.\n\n| pin | direction | active | meaning |\n|---|---|---|---|\n";
+        out += fmt::format("| {:02X}h | {} | {} | {} | {} | {} |\n", command.code, command.name,
+                           command.data_bytes ? fmt::format("{} bytes", command.data_bytes) : "-", range_text(command),
+                           cell(command.unit), cell(remarked(command)));
+    for (const MachineInfo& machine : map.machines) add_markdown(out, machine);
+    out +=
+        "\n## Pins\n\n`*` stands for the axis letter.\n\n| pin | direction | active | meaning |\n|---|---|---|---|\n";
     for (const PinInfo& pin : map.pins)
-        out += fmt::format("| {} | {} | {} | {} |\n", pin.name, pin.direction == PinDirection::input ? "input" : "output",
-                           pin.active_low ? "low" : "high", pin.meaning);
+        out += fmt::format("| {} | {} | {} | {} |\n", cell(pin.name), direction_text(pin.direction),
+                           pin.active_low ? "low" : "high", cell(pin.meaning));
     return out;
 }
 
 std::string describe_json(const CardMap& map) {
-    std::string out = fmt::format("{{\n\"name\": {}, \"title\": {},\n\"registers\": [", quoted(map.name), quoted(map.title));
-    out += joined(map.registers, [](const RegisterInfo& reg) {
-        return fmt::format(R"(  {{"name": {}, "offset": {}, "width": {}, "access": {}, "per_axis": {}, "bank": {}, "meaning": {}, "fields": [{}  ]}})",
-                           quoted(reg.name), reg.offset, reg.width, quoted(access_text(reg.access)), reg.per_axis, quoted(reg.bank),
-                           quoted(reg.meaning), joined(reg.fields, [](const FieldInfo& field) {
-                               return fmt::format(R"(    {{"name": {}, "mask": {}, "meaning": {}}})", quoted(field.name), field.mask,
-                                                  quoted(field.meaning));
-                           }));
-    });
-    out += "],\n\"commands\": [" + joined(map.commands, [](const CommandInfo& command) {
-        return fmt::format(R"(  {{"name": {}, "code": {}, "data_bytes": {}, "least": {}, "greatest": {}, "unit": {}, "variant": {}, "meaning": {}}})",
-                           quoted(command.name), command.code, command.data_bytes, command.least, command.greatest, quoted(command.unit),
-                           quoted(command.variant), quoted(command.meaning));
-    });
-    out += "],\n\"machines\": [" + joined(map.machines, [](const MachineInfo& machine) {
-        return fmt::format(R"(  {{"name": {}, "meaning": {}, "states": [{}  ], "transitions": [{}  ]}})", quoted(machine.name),
-                           quoted(machine.meaning), joined(machine.states, [](const StateInfo& state) {
-                               return fmt::format(R"(    {{"name": {}, "meaning": {}, "final": {}}})", quoted(state.name), quoted(state.meaning),
-                                                  state.final);
-                           }),
-                           joined(machine.transitions, [](const TransitionInfo& t) {
-                               return fmt::format(R"(    {{"from": {}, "to": {}, "when": {}}})", quoted(t.from), quoted(t.to), quoted(t.when));
-                           }));
-    });
-    out += "],\n\"pins\": [" + joined(map.pins, [](const PinInfo& pin) {
-        return fmt::format(R"(  {{"name": {}, "direction": {}, "active_low": {}, "meaning": {}}})", quoted(pin.name),
-                           quoted(pin.direction == PinDirection::input ? "input" : "output"), pin.active_low, quoted(pin.meaning));
-    });
-    return out + "]\n}\n";
+    return fmt::format(
+        "{{\n\"name\": {}, \"title\": {},\n\"registers\": {},\n\"commands\": {},\n\"machines\": {},\n\"pins\": "
+        "{}\n}}\n",
+        quoted(map.name), quoted(map.title), list(map.registers), list(map.commands), list(map.machines),
+        list(map.pins));
 }
 
 }  // namespace motionrack

@@ -6,8 +6,12 @@
 
 namespace motionrack {
 
+/// For a terminal: lines with indents.
 std::string describe_text(const CardMap& map);
+/// The page docs/reference/<card>.md.
 std::string describe_markdown(const CardMap& map);
+/// An object with name, title and the lists registers (with fields), commands, machines (with states and transitions)
+/// and pins; masks, offsets and codes are numbers, strings are escaped as JSON asks for.
 std::string describe_json(const CardMap& map);
 
 }  // namespace motionrack

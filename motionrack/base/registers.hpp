@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <motionrack/base/declaration.hpp>
 #include <span>
 #include <string_view>
 
@@ -15,46 +16,52 @@ enum class Access : std::uint8_t {
 
 struct FieldInfo {
     std::string_view name;
-    std::uint32_t mask = 0;
+    std::uint32_t mask = 0;    ///< neighbouring bits
     std::string_view meaning;  ///< one line
 };
 
 struct RegisterInfo {
     std::string_view name;
     std::uint32_t offset = 0;  ///< byte offset on the bus
-    int width = 16;            ///< bits
+    int width = 16;            ///< bits, 1 .. 32
     Access access = Access::read;
-    bool per_axis = false;     ///< exists once an axis; the axis is chosen by the last command
-    std::string_view bank;     ///< registers of different banks may share an offset ("" : always there)
+    bool per_axis = false;  ///< exists once an axis; the axis is chosen by the last command
+    std::string_view bank;  ///< registers of different banks may share an offset ("" : always there)
     std::string_view meaning;
     std::span<const FieldInfo> fields;
 };
 
-/// No two fields of a register share a bit, none lies outside it, none is empty, no name twice.
-constexpr bool fields_are_sound(const RegisterInfo& reg) {
-    std::uint64_t used = 0;
+/// No two fields of a register share a bit, none lies outside it, none is empty or has a gap, no name twice.
+constexpr Flaw fields_flaw(const RegisterInfo& reg) {
+    if (reg.width < 1 || reg.width > 32) return {reg.name, ": the width is not 1 to 32 bits"};
+    if (const Flaw flaw = names_flaw(reg.name, "field", reg.fields); !flaw.empty()) return flaw;
     for (std::size_t i = 0; i < reg.fields.size(); ++i) {
         const FieldInfo& field = reg.fields[i];
-        if (field.mask == 0 || (std::uint64_t{field.mask} >> reg.width) != 0 || (used & field.mask) != 0) return false;
-        used |= field.mask;
+        if (field.mask == 0) return {reg.name, ": the field ", field.name, " has no bits"};
+        if ((std::uint64_t{field.mask} >> reg.width) != 0)
+            return {reg.name, ": the field ", field.name, " has bits outside the register's width"};
+        const std::uint64_t above = std::uint64_t{field.mask} + (field.mask & (~field.mask + 1u));
+        if ((above & field.mask) != 0) return {reg.name, ": the bits of the field ", field.name, " are not neighbours"};
         for (std::size_t j = 0; j < i; ++j)
-            if (reg.fields[j].name == field.name) return false;
+            if ((reg.fields[j].mask & field.mask) != 0)
+                return {reg.name, ": the fields ", reg.fields[j].name, " and ", field.name, " share a bit"};
     }
-    return true;
+    return {};
 }
 
 /// Every register's fields are sound; no name twice; no two registers at one offset in one direction and bank.
-constexpr bool registers_are_sound(std::span<const RegisterInfo> registers) {
+constexpr Flaw registers_flaw(std::span<const RegisterInfo> registers) {
+    if (const Flaw flaw = names_flaw("the registers", "register", registers); !flaw.empty()) return flaw;
     for (std::size_t i = 0; i < registers.size(); ++i) {
-        if (!fields_are_sound(registers[i])) return false;
+        if (const Flaw flaw = fields_flaw(registers[i]); !flaw.empty()) return flaw;
         for (std::size_t j = 0; j < i; ++j) {
-            const RegisterInfo &a = registers[i], &b = registers[j];
-            if (a.name == b.name) return false;
+            const RegisterInfo &a = registers[j], &b = registers[i];
             const bool same_direction = (a.access == Access::write) == (b.access == Access::write);
-            if (a.offset == b.offset && same_direction && a.bank == b.bank) return false;
+            if (a.offset == b.offset && same_direction && a.bank == b.bank)
+                return {"the registers ", a.name, " and ", b.name, " are at one offset in one direction and bank"};
         }
     }
-    return true;
+    return {};
 }
 
 /// The register of that name; asking for one that is not declared does not compile.
@@ -64,8 +71,9 @@ consteval const RegisterInfo& register_named(std::span<const RegisterInfo> regis
     throw "there is no register of that name";
 }
 
-/// The mask of a field; asking for one that is not declared does not compile.
+/// The mask of a field; asking for one that is not declared, or of a register wider than 16 bits, does not compile.
 consteval std::uint16_t mask_of(const RegisterInfo& reg, std::string_view field) {
+    if (reg.width > 16) throw "the register is wider than a Field";
     for (const FieldInfo& info : reg.fields)
         if (info.name == field) return static_cast<std::uint16_t>(info.mask);
     throw "the register has no field of that name";

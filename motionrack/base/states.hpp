@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <motionrack/base/declaration.hpp>
 #include <span>
 #include <string_view>
 
@@ -19,7 +20,7 @@ struct TransitionInfo {
     std::string_view when;
 };
 
-/// The first state is the one after reset.
+/// The first state is the one after reset; at most 64 states.
 struct MachineInfo {
     std::string_view name;
     std::string_view meaning;
@@ -27,35 +28,50 @@ struct MachineInfo {
     std::span<const TransitionInfo> transitions;
 };
 
+/// Its place in the table, -1 if there is none of that name.
 constexpr int state_index(const MachineInfo& machine, std::string_view name) {
     for (std::size_t i = 0; i < machine.states.size(); ++i)
         if (machine.states[i].name == name) return static_cast<int>(i);
     return -1;
 }
 
-/// Every transition joins known states, every state can be reached from the first one and left unless it is final, no name twice.
-constexpr bool machine_is_sound(const MachineInfo& machine) {
-    if (machine.states.empty() || machine.states.size() > 64) return false;
+/// The states that can be reached from the first one, a bit each.
+constexpr std::uint64_t reachable_states(const MachineInfo& machine) {
     std::uint64_t reached = 1;
     for (std::size_t round = 0; round < machine.states.size(); ++round)
-        for (const TransitionInfo& t : machine.transitions) {
-            const int from = state_index(machine, t.from), to = state_index(machine, t.to);
-            if (from < 0 || to < 0) return false;
-            if (reached >> from & 1) reached |= std::uint64_t{1} << to;
-        }
-    for (std::size_t i = 0; i < machine.states.size(); ++i) {
-        if (!(reached >> i & 1) || state_index(machine, machine.states[i].name) != static_cast<int>(i)) return false;
-        bool exit = machine.states[i].final;
-        for (const TransitionInfo& t : machine.transitions) exit = exit || (t.from == machine.states[i].name && t.to != t.from);
-        if (!exit) return false;
-    }
-    return true;
+        for (const TransitionInfo& t : machine.transitions)
+            if (reached >> state_index(machine, t.from) & 1) reached |= std::uint64_t{1} << state_index(machine, t.to);
+    return reached;
 }
 
-constexpr bool machines_are_sound(std::span<const MachineInfo> machines) {
+/// Every transition joins known states, every state can be reached from the first one and left unless it is final, no
+/// name twice.
+constexpr Flaw machine_flaw(const MachineInfo& machine) {
+    if (machine.states.empty() || machine.states.size() > 64) return {machine.name, ": there are not 1 to 64 states"};
+    if (const Flaw flaw = names_flaw(machine.name, "state", machine.states); !flaw.empty()) return flaw;
+    for (const TransitionInfo& t : machine.transitions) {
+        if (state_index(machine, t.from) < 0)
+            return {machine.name, ": a transition comes from ", t.from, ", which is no state"};
+        if (state_index(machine, t.to) < 0)
+            return {machine.name, ": a transition goes to ", t.to, ", which is no state"};
+        if (t.when.empty()) return {machine.name, ": the transition from ", t.from, " to ", t.to, " does not say when"};
+    }
+    const std::uint64_t reached = reachable_states(machine);
+    for (std::size_t i = 0; i < machine.states.size(); ++i) {
+        const StateInfo& state = machine.states[i];
+        if (!(reached >> i & 1)) return {machine.name, ": the state ", state.name, " is never reached"};
+        bool exit = state.final;
+        for (const TransitionInfo& t : machine.transitions) exit = exit || (t.from == state.name && t.to != t.from);
+        if (!exit) return {machine.name, ": the state ", state.name, " has no exit and is not final"};
+    }
+    return {};
+}
+
+constexpr Flaw machines_flaw(std::span<const MachineInfo> machines) {
+    if (const Flaw flaw = names_flaw("the state machines", "state machine", machines); !flaw.empty()) return flaw;
     for (const MachineInfo& machine : machines)
-        if (!machine_is_sound(machine)) return false;
-    return true;
+        if (const Flaw flaw = machine_flaw(machine); !flaw.empty()) return flaw;
+    return {};
 }
 
 }  // namespace motionrack

@@ -71,7 +71,8 @@ inline constexpr unsigned BP_CLEAR = command_named(map::commands, "BP_CLEAR").co
 inline constexpr unsigned STEP = command_named(map::commands, "STEP").code;
 inline constexpr unsigned DECELERATION_ON = command_named(map::commands, "DECELERATION_ON").code;
 inline constexpr unsigned DECELERATION_OFF = command_named(map::commands, "DECELERATION_OFF").code;
-inline constexpr unsigned INTERPOLATION_INTERRUPT_CLEAR = command_named(map::commands, "INTERPOLATION_INTERRUPT_CLEAR").code;
+inline constexpr unsigned INTERPOLATION_INTERRUPT_CLEAR =
+    command_named(map::commands, "INTERPOLATION_INTERRUPT_CLEAR").code;
 inline constexpr unsigned EM = command_named(map::commands, "EM").code;
 inline constexpr unsigned HV = command_named(map::commands, "HV").code;
 inline constexpr unsigned HOME = command_named(map::commands, "HOME").code;
@@ -102,9 +103,11 @@ inline constexpr TransitionInfo drive_transitions[] = {
     {"held", "idle", "stop command"},
     {"starting", "driving", "two ticks have passed"},
     {"driving", "final", "remaining pulses, DP, decelerating stop"},
-    {"driving", "in_position", "immediate stop, or P pulses are out"},
+    {"driving", "in_position", "P pulses are out, the segment's last pulse with nothing queued, or an immediate stop"},
     {"final", "in_position", "P pulses are out, or SV is reached by a stop"},
     {"in_position", "idle", "nINPOS active or not enabled"},
+    {"in_position", "starting", "drive command"},
+    {"in_position", "held", "drive command after HOLD"},
 };
 inline constexpr StateInfo chain_states[] = {
     {"idle", "no interpolation"},
@@ -119,10 +122,11 @@ inline constexpr TransitionInfo chain_transitions[] = {
     {"queued", "idle", "a stop: the queued segment is dropped"},
 };
 inline constexpr MachineInfo machines[] = {
-    {"drive", "one axis' drive", drive_states, drive_transitions},
-    {"continuous interpolation", "the segment that runs and the one behind it", chain_states, chain_transitions},
+    {"drive", "one axis' drive; RESET leads from every state to idle", drive_states, drive_transitions},
+    {"continuous interpolation", "the segment that runs and the one behind it; RESET leads from every state to idle",
+     chain_states, chain_transitions},
 };
-static_assert(machines_are_sound(machines), "a state of the MCX314's map cannot be reached or left");
+static_assert(declared<machines_flaw(machines)>());
 
 inline constexpr PinDirection in = PinDirection::input, out = PinDirection::output;
 inline constexpr PinInfo pins[] = {
@@ -138,8 +142,8 @@ inline constexpr PinInfo pins[] = {
     {"*lmtm", in, true, "- limit switch, level by WR2"},
     {"*alarm", in, true, "alarm of the drive, level by WR2"},
     {"*inpos", in, true, "in-position of the drive, level by WR2"},
-    {"*expp", in, true, "external drive, + direction"},
-    {"*expm", in, true, "external drive, - direction"},
+    {"*expp", in, true, "external drive, + direction (not reproduced; RR4, RR5 show its level)"},
+    {"*expm", in, true, "external drive, - direction (not reproduced; RR4, RR5 show its level)"},
     {"*out0", out, false, "general output, WR4"},
     {"*out1", out, false, "general output, WR4"},
     {"*out2", out, false, "general output, WR4"},
@@ -149,17 +153,20 @@ inline constexpr PinInfo pins[] = {
     {"*out6", out, false, "general output, WR3, or accelerating"},
     {"*out7", out, false, "general output, WR3, or decelerating"},
     {"emgn", in, true, "emergency stop of all axes"},
-    {"expls_n", in, true, "one interpolation step"},
+    {"expls_n", in, true, "one interpolation step (not reproduced)"},
     {"int_n", out, true, "interrupt"},
 };
-static_assert(pins_are_sound(pins), "two pins of the MCX314's map have one name");
+static_assert(declared<pins_flaw(pins)>());
 
-inline constexpr CardMap card = {"mcx314", "Four-axis pulse chip with linear, circular and continuous interpolation",
-                                 registers, commands, machines, pins};
+inline constexpr CardMap card = {"mcx314",  "Four-axis pulse chip with linear, circular and continuous interpolation",
+                                 registers, commands,
+                                 machines,  pins};
 
 }  // namespace map
 
 /// The whole map, for documents, inspectors and traces.
-inline const CardMap& card_map() { return map::card; }
+inline const CardMap& card_map() {
+    return map::card;
+}
 
 }  // namespace motionrack::mcx314

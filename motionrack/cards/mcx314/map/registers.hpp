@@ -1,4 +1,5 @@
-// The MCX314's registers, declared once: WR0..WR7 and RR0..RR7 on a 16-bit bus, and the bit-pattern registers that share WR2..WR7.
+// The MCX314's registers, declared once: WR0..WR7 and RR0..RR7 on a 16-bit bus, and the bit-pattern registers that
+// share WR2..WR7.
 //
 //   offset   00h  02h  04h  06h  08h  0Ah  0Ch  0Eh          WR1..WR3, RR1..RR3 exist once an axis: the axis is the one
 //   write    WR0  WR1  WR2  WR3  WR4  WR5  WR6  WR7          (or those) of the last command that named any
@@ -19,12 +20,18 @@ inline constexpr FieldInfo wr0_fields[] = {
     {"RESET", 0x8000, "software reset of the whole chip"},
 };
 inline constexpr FieldInfo wr1_fields[] = {
-    {"IN0L", 0x0001, "stop input IN0 acts at: 0 Low, 1 High"},      {"IN0E", 0x0002, "stop input IN0 enabled"},
-    {"IN1L", 0x0004, "stop input IN1 acts at: 0 Low, 1 High"},      {"IN1E", 0x0008, "stop input IN1 enabled"},
-    {"IN2L", 0x0010, "stop input IN2 acts at: 0 Low, 1 High"},      {"IN2E", 0x0020, "stop input IN2 enabled"},
-    {"IN3L", 0x0040, "stop input IN3 acts at: 0 Low, 1 High"},      {"IN3E", 0x0080, "stop input IN3 enabled"},
-    {"PULSE", 0x0100, "interrupt at each drive pulse"},             {"PGECM", 0x0200, "interrupt when the counter becomes >= COMP-"},
-    {"PLCM", 0x0400, "interrupt when the counter becomes < COMP-"}, {"PLCP", 0x0800, "interrupt when the counter becomes < COMP+"},
+    {"IN0L", 0x0001, "stop input IN0 acts at: 0 Low, 1 High"},
+    {"IN0E", 0x0002, "stop input IN0 enabled"},
+    {"IN1L", 0x0004, "stop input IN1 acts at: 0 Low, 1 High"},
+    {"IN1E", 0x0008, "stop input IN1 enabled"},
+    {"IN2L", 0x0010, "stop input IN2 acts at: 0 Low, 1 High"},
+    {"IN2E", 0x0020, "stop input IN2 enabled"},
+    {"IN3L", 0x0040, "stop input IN3 acts at: 0 Low, 1 High"},
+    {"IN3E", 0x0080, "stop input IN3 enabled"},
+    {"PULSE", 0x0100, "interrupt at each drive pulse"},
+    {"PGECM", 0x0200, "interrupt when the counter becomes >= COMP-"},
+    {"PLCM", 0x0400, "interrupt when the counter becomes < COMP-"},
+    {"PLCP", 0x0800, "interrupt when the counter becomes < COMP+"},
     {"PGECP", 0x1000, "interrupt when the counter becomes >= COMP+"},
     {"CEND", 0x2000, "interrupt at the end of the constant-speed part"},
     {"CSTA", 0x4000, "interrupt at the start of the constant-speed part"},
@@ -51,7 +58,7 @@ inline constexpr FieldInfo wr3_fields[] = {
     {"MANLD", 0x0001, "deceleration of a fixed drive: 0 automatic, 1 from DP on"},
     {"DSNDE", 0x0002, "deceleration uses D instead of A"},
     {"SACC", 0x0004, "0 T-curve, 1 S-curve"},
-    {"EXOP", 0x0018, "drive by nEXPP, nEXPM: 0 off, 1 continuous, 2 fixed"},
+    {"EXOP", 0x0018, "drive by nEXPP, nEXPM: 0 off, 1 continuous, 2 fixed (not reproduced)"},
     {"OUTSL", 0x0080, "nOUT4..7 show: 0 OUT4..7, 1 drive status"},
     {"OUT4", 0x0100, "level of nOUT4"},
     {"OUT5", 0x0200, "level of nOUT5"},
@@ -69,10 +76,10 @@ inline constexpr FieldInfo wr5_fields[] = {
     {"AX2", 0x000C, "second axis"},
     {"AX3", 0x0030, "third axis"},
     {"LSPD", 0x0300, "constant vector speed: 0 off, 1 two axes, 3 three axes"},
-    {"EXPLS", 0x0800, "step by the wire EXPLSN"},
-    {"CMPLS", 0x1000, "step by command 3Ah"},
+    {"EXPLS", 0x0800, "step by the wire EXPLSN (not reproduced)"},
+    {"CMPLS", 0x1000, "step by command 3Ah (not reproduced)"},
     {"CIINT", 0x4000, "interrupt when the next segment may be written"},
-    {"BPINT", 0x8000, "interrupt when the bit-pattern stack wants data"},
+    {"BPINT", 0x8000, "interrupt when the bit-pattern stack wants data (not reproduced)"},
 };
 inline constexpr FieldInfo rr0_fields[] = {
     {"DRV", 0x000F, "X, Y, Z, U drive"},
@@ -80,42 +87,58 @@ inline constexpr FieldInfo rr0_fields[] = {
     {"IDRV", 0x0100, "an interpolation runs"},
     {"CNEXT", 0x0200, "the next segment may be written"},
     {"ZONE", 0x1C00, "octant of a circular interpolation, 0..7"},
-    {"BPSC", 0x6000, "bit-pattern stack counter"},
+    {"BPSC", 0x6000, "bit-pattern stack counter (not reproduced: 0)"},
 };
 inline constexpr FieldInfo rr1_fields[] = {
-    {"CMPP", 0x0001, "LP or EP >= COMP+"},          {"CMPM", 0x0002, "LP or EP < COMP-"},
-    {"ASND", 0x0004, "accelerates"},                {"CNST", 0x0008, "constant speed"},
-    {"DSND", 0x0010, "decelerates"},                {"AASND", 0x0020, "S-curve: the rate grows"},
-    {"ACNST", 0x0040, "S-curve: the rate is constant"}, {"ADSND", 0x0080, "S-curve: the rate falls"},
-    {"IN0", 0x0100, "stopped by IN0"},              {"IN1", 0x0200, "stopped by IN1"},
-    {"IN2", 0x0400, "stopped by IN2"},              {"IN3", 0x0800, "stopped by IN3"},
-    {"LMTP", 0x1000, "stopped by nLMTP"},           {"LMTM", 0x2000, "stopped by nLMTM"},
-    {"ALARM", 0x4000, "stopped by nALARM"},         {"EMG", 0x8000, "stopped by EMGN"},
+    {"CMPP", 0x0001, "LP or EP >= COMP+"},
+    {"CMPM", 0x0002, "LP or EP < COMP-"},
+    {"ASND", 0x0004, "accelerates"},
+    {"CNST", 0x0008, "constant speed"},
+    {"DSND", 0x0010, "decelerates"},
+    {"AASND", 0x0020, "S-curve: the rate grows"},
+    {"ACNST", 0x0040, "S-curve: the rate is constant"},
+    {"ADSND", 0x0080, "S-curve: the rate falls"},
+    {"IN0", 0x0100, "stopped by IN0"},
+    {"IN1", 0x0200, "stopped by IN1"},
+    {"IN2", 0x0400, "stopped by IN2"},
+    {"IN3", 0x0800, "stopped by IN3"},
+    {"LMTP", 0x1000, "stopped by nLMTP"},
+    {"LMTM", 0x2000, "stopped by nLMTM"},
+    {"ALARM", 0x4000, "stopped by nALARM"},
+    {"EMG", 0x8000, "stopped by EMGN"},
 };
 inline constexpr FieldInfo rr2_fields[] = {
-    {"SLMTP", 0x0001, "beyond the + software limit"}, {"SLMTM", 0x0002, "beyond the - software limit"},
-    {"HLMTP", 0x0004, "nLMTP is active"},             {"HLMTM", 0x0008, "nLMTM is active"},
-    {"ALARM", 0x0010, "nALARM is enabled and active"}, {"EMG", 0x0020, "EMGN is Low"},
+    {"SLMTP", 0x0001, "beyond the + software limit"},
+    {"SLMTM", 0x0002, "beyond the - software limit"},
+    {"HLMTP", 0x0004, "nLMTP is active"},
+    {"HLMTM", 0x0008, "nLMTM is active"},
+    {"ALARM", 0x0010, "nALARM is enabled and active"},
+    {"EMG", 0x0020, "EMGN is Low"},
     {"HOME", 0x0080, "automatic home search: Z was active already (MCX314As)"},
     {"HMST", 0x1F00, "automatic home search: state (MCX314As)"},
 };
 inline constexpr FieldInfo rr3_fields[] = {
-    {"PULSE", 0x0001, "a drive pulse came"},          {"PGECM", 0x0002, "the counter became >= COMP-"},
-    {"PLCM", 0x0004, "the counter became < COMP-"},   {"PLCP", 0x0008, "the counter became < COMP+"},
-    {"PGECP", 0x0010, "the counter became >= COMP+"}, {"CEND", 0x0020, "the constant-speed part ended"},
-    {"CSTA", 0x0040, "the constant-speed part began"}, {"DEND", 0x0080, "a drive ended"},
-    {"HMEND", 0x0100, "the home search ended (MCX314As)"}, {"SYNC", 0x0200, "a synchronous action ran (MCX314As)"},
+    {"PULSE", 0x0001, "a drive pulse came"},
+    {"PGECM", 0x0002, "the counter became >= COMP-"},
+    {"PLCM", 0x0004, "the counter became < COMP-"},
+    {"PLCP", 0x0008, "the counter became < COMP+"},
+    {"PGECP", 0x0010, "the counter became >= COMP+"},
+    {"CEND", 0x0020, "the constant-speed part ended"},
+    {"CSTA", 0x0040, "the constant-speed part began"},
+    {"DEND", 0x0080, "a drive ended"},
+    {"HMEND", 0x0100, "the home search ended (MCX314As)"},
+    {"SYNC", 0x0200, "a synchronous action ran (MCX314As)"},
 };
 inline constexpr FieldInfo rr4_fields[] = {
-    {"XIN", 0x000F, "levels of XIN0..3"},   {"XEXPP", 0x0010, "level of XEXPP"},  {"XEXPM", 0x0020, "level of XEXPM"},
-    {"XINP", 0x0040, "level of XINPOS"},    {"XALM", 0x0080, "level of XALARM"},  {"YIN", 0x0F00, "levels of YIN0..3"},
-    {"YEXPP", 0x1000, "level of YEXPP"},    {"YEXPM", 0x2000, "level of YEXPM"},  {"YINP", 0x4000, "level of YINPOS"},
+    {"XIN", 0x000F, "levels of XIN0..3"}, {"XEXPP", 0x0010, "level of XEXPP"}, {"XEXPM", 0x0020, "level of XEXPM"},
+    {"XINP", 0x0040, "level of XINPOS"},  {"XALM", 0x0080, "level of XALARM"}, {"YIN", 0x0F00, "levels of YIN0..3"},
+    {"YEXPP", 0x1000, "level of YEXPP"},  {"YEXPM", 0x2000, "level of YEXPM"}, {"YINP", 0x4000, "level of YINPOS"},
     {"YALM", 0x8000, "level of YALARM"},
 };
 inline constexpr FieldInfo rr5_fields[] = {
-    {"ZIN", 0x000F, "levels of ZIN0..3"},   {"ZEXPP", 0x0010, "level of ZEXPP"},  {"ZEXPM", 0x0020, "level of ZEXPM"},
-    {"ZINP", 0x0040, "level of ZINPOS"},    {"ZALM", 0x0080, "level of ZALARM"},  {"UIN", 0x0F00, "levels of UIN0..3"},
-    {"UEXPP", 0x1000, "level of UEXPP"},    {"UEXPM", 0x2000, "level of UEXPM"},  {"UINP", 0x4000, "level of UINPOS"},
+    {"ZIN", 0x000F, "levels of ZIN0..3"}, {"ZEXPP", 0x0010, "level of ZEXPP"}, {"ZEXPM", 0x0020, "level of ZEXPM"},
+    {"ZINP", 0x0040, "level of ZINPOS"},  {"ZALM", 0x0080, "level of ZALARM"}, {"UIN", 0x0F00, "levels of UIN0..3"},
+    {"UEXPP", 0x1000, "level of UEXPP"},  {"UEXPM", 0x2000, "level of UEXPM"}, {"UINP", 0x4000, "level of UINPOS"},
     {"UALM", 0x8000, "level of UALARM"},
 };
 
@@ -129,16 +152,17 @@ inline constexpr RegisterInfo registers[] = {
     {"WR3", 0x06, 16, write, true, "", "mode 3: deceleration, curve, external drive, outputs", wr3_fields},
     {"WR4", 0x08, 16, write, false, "", "general outputs", wr4_fields},
     {"WR5", 0x0A, 16, write, false, "", "interpolation mode", wr5_fields},
-    {"WR6", 0x0C, 16, write, false, "", "data to write, low word", {}},
-    {"WR7", 0x0E, 16, write, false, "", "data to write, high word", {}},
-    {"RR0", 0x00, 16, read, false, "", "main status", rr0_fields},
+    {"WR6", 0x0C, 16, write, false, "", "low word of the data that the next data command takes", {}},
+    {"WR7", 0x0E, 16, write, false, "", "high word of the data that the next data command takes", {}},
+    {"RR0", 0x00, 16, read, false, "", "main status: who drives, who has an error, whether the next segment may come",
+     rr0_fields},
     {"RR1", 0x02, 16, read, true, "", "status 1: drive and why it ended", rr1_fields},
     {"RR2", 0x04, 16, read, true, "", "status 2: errors, live", rr2_fields},
     {"RR3", 0x06, 16, Access::read_clears, true, "", "status 3: interrupts", rr3_fields},
     {"RR4", 0x08, 16, read, false, "", "input levels of X and Y", rr4_fields},
     {"RR5", 0x0A, 16, read, false, "", "input levels of Z and U", rr5_fields},
-    {"RR6", 0x0C, 16, read, false, "", "data read, low word", {}},
-    {"RR7", 0x0E, 16, read, false, "", "data read, high word", {}},
+    {"RR6", 0x0C, 16, read, false, "", "low word of what a read command (10h .. 14h) fetched", {}},
+    {"RR7", 0x0E, 16, read, false, "", "high word of what a read command (10h .. 14h) fetched", {}},
     {"BP1P", 0x04, 16, write, false, patterns, "pattern of AX1, + direction, while enabled by 36h", {}},
     {"BP1M", 0x06, 16, write, false, patterns, "pattern of AX1, - direction", {}},
     {"BP2P", 0x08, 16, write, false, patterns, "pattern of AX2, + direction", {}},
@@ -146,6 +170,6 @@ inline constexpr RegisterInfo registers[] = {
     {"BP3P", 0x0C, 16, write, false, patterns, "pattern of AX3, + direction", {}},
     {"BP3M", 0x0E, 16, write, false, patterns, "pattern of AX3, - direction", {}},
 };
-static_assert(registers_are_sound(registers), "two registers or fields of the MCX314's map collide");
+static_assert(declared<registers_flaw(registers)>());
 
 }  // namespace motionrack::mcx314::map
