@@ -1,0 +1,107 @@
+// The work of the chip's benchmarks: a chip with four axis machines, and drives written to it or to its tick-by-tick twin alike.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <motionrack/cards/mcx314/test/chip_bench.hpp>
+#include <motionrack/cards/mcx314/test/twin_host.hpp>
+#include <motionrack/sim/blocks/quadrature_counter.hpp>
+#include <motionrack/sim/parts/axis_machine.hpp>
+#include <string>
+
+namespace motionrack::bench {
+
+inline constexpr unsigned all_axes = 15;
+
+/// Parameters of a drive; the registers' own units.
+struct Speeds {
+    std::int64_t range = 16'000, start = 8'000, speed = 8'000, accel = 400, jerk = 100;
+};
+
+/// Writes them to the axes of `mask`; the axes' A and D differ a little, so that their speeds step at different ticks.
+template <class Host>
+void set_speeds(Host& host, const Speeds& speeds, unsigned mask = all_axes) {
+    for (unsigned i = 0; i < 4; ++i) {
+        const unsigned axis = 1u << i;
+        if (!(mask & axis)) continue;
+        host.data(axis, 0x00, speeds.range);
+        host.data(axis, 0x01, speeds.jerk);
+        host.data(axis, 0x02, speeds.accel + 7 * i);
+        host.data(axis, 0x03, speeds.accel + 7 * i);
+        host.data(axis, 0x04, speeds.start);
+        host.data(axis, 0x05, speeds.speed);
+        host.data(axis, 0x0D, 0);
+    }
+}
+
+/// Fixed drives of `pulses` by the axes of `mask`; `plus`: in which direction.
+template <class Host>
+void drive_fixed(Host& host, std::int64_t pulses, bool plus, unsigned mask = all_axes) {
+    host.data(mask, 0x06, pulses);
+    host.command(mask, plus ? 0x20 : 0x21);
+}
+
+/// Motors that follow any pulses, with an encoder count for each.
+inline parts::AxisMachineSettings machine_settings() {
+    parts::AxisMachineSettings settings;
+    settings.motor.start_stop_hz = settings.motor.pull_out_hz = 1e8;
+    settings.encoder.counts_per_rev = settings.motor.pulses_per_rev();
+    return settings;
+}
+
+/// A chip with an axis machine on each axis, if `machines`.
+class Stage {
+  public:
+    explicit Stage(bool machines) {
+        for (int a = 0; machines && a < 4; ++a) {
+            machines_[a] = std::make_unique<parts::AxisMachine>(host.kernel, std::string(1, "xyzu"[a]), machine_settings());
+            machines_[a]->connect(host.chip.pulses(a));
+        }
+        host.start();
+    }
+    void listen(int axis, sim::EdgeListener& listener) { machines_[axis]->encoder().listen_edges(&listener); }
+
+    /// Runs until nothing drives, looking every 10 ms.
+    void finish() {
+        while ((host.read(0) & all_axes) != 0) host.advance(milliseconds(10));
+    }
+    double seconds() const { return to_seconds(host.kernel.now() - Instant{0}); }
+    std::int64_t pulses() {
+        std::int64_t sum = 0;
+        for (int a = 0; a < 4; ++a) sum += host.chip.pulses_made(a);
+        return sum;
+    }
+
+    mcx314::outside::Bench host;
+
+  private:
+    std::array<std::unique_ptr<parts::AxisMachine>, 4> machines_;
+};
+
+/// The plain way to decode edges: each by itself, through the table of 16 transitions.
+class OneByOne final : public sim::EdgeListener {
+  public:
+    void edges(const sim::EdgeBatch& batch) override {
+        constexpr std::int8_t bad = 2;
+        static constexpr std::int8_t table[16] = {0, 1, -1, bad, -1, 0, bad, 1, 1, bad, 0, -1, bad, -1, 1, 0};
+        for (std::uint32_t i = 0; i < batch.size; ++i) {
+            const unsigned lines = sim::lines_of(batch.first_count + batch.step * static_cast<std::int64_t>(i));
+            const std::int8_t change = table[lines_ * 4 + lines];
+            lines_ = lines;
+            if (change == bad)
+                ++illegal_;
+            else
+                count_ += change;
+        }
+    }
+    std::int64_t count() const { return count_; }
+    std::uint64_t illegal() const { return illegal_; }
+
+  private:
+    std::int64_t count_ = 0;
+    std::uint64_t illegal_ = 0;
+    unsigned lines_ = 0;
+};
+
+}  // namespace motionrack::bench
