@@ -9,8 +9,8 @@ namespace motionrack::control {
 namespace {
 
 // squares: 0.749956 + 0.25 < 1
-constexpr double share_towards_centre = 0.866;
-constexpr double share_along_arc = 0.5;
+constexpr double share_towards_centre = 0.8;
+constexpr double share_along_arc = 0.4;
 
 /// Stands for 1 / 0 without making 0 * infinity.
 constexpr double no_limit_left = 1e200;

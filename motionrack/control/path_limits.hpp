@@ -30,7 +30,7 @@ class PathLimits {
     /// Lines and rotary moves: component * speed and component * acceleration stay within each axis' limits.
     ///
     /// Arcs: let a be the lesser acceleration of the plane's two axes. The acceleration towards the centre stays within
-    /// 0.866 a and the one along the arc within 0.5 a; they are at right angles, so their sum is within a in every
+    /// 0.8 a and the one along the arc within 0.4 a; they are at right angles, so their sum is within 0.9 a in every
     /// direction. The axis along a helix and the rotary axes feel only the acceleration along the path.
     AlongPath along(const Geometry& path, const Move& move) const;
 

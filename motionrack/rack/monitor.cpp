@@ -17,7 +17,9 @@ void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
         if (std::fabs(away) > full_step) settle();
     }
     if (!pending) good = before;
-    if (std::fabs(rate - before) > jump_hz) ++jumps;
+    const bool ramp = std::fabs(rate - before) <= jump_hz;
+    if (pending && ramp) good += rate - before;  // a ramp goes on after the jump
+    if (!ramp) ++jumps;
     present = rate;
     since = now;
     const double step = std::fabs(rate - good);

@@ -248,7 +248,10 @@ Result<void> Axes::steer_companion(const Segment& segment, const Segment* next) 
     const std::int64_t left = companion_target_ - at;
     if (left == 0) return {};
     const double hertz = std::fabs(static_cast<double>(left)) / segment_seconds(segment);
-    const auto v = static_cast<std::int32_t>(std::clamp(std::floor(hertz * range_ / 8e6 + 0.5), 1.0, 8'000.0));
+    double top = 8'000;
+    for (std::size_t i = 0; i < map_.channel.size(); ++i)
+        if (map_.channel[i] == c) top = std::min(top, map_.limits[i].max_speed * map_.limits[i].pulses_per_unit * range_ / 8e6);
+    const auto v = static_cast<std::int32_t>(std::clamp(std::floor(hertz * range_ / 8e6 + 0.5), 1.0, std::floor(top)));
     // The next segment's pulses are promised too, so that it does not stop at the joint.
     std::int64_t beyond = 0;
     if (next && !next->starts_chain && next->companion_channel == c && (next->companion_pulses < 0) == (left < 0))
@@ -281,7 +284,7 @@ Result<void> Axes::start_companion(int channel, std::int64_t pulses, std::int32_
         if (map_.channel[i] != channel) continue;
         const control::AxisLimits& limits = map_.limits[i];
         acceleration = limits.max_accel * limits.pulses_per_unit * range_ / 8e6 / 125;
-        start = limits.start_speed * limits.pulses_per_unit * range_ / 8e6;
+        start = 0.5 * limits.start_speed * limits.pulses_per_unit * range_ / 8e6;
     }
     MOTIONRACK_CHECK(driver_.SetRange(axis, range_));
     companion_start_speed_ = static_cast<std::int32_t>(std::clamp(std::floor(start), 1.0, 8'000.0));

@@ -16,6 +16,8 @@ namespace {
 constexpr double acceleration_reserve = 1.015;
 // Register accesses between the interrupt at a joint and the new speed being written.
 constexpr double accesses_to_speed = 8;
+// Part of the path's acceleration that moves with a fourth axis use.
+constexpr double companion_share = 0.3;
 constexpr std::int32_t top_speed_units = 8'000;
 constexpr std::int64_t longest_line = 8'000'000;
 
@@ -81,11 +83,12 @@ std::int32_t Segmenter::acceleration_units(double units, double acceleration) co
     return static_cast<std::int32_t>(std::clamp(std::floor(units * acceleration * acceleration_reserve / 125), 1.0, 8'000.0));
 }
 
+/// The speed to start and stop with: half of what each axis may jump, because a stop and a start the other way may follow at once.
 double Segmenter::start_speed(const control::Point& tangent) const {
     double speed = 1e9;
     for (std::size_t i = 0; i < tangent.size(); ++i)
         if (map_.channel[i] >= 0 && std::fabs(tangent[i]) > 1e-12)
-            speed = std::min(speed, map_.limits[i].start_speed / std::fabs(tangent[i]));
+            speed = std::min(speed, 0.5 * map_.limits[i].start_speed / std::fabs(tangent[i]));
     return speed;
 }
 
@@ -206,14 +209,15 @@ void Segmenter::emit_chords(const Work& work, const Speeds& speeds, bool rests) 
         const double half = std::fabs(work.path.sweep) / count / 2;
         deviation = work.path.radius * (1 - sin_cos(half).cos);
     } else {
-        count = std::clamp(std::ceil(work.path.length / (work.move.cruise * 0.02)), 4.0, 10'000.0);
+        count = std::clamp(std::ceil(work.path.length / (work.move.cruise * 0.008)), 8.0, 20'000.0);
     }
     if (work.companion >= 0)
         note_split(work, "four axes move together: the chip interpolates three, the fourth follows on its own speed generator", deviation);
     else
         note_split(work, "the chip has no helix: the arc is drawn with short lines of three axes", deviation);
     const double step = work.path.length / count;
-    const double top_speed = work.move.cruise, accel = work.move.accel;
+    // A companion is told its speed once a piece, so the speeds of the pieces rise and fall more slowly than it can follow.
+    const double top_speed = work.move.cruise, accel = work.companion >= 0 ? companion_share * work.move.accel : work.move.accel;
     const double exit_speed = rests ? 0 : work.move.exit;
     double units_before = work.units_in;
     for (double i = 0; i < count; ++i) {
@@ -222,10 +226,11 @@ void Segmenter::emit_chords(const Work& work, const Speeds& speeds, bool rests) 
         const double next = i + 1 < count && arc ? units_along(work, control::tangent_at(work.path, to + step / 2)) : units;
         const double left = work.path.length - to;
         const double slowed = std::sqrt(squared(exit_speed) + 2 * accel * std::max(0.0, left - fall_length(units, {0, 2, 1, speeds.acceleration})));
-        std::int32_t v = speed_units(std::min(units, next), std::min(top_speed, slowed));
+        const double raised = work.companion >= 0 ? std::sqrt(squared(work.move.entry) + 2 * accel * to) : top_speed;
+        std::int32_t v = speed_units(std::min(units, next), std::min({top_speed, slowed, raised}));
         if (i + 1 >= count) v = std::min(v, speeds.exit);
         v = std::max(v, std::min(speeds.exit, speeds.top));
-        emit_line(work, pulses_at(work, to), v, acceleration_units(std::max(units, units_before), accel));
+        emit_line(work, pulses_at(work, to), v, acceleration_units(std::max(units, units_before), work.move.accel));
         units_before = units;
     }
     if (at_ != work.to) {  // what is left of a companion after the last pulse of the others
