@@ -1,4 +1,4 @@
-// The crossings, rates and faults of one axis.
+// The crossings, rates and faults of one axis; axis_machine_faces.cpp has what others hear of it.
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/axis_machine.hpp>
 #include <motionrack/sim/parts/edge_maker.hpp>
@@ -57,43 +57,8 @@ void AxisMachine::connect(sim::Motion& pulses) {
     aim(kernel_.now());
 }
 
-sim::Motion& AxisMachine::rotor() {
-    return faces_[rotor_face];
-}
-sim::Motion& AxisMachine::encoder() {
-    return faces_[encoder_face];
-}
 std::span<const std::string_view> AxisMachine::fault_names() {
     return all_faults;
-}
-
-std::int64_t AxisMachine::face_count_at(Face face, Instant t) const {
-    if (face == rotor_face) return rotor_at(t);
-    return encoder_.present() ? encoder_.count(rotor_at(t)) : 0;
-}
-
-double AxisMachine::face_rate(Face face, Instant t) const {
-    const double rotor = pulses_ ? motor_.rotor_rate(pulses_->rate(t)) : 0;
-    if (face == rotor_face) return rotor;
-    return encoder_.present() ? encoder_.rate(rotor) : 0;
-}
-
-int AxisMachine::listen(Face face, sim::MotionListener& listener) {
-    MOTIONRACK_ASSERT(listener_count_[face] < slots);
-    listeners_[face][static_cast<std::size_t>(listener_count_[face])] = &listener;
-    return listener_count_[face]++;
-}
-
-void AxisMachine::watch(Face face, int slot, Range counts) {
-    MOTIONRACK_ASSERT(slot >= 0 && slot < listener_count_[face]);
-    Watch& w = state_.watches[face][static_cast<std::size_t>(slot)];
-    const Instant now = kernel_.now();
-    w.counts = counts;
-    if (face == rotor_face)
-        w.rotor = counts;
-    else
-        w.rotor = encoder_.present() ? encoder_.rotor_range(counts, rotor_at(now)) : Range{};
-    aim(now);
 }
 
 // ---- What the pulses tell -------------------------------------------------------------------------------------------
@@ -311,20 +276,6 @@ void AxisMachine::act(Instant now) {
     put_off();
 }
 
-// ---- The index wire -------------------------------------------------------------------------------------------------
-
-int AxisMachine::level_at(int, Instant now) const {
-    return encoder_.index(rotor_at(now));
-}
-
-void AxisMachine::wanted_changed(int, bool wanted, Instant now) {
-    const std::int64_t rotor = rotor_at(now);
-    state_.index_wanted = wanted;
-    state_.index_level = encoder_.index(rotor);
-    state_.index = wanted ? encoder_.index_range(rotor) : Range{};
-    aim(now);
-}
-
 // ---- Faults ---------------------------------------------------------------------------------------------------------
 
 bool AxisMachine::fault(std::string_view name, double value, Instant now) {
@@ -387,38 +338,6 @@ bool AxisMachine::switch_fault(int i, std::string_view name, double value) {
     switches_[at].set_fault(value != 0 ? fault : SwitchFault::none);
     kernel_.set_wire(switch_wire_[at], switches_[at].level());
     return true;
-}
-
-// ---- Edges ----------------------------------------------------------------------------------------------------------
-
-void AxisMachine::listen_edges(Face face, sim::EdgeListener* listener) {
-    MOTIONRACK_ASSERT(pulses_ != nullptr);
-    const bool before = edge_listeners_[rotor_face] || edge_listeners_[encoder_face];
-    edge_listeners_[face] = face == encoder_face && !encoder_.present() ? nullptr : listener;
-    const bool after = edge_listeners_[rotor_face] || edge_listeners_[encoder_face];
-    if (after && !before) state_.edges_until = rotor_at(kernel_.now());
-    pulses_->listen_edges(after || pulse_edges_ ? this : nullptr);
-}
-
-void AxisMachine::listen_pulse_edges(sim::EdgeListener* listener) {
-    MOTIONRACK_ASSERT(pulses_ != nullptr);
-    pulse_edges_ = listener;
-    pulses_->listen_edges(pulse_edges_ || edge_listeners_[rotor_face] || edge_listeners_[encoder_face] ? this
-                                                                                                       : nullptr);
-}
-
-void AxisMachine::edges(const sim::EdgeBatch& batch) {
-    if (pulse_edges_) pulse_edges_->edges(batch);
-    if (!edge_listeners_[rotor_face] && !edge_listeners_[encoder_face]) return;
-    std::int64_t size = batch.size;
-    // A rotor that has just met its end of travel still owes the edges up to there; one that stands owes none.
-    if (!motor_.in_step())
-        size = std::clamp<std::int64_t>((state_.motor.stand - state_.edges_until) * batch.step, 0, size);
-    if (size == 0) return;
-    const std::int64_t first =
-        motor_.in_step() ? batch.first_count - state_.motor.lost : state_.edges_until + batch.step;
-    state_.edges_until = first + batch.step * (size - 1);
-    maker_->pass(encoder_, edge_listeners_, batch, first, static_cast<std::uint32_t>(size));
 }
 
 }  // namespace motionrack::parts
