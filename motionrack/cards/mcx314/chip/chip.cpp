@@ -70,8 +70,14 @@ int Chip::Output::listen(sim::MotionListener& listener) {
 // ---- time ---------------------------------------------------------------------------------------------------------------------
 
 void Chip::advance_to(std::int64_t to) {
+    work_to(to);
+    for_each_axis(state_.working, [&](int a) { bring_up(a, state_.tick); });
+}
+
+/// What happens up to tick `to`; generators to which nothing happens at the last of these ticks may stay behind.
+void Chip::work_to(std::int64_t to) {
     while (state_.tick < to) {
-        if (state_.next_event > to) return skip(to - state_.tick);
+        if (state_.next_event > to) return skip_to(to);
         work_off(state_.next_event);
         reschedule();
     }
@@ -82,7 +88,10 @@ void Chip::reschedule() {
     std::int64_t next = far;
     for_each_axis(state_.working, [&](int a) {
         const Generator& gen = state_.axis[a].gen;
-        if (gen.next_tick <= state_.tick || gen.look || !gen.special_known) find_next_tick(a);
+        if (gen.next_tick <= state_.tick || gen.look || !gen.special_known) {
+            bring_up(a, state_.tick);
+            find_next_tick(a);
+        }
         next = std::min(next, gen.next_tick);
     });
     for_each_axis(state_.following, [&](int a) {
@@ -106,7 +115,7 @@ void Chip::settle(Instant now) {
 
 void Chip::act(Instant now) {
     if (!state_.begun) begin();
-    advance_to(tick_of(now));
+    work_to(tick_of(now));
     settle(now);
 }
 
@@ -218,11 +227,9 @@ void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {
 
 std::int64_t Chip::count_at(int a, Instant t) const {
     const Axis& axis = state_.axis[a];
-    std::int64_t ticks = tick_of(t) - state_.tick;
-    if (ticks <= 0) return axis.count;
     const bool on_path = (state_.chain >> a & 1u) != 0;
     const Generator& gen = state_.axis[on_path ? state_.master : a].gen;
-    ticks -= gen.wait;
+    const std::int64_t ticks = tick_of(t) - gen.at - gen.wait;
     if (gen.drive == Drive::idle || ticks <= 0) return axis.count;
     const std::int64_t pulses = pulses_in(gen, ticks);
     if (!on_path) return axis.count + pulses * axis.direction;
@@ -248,7 +255,7 @@ double Chip::rate_of(int a, Instant t) const {
         const double sign = path_direction(i);
         if (path.command.arc()) {
             const int s = rules::octants[path.arc.octant].short_axis;
-            const std::int64_t ticks = tick_of(t) - state_.tick - gen.wait;
+            const std::int64_t ticks = tick_of(t) - gen.at - gen.wait;
             const auto at = path.arc.after(ticks > 0 ? pulses_in(gen, ticks) : 0);
             const double slope = std::min(1.0, std::fabs(static_cast<double>(at[s])) / std::max(1.0, std::fabs(static_cast<double>(at[1 - s]))));
             const double basic = phase / (r1 + extra * slope);

@@ -98,6 +98,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     // chip.cpp: time, wires, listeners
     std::int64_t tick_of(Instant t) const { return t.count() / rules::tick_100ps; }
     void advance_to(std::int64_t tick);
+    void work_to(std::int64_t tick);
     void reschedule();
     void settle(Instant now);
     void begin();
@@ -172,7 +173,8 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     std::int64_t extra_steps(std::int64_t pulses) const;
     std::int64_t pulses_in(const Generator& gen, std::int64_t ticks) const;
     std::array<std::int64_t, 3> path_steps(std::int64_t pulses) const;
-    void skip(std::int64_t ticks);
+    void skip_to(std::int64_t tick);
+    void bring_up(int a, std::int64_t tick);
     void skip_phase(int a, std::int64_t ticks);
     void skip_speed(Axis& axis, std::int64_t ticks) const;
     void skip_pulses(int a, std::int64_t pulses, std::int64_t tick);

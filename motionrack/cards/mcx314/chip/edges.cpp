@@ -97,7 +97,7 @@ Chip::EvenPulses Chip::even_pulses(const Generator& gen, std::int64_t waited) co
     run.quotient = gen.range_now / gen.speed;
     run.remainder = gen.range_now % gen.speed;
     const std::int64_t ticks = rules::ceil_div(need, gen.speed);
-    run.at = state_.tick + waited + ticks;
+    run.at = gen.at + waited + ticks;
     run.slack = ticks * gen.speed - need;
     return run;
 }

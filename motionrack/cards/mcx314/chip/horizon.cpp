@@ -229,14 +229,21 @@ std::array<std::int64_t, 3> Chip::path_steps(std::int64_t pulses) const {
 
 // ---- many plain ticks at once ---------------------------------------------------------------------------------------------------
 
-void Chip::skip(std::int64_t ticks) {
-    if (ticks <= 0) return;
-    for_each_axis(state_.working, [&](int a) {
-        skip_speed(state_.axis[a], ticks);
-        skip_phase(a, ticks);
-    });
+/// Nothing happens up to tick `to`.
+void Chip::skip_to(std::int64_t to) {
+    for_each_axis(state_.working, [&](int a) { bring_up(a, to); });
     if (state_.in_place != 0) look_at_in_position();
-    state_.tick += ticks;
+    state_.tick = to;
+}
+
+/// Generator `a`, to which nothing happens up to tick `to`, works up to there.
+void Chip::bring_up(int a, std::int64_t to) {
+    Axis& axis = state_.axis[a];
+    const std::int64_t ticks = to - axis.gen.at;
+    if (ticks <= 0) return;
+    skip_speed(axis, ticks);
+    skip_phase(a, ticks);
+    axis.gen.at = to;
 }
 
 /// `ticks` of the third step, in which the speed does not change; before skip_phase, which lets the start ticks pass.
@@ -265,7 +272,7 @@ void Chip::skip_phase(int a, std::int64_t ticks) {
     gen.acc += ticks * gen.speed;
     if (pulses == 0) return;
     gen.acc -= phase_for(gen, pulses);
-    skip_pulses(a, pulses, state_.tick + waited + ticks);
+    skip_pulses(a, pulses, gen.at + waited + ticks);
 }
 
 /// The next `pulses` basic pulses, acc being what it is at tick `at`, after them.

@@ -192,6 +192,7 @@ void Chip::begin_generator(int a, Drive drive) {
     const std::int64_t v = rules::used_speed(axis.speed), sv = rules::used_speed(axis.start_speed);
     gen.constant = v <= sv;
     gen.speed = std::min(v, sv);
+    gen.at = state_.tick;
     axis.gen = gen;
     state_.working |= 1u << a;
 }

@@ -65,6 +65,7 @@ struct Generator {
     std::int64_t n = 0, accel_pulses = 0;
     std::int64_t next_special = 0;           ///< the next n at which more happens than a plain pulse
     std::int64_t next_tick = 0;              ///< the next tick that is not plain closed form
+    std::int64_t at = 0;                     ///< the tick up to which it has worked; behind State::tick while nothing happens
 };
 
 /// A range of counts that a listener watches.

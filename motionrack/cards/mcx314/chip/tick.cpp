@@ -8,32 +8,28 @@ constexpr unsigned flag_pulse = 1u << 0;
 constexpr unsigned flag_drive_end = 1u << 7;
 }  // namespace
 
-/// Everything up to and including tick `to`, the next interesting one: generators that only change their speed there, or nothing,
-/// do so in closed form, the others work that tick by the rules.
+/// Everything up to and including tick `to`, the next interesting one: generators that only change their speed there do so in closed
+/// form, those with more to do work that tick by the rules. Those to which nothing happens, and on which no path hangs, stay behind.
 void Chip::work_off(std::int64_t to) {
-    const std::int64_t from = state_.tick;
+    state_.tick = to;
     for_each_axis(state_.working, [&](int a) {
         Axis& axis = state_.axis[a];
-        state_.tick = from;
+        const bool path = axis.gen.drive == Drive::path;
         if (axis.gen.next_tick > to) {
-            skip_speed(axis, to - from);
-            skip_phase(a, to - from);
+            if (path) bring_up(a, to);
         } else if (axis.gen.plain) {
-            skip_speed(axis, to - from - 1);
-            skip_phase(a, to - from);
-            if (axis.gen.drive == Drive::path) note_rates();
-            state_.tick = to;
+            skip_speed(axis, to - axis.gen.at - 1);
+            skip_phase(a, to - axis.gen.at);
+            axis.gen.at = to;
+            if (path) note_rates();
             speed_step(a);
         } else {
-            skip_speed(axis, to - from - 1);
-            skip_phase(a, to - from - 1);
-            state_.tick = to - 1;
-            if (axis.gen.drive == Drive::path) note_rates();
-            state_.tick = to;
+            bring_up(a, to - 1);
+            if (path) note_rates();
+            axis.gen.at = to;
             work(a);
         }
     });
-    state_.tick = to;
     if (state_.in_place != 0) look_at_in_position();
 }
 

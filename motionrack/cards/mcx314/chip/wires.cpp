@@ -40,7 +40,7 @@ PulseMark Chip::mark_at(int a, std::int64_t to) const {
     const Axis& axis = state_.axis[a];
     const bool on_path = (state_.chain >> a & 1u) != 0;
     const Generator& gen = state_.axis[on_path ? state_.master : a].gen;
-    const std::int64_t ticks = to - state_.tick - gen.wait;
+    const std::int64_t ticks = to - gen.at - gen.wait;
     if (gen.drive == Drive::idle || ticks <= 0) return axis.mark;
     const std::int64_t pulses = pulses_in(gen, ticks);
     if (pulses == 0) return axis.mark;
