@@ -19,14 +19,14 @@ struct Speeds {
     std::int64_t range = 16'000, start = 8'000, speed = 8'000, accel = 400, jerk = 100;
 };
 
-/// Writes them to the axes of `mask`; the axes' A and D differ a little, so that their speeds step at different ticks.
+/// Writes them to the axes of `mask`; the axes' A, D and K differ a little, so that their speeds step at different ticks.
 template <class Host>
 void set_speeds(Host& host, const Speeds& speeds, unsigned mask = all_axes) {
     for (unsigned i = 0; i < 4; ++i) {
         const unsigned axis = 1u << i;
         if (!(mask & axis)) continue;
         host.data(axis, 0x00, speeds.range);
-        host.data(axis, 0x01, speeds.jerk);
+        host.data(axis, 0x01, speeds.jerk + 3 * i);
         host.data(axis, 0x02, speeds.accel + 7 * i);
         host.data(axis, 0x03, speeds.accel + 7 * i);
         host.data(axis, 0x04, speeds.start);
