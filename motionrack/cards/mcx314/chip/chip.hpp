@@ -188,6 +188,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void make_led_edges(int i, EvenPulses run, std::int64_t pulses);
     void make_arc_edges(EvenPulses run, std::int64_t pulses);
     void make_varied_edges(std::int64_t waited, std::int64_t pulses);
+    void make_varied_arc_edges(std::int64_t waited, std::int64_t pulses);
     void add_edge(int a, std::int64_t tick, int direction, std::int64_t count);
     void begin_batch(int a, std::int64_t tick, int direction, std::int64_t count);
     void flush_edges(int axis);

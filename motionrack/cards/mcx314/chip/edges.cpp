@@ -62,6 +62,40 @@ void fill_evenly(std::uint32_t* out, std::int64_t count, Place<std::int32_t, std
         next.step(interval);
     }
 }
+
+/// The long axis along an arc within an octant: which basic pulses step it, without a root for each. The long coordinate's magnitude m is
+/// nearest to the circle while m * m - m < q = r2 - short^2 <= m * m + m.
+class LongAxis {
+  public:
+    explicit LongAxis(const rules::Arc& arc) {
+        const int s = rules::octants[arc.octant].short_axis;
+        const std::int64_t short_step = rules::octants[arc.octant].short_step;
+        const std::int64_t at = arc.at[s];
+        m_ = rules::magnitude(arc.at[1 - s]);
+        way_ = at * short_step >= 0 ? -1 : 1;
+        q_ = arc.r2 - at * at;
+        fall_ = 2 * at * short_step + 1;
+        threshold_ = way_ > 0 ? m_ * m_ + m_ : m_ * m_ - m_;
+    }
+    /// How m changes where it does: -1 or +1.
+    int way() const { return way_; }
+    /// Goes one basic pulse on; whether it changes m.
+    bool step() {
+        q_ -= fall_;
+        fall_ += 2;
+        if ((q_ > threshold_) != (way_ > 0)) return false;
+        threshold_ += way_ > 0 ? 2 * (m_ + 1) : -2 * (m_ - 1);
+        m_ += way_;
+        return true;
+    }
+
+  private:
+    std::int64_t m_ = 0;
+    std::int64_t q_ = 0;
+    std::int64_t fall_ = 0;       // of q with the next basic pulse
+    std::int64_t threshold_ = 0;  // m changes once q is above it, or not above it
+    int way_ = 0;
+};
 }  // namespace
 
 bool Chip::edges_wanted(int a) const {
@@ -209,20 +243,13 @@ void Chip::make_arc_edges(EvenPulses run, std::int64_t pulses) {
     const int short_axis = path.command.axis[s], long_axis = path.command.axis[l];
     if (outputs_[short_axis].edge_listener) make_even_edges(short_axis, run, pulses, octant.short_step * direction(s));
     if (!outputs_[long_axis].edge_listener) return;
-    // The long coordinate's magnitude m is nearest to the circle while m * m - m < q = r2 - short^2 <= m * m + m.
-    std::int64_t short_value = path.arc.at[s], m = rules::magnitude(path.arc.at[l]), count = state_.axis[long_axis].count;
-    std::int64_t q = path.arc.r2 - short_value * short_value;
-    const int way = short_value * octant.short_step >= 0 ? -1 : 1;  // m falls, or rises
-    const int step = way * octant.long_side * direction(l);
-    std::int64_t threshold = way > 0 ? m * m + m : m * m - m;  // m changes once q is above it, or not above it
+    LongAxis walk(path.arc);
+    std::int64_t count = state_.axis[long_axis].count;
+    const int step = walk.way() * octant.long_side * direction(l);
     for (std::int64_t j = 0; j < pulses; ++j) {
-        q -= 2 * short_value * octant.short_step + 1;
-        short_value += octant.short_step;
-        if ((q > threshold) == (way > 0)) {
+        if (walk.step()) {
             count += step;
             add_edge(long_axis, run.at, step, count);
-            threshold += way > 0 ? 2 * (m + 1) : -2 * (m - 1);
-            m += way;
         }
         run.slack -= run.remainder;
         const std::int64_t late = run.slack < 0 ? 1 : 0;
@@ -235,41 +262,64 @@ void Chip::make_arc_edges(EvenPulses run, std::int64_t pulses) {
 void Chip::make_varied_edges(std::int64_t waited, std::int64_t pulses) {
     const Generator& gen = state_.axis[state_.master].gen;
     const Path& path = state_.path;
+    if (path.command.arc()) return make_varied_arc_edges(waited, pulses);
     const int axes = path.command.count;
     std::array<std::int64_t, 3> count{}, error{}, twice{}, quotient{}, remainder{};
-    rules::Arc arc = path.arc;
     for (int i = 0; i < axes; ++i) {
         count[i] = state_.axis[path.command.axis[i]].count;
         quotient[i] = path.range_for[i] / gen.speed;
         remainder[i] = path.range_for[i] % gen.speed;
-        if (path.command.arc()) continue;
         twice[i] = 2 * rules::magnitude(path.command.finish[i]);
         error[i] = (gen.n * twice[i] + path.longest) % (2 * path.longest);
     }
     EvenPulses run = even_pulses(gen, waited);
     for (std::int64_t j = 0; j < pulses; ++j) {
-        std::array<int, 3> step{};
-        if (path.command.arc()) {
-            const auto both = arc.step();
-            step[0] = both[0];
-            step[1] = both[1];
-        }
         int stepped = 0;
         for (int i = 0; i < axes; ++i) {
-            if (!path.command.arc()) {
-                error[i] += twice[i];
-                if (error[i] < 2 * path.longest) continue;
-                error[i] -= 2 * path.longest;
-                step[i] = path.command.finish[i] < 0 ? -1 : 1;
-            }
-            if (step[i] == 0) continue;
+            error[i] += twice[i];
+            if (error[i] < 2 * path.longest) continue;
+            error[i] -= 2 * path.longest;
+            const int step = path.command.finish[i] < 0 ? -1 : 1;
             ++stepped;
-            count[i] += step[i];
-            if (outputs_[path.command.axis[i]].edge_listener) add_edge(path.command.axis[i], run.at, step[i], count[i]);
+            count[i] += step;
+            if (outputs_[path.command.axis[i]].edge_listener) add_edge(path.command.axis[i], run.at, step, count[i]);
         }
         run.slack -= remainder[stepped - 1];
         const std::int64_t late = run.slack < 0 ? 1 : 0;
         run.at += quotient[stepped - 1] + late;
+        run.slack += late * run.speed;
+    }
+}
+
+/// The same along an arc, within an octant: the short axis steps with every basic pulse, the long one with some.
+void Chip::make_varied_arc_edges(std::int64_t waited, std::int64_t pulses) {
+    const Generator& gen = state_.axis[state_.master].gen;
+    const Path& path = state_.path;
+    const rules::Octant& octant = rules::octants[path.arc.octant];
+    const int s = octant.short_axis, l = 1 - s;
+    const auto direction = [&](int i) { return i == 1 && path.arc.clockwise ? -1 : 1; };
+    const int short_axis = path.command.axis[s], long_axis = path.command.axis[l];
+    const bool short_wanted = outputs_[short_axis].edge_listener, long_wanted = outputs_[long_axis].edge_listener;
+    LongAxis walk(path.arc);
+    const int short_step = octant.short_step * direction(s), long_step = walk.way() * octant.long_side * direction(l);
+    std::int64_t short_count = state_.axis[short_axis].count, long_count = state_.axis[long_axis].count;
+    std::array<std::int64_t, 2> quotient{}, remainder{};
+    for (int both = 0; both < 2; ++both) {
+        quotient[both] = path.range_for[both] / gen.speed;
+        remainder[both] = path.range_for[both] % gen.speed;
+    }
+    EvenPulses run = even_pulses(gen, waited);
+    for (std::int64_t j = 0; j < pulses; ++j) {
+        short_count += short_step;
+        if (short_wanted) add_edge(short_axis, run.at, short_step, short_count);
+        const bool both = walk.step();
+        if (both) {
+            long_count += long_step;
+            if (long_wanted) add_edge(long_axis, run.at, long_step, long_count);
+        }
+        run.slack -= remainder[both];
+        const std::int64_t late = run.slack < 0 ? 1 : 0;
+        run.at += quotient[both] + late;
         run.slack += late * run.speed;
     }
 }
