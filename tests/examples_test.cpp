@@ -26,7 +26,7 @@ struct Ran {
 
 Ran run(const std::filesystem::path& folder, const std::string& command) {
     Ran ran;
-    std::FILE* pipe = ::popen(("cd '" + folder.string() + "' && " + command + " 2>/dev/null").c_str(), "r");
+    std::FILE* pipe = ::popen(("cd '" + folder.string() + "' && ( " + command + " ) 2>/dev/null").c_str(), "r");
     if (!pipe) return ran;
     std::array<char, 4096> buffer{};
     for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) ran.out.append(buffer.data(), got);

@@ -85,6 +85,13 @@ TEST(Laws, DeterministicRoomsKnowNoWallClockAndNoLuck) {
         }
 }
 
+TEST(Laws, NothingIsLeftForLater) {
+    const std::regex later(std::string("TO") + "DO|FIX" + "ME");
+    for (const char* folder : {"motionrack", "tests", "bench", "examples"})
+        for (const fs::path& path : sources(folder))
+            for (const std::string& line : lines_of(path)) EXPECT_FALSE(std::regex_search(line, later)) << path << ": " << line;
+}
+
 TEST(Laws, JourneysNameWhatExists) {
     std::string all;
     for (const fs::path& path : sources("motionrack"))
@@ -111,7 +118,8 @@ TEST(Laws, EveryPageOfTheDocumentationIsLinked) {
     for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
         if (entry.path().extension() != ".md") continue;
         const std::string relative = fs::relative(entry.path(), root / "docs").generic_string();
-        if (relative != "README.md") EXPECT_NE(index.find("(" + relative + ")"), std::string::npos) << relative << " is not linked from docs/README.md";
+        EXPECT_TRUE(relative == "README.md" || index.find("(" + relative + ")") != std::string::npos)
+            << relative << " is not linked from docs/README.md";
     }
 }
 

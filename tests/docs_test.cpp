@@ -1,0 +1,141 @@
+// The pages say what is so: generated ones are current, links lead somewhere, code shown is code that runs.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <motionrack/rack/config.hpp>
+#include <motionrack/rack/job.hpp>
+#include <motionrack/rack/template.hpp>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace motionrack {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = MOTIONRACK_SOURCE_DIR;
+
+std::string text_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+std::string trimmed(const std::string& line) {
+    const std::size_t begin = line.find_first_not_of(' '), end = line.find_last_not_of(" \r");
+    return begin == std::string::npos ? "" : line.substr(begin, end - begin + 1);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::istringstream in(text);
+    std::vector<std::string> out;
+    for (std::string line; std::getline(in, line);) out.push_back(line);
+    return out;
+}
+
+/// The texts between ```LANGUAGE and ``` of a page.
+std::vector<std::string> code_of(const fs::path& page, const std::string& language) {
+    std::vector<std::string> out;
+    bool inside = false;
+    for (const std::string& line : lines_of(text_of(page))) {
+        if (inside && line == "```") inside = false;
+        else if (inside) out.back() += line + "\n";
+        else if (line == "```" + language) inside = true, out.emplace_back();
+    }
+    return out;
+}
+
+std::vector<fs::path> pages() {
+    std::vector<fs::path> out = {root / "README.md", root / "CHANGELOG.md"};
+    for (const char* folder : {"docs", "examples", "motionrack"})
+        for (const auto& entry : fs::recursive_directory_iterator(root / folder))
+            if (entry.path().extension() == ".md") out.push_back(entry.path());
+    return out;
+}
+
+/// How a heading is called in a link: lower case, blanks are hyphens, other marks are left out.
+std::string anchor_of(const std::string& heading) {
+    std::string out;
+    for (const char c : heading.substr(heading.find_first_not_of("# "))) {
+        const auto letter = static_cast<unsigned char>(c);
+        if (std::isalnum(letter) || c == '-' || c == '_') out += static_cast<char>(std::tolower(letter));
+        else if (c == ' ') out += '-';
+    }
+    return out;
+}
+
+bool has_heading(const fs::path& page, const std::string& anchor) {
+    for (const std::string& line : lines_of(text_of(page)))
+        if (!line.empty() && line[0] == '#' && anchor_of(line) == anchor) return true;
+    return false;
+}
+
+TEST(Docs, TheRackFilePageIsCurrent) {
+    EXPECT_EQ(text_of(root / "docs/reference/rack-file.md"), rack::rack_file_reference())
+        << "make it anew: motionrack describe rack-file > docs/reference/rack-file.md";
+}
+
+TEST(Docs, LinksLeadSomewhere) {
+    const std::regex link(R"(\]\(([^)#]*)(#([^)]*))?\))");
+    int links = 0;
+    for (const fs::path& page : pages()) {
+        const std::string text = text_of(page);
+        for (auto it = std::sregex_iterator(text.begin(), text.end(), link); it != std::sregex_iterator(); ++it) {
+            const std::string target = (*it)[1], anchor = (*it)[3];
+            if (target.rfind("http", 0) == 0) continue;
+            const fs::path file = target.empty() ? page : page.parent_path() / target;
+            EXPECT_TRUE(fs::exists(file)) << page << " links to " << target;
+            EXPECT_TRUE(anchor.empty() || has_heading(file, anchor)) << page << " links to #" << anchor << " in " << file;
+            ++links;
+        }
+    }
+    EXPECT_GT(links, 30);
+}
+
+TEST(Docs, TheCppOfTheReadmeIsTheLibraryExample) {
+    const std::string example = text_of(root / "examples/06_library/main.cpp");
+    const auto shown = code_of(root / "README.md", "cpp");
+    ASSERT_EQ(shown.size(), 1u);
+    for (const std::string& line : lines_of(shown[0]))
+        EXPECT_NE(example.find("\n    " + trimmed(line) + "\n"), std::string::npos) << line;
+}
+
+TEST(Docs, GcodeOfThePagesRuns) {
+    const rack::RackConfig config = *rack::read_rack_text(*rack::rack_template("router")).config;
+    int programs = 0;
+    for (const fs::path& page : pages())
+        for (const std::string& program : code_of(page, "gcode")) {
+            rack::Rack rack(config);
+            rack::JobSettings settings;
+            settings.program = program;
+            rack::Job job(rack, settings);
+            rack.start();
+            const rack::JobOutcome outcome = job.run();
+            EXPECT_TRUE(outcome.ended) << page << ": " << outcome.ended.error().text();
+            EXPECT_TRUE(outcome.run.ended) << page << ": a program shown ends with M2";
+            ++programs;
+        }
+    EXPECT_GE(programs, 2);
+}
+
+TEST(Docs, EveryExampleFolderIsInTheIndexAndComplete) {
+    const std::string index = text_of(root / "examples/README.md");
+    int folders = 0;
+    for (const auto& entry : fs::directory_iterator(root / "examples")) {
+        const std::string name = entry.path().filename().string();
+        if (!entry.is_directory() || name[0] != '0') continue;
+        EXPECT_NE(index.find("(" + name + "/README.md)"), std::string::npos) << name;
+        EXPECT_TRUE(fs::exists(entry.path() / "README.md")) << name;
+        const bool built = fs::exists(entry.path() / "main.cpp");
+        for (const char* file : {"command", "expected.txt", "exit_code"})
+            EXPECT_TRUE(built || fs::exists(entry.path() / file)) << name << " " << file;
+        ++folders;
+    }
+    EXPECT_GE(folders, 6);
+}
+
+}  // namespace
+}  // namespace motionrack
