@@ -263,7 +263,7 @@ double Chip::rate_of(int a, Instant t) const {
         }
         const double longest = static_cast<double>(path.longest);
         double slope = 0;
-        if (path.command.count == 2)
+        if (extra != 0)
             slope = static_cast<double>(std::min(rules::magnitude(path.command.finish[0]), rules::magnitude(path.command.finish[1]))) / longest;
         return phase / (r1 + extra * slope) * static_cast<double>(path.command.finish[i]) / longest;
     }

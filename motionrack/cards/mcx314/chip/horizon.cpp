@@ -199,8 +199,10 @@ std::int64_t Chip::pulses_in(const Generator& gen, std::int64_t ticks) const {
     if (gen.drive != Drive::path) return quick_div(phase, gen.range_now);
     const auto& range = state_.path.range_for;
     if (range[1] == range[0] || state_.path.command.count != 2) return 1 + quick_div(phase - gen.range_now, range[0]);
-    std::int64_t low = 1, high = 2 + (phase - gen.range_now) / std::min(range[0], range[1]);
+    std::int64_t low = 1 + quick_div(phase - gen.range_now, std::max(range[0], range[1]));
+    std::int64_t high = 2 + quick_div(phase - gen.range_now, std::min(range[0], range[1]));
     if (gen.special_known) high = std::min(high, gen.next_special - gen.n + 1);
+    low = std::max<std::int64_t>(1, std::min(low, high - 1));
     while (low + 1 < high) {
         const std::int64_t middle = low + (high - low) / 2;
         (phase_for(gen, middle) <= phase ? low : high) = middle;
