@@ -30,13 +30,9 @@ int bench(const BenchOptions& options) {
     int code = exit_done;
     const auto config = load_rack(options.rack, code);
     if (!config) return code;
-    std::string text = example_program(), name = "built-in example";
-    if (!options.program.empty()) {
-        Result<std::string> read = read_text(options.program);
-        if (!read) return report(read.error());
-        text = std::move(*read);
-        name = options.program;
-    }
+    const Result<ProgramText> program = load_program(options.program);
+    if (!program) return report(program.error());
+    const auto& [text, name] = *program;
     const control::gcode::Settings settings = reader_settings(*config, false);
     std::vector<double> reading, running;
     double simulated = 0;

@@ -70,13 +70,9 @@ int run(const RunOptions& options) {
     int code = exit_done;
     const auto config = load_rack(options.rack, code);
     if (!config) return code;
-    std::string text = example_program(), name = "built-in example";
-    if (!options.program.empty()) {
-        Result<std::string> read = read_text(options.program);
-        if (!read) return report(read.error());
-        text = std::move(*read);
-        name = options.program;
-    }
+    const Result<ProgramText> program = load_program(options.program);
+    if (!program) return report(program.error());
+    const auto& [text, name] = *program;
     const control::gcode::Settings settings = reader_settings(*config, options.block_delete);
     if (const Result<void> good = control::gcode::check_settings(settings); !good) return report(good.error());
     if (!options.stream)

@@ -8,6 +8,12 @@
 
 namespace motionrack::cli {
 
+Result<ProgramText> load_program(const std::string& path) {
+    if (path.empty()) return ProgramText{example_program(), "built-in example"};
+    MOTIONRACK_TRY(std::string text, read_text(path));
+    return ProgramText{std::move(text), path};
+}
+
 std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code_out) {
     rack::RackReading reading;
     if (path.empty()) {

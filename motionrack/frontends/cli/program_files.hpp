@@ -12,6 +12,15 @@ namespace motionrack::cli {
 /// The example that comes with the program (examples/02_part/part.ngc).
 const char* example_program();
 
+/// A part program's text and what to call it.
+struct ProgramText {
+    std::string text;
+    std::string name;
+};
+
+/// Reads a part program ("-": standard input); an empty path is the built-in example. Errors: io.
+Result<ProgramText> load_program(const std::string& path);
+
 /// Reads a rack file, prints its warnings, and every error; nothing if there are errors. An empty path is the built-in router.
 std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code);
 
