@@ -11,27 +11,34 @@ namespace {
 
 constexpr std::int64_t far = std::numeric_limits<std::int64_t>::max() / 4;
 constexpr const char* axis_letters = "xyzu";
-constexpr std::array<const char*, 10> input_names = {"in0", "in1", "in2", "in3", "expp", "expm", "inpos", "alarm", "lmtp", "lmtm"};
+constexpr std::array<const char*, 10> input_names = {"in0",  "in1",   "in2",   "in3",  "expp",
+                                                     "expm", "inpos", "alarm", "lmtp", "lmtm"};
 
 }  // namespace
 
 std::string describe(const sim::Condition& condition, const std::string& card) {
     switch (condition.code) {
         case drive_ignored:
-            return fmt::format("{}: drive command {:02X}h was ignored because axis {} is driving; wait for its end or stop it first", card,
-                               condition.a, "XYZU"[condition.b & 3]);
+            return fmt::format(
+                "{}: drive command {:02X}h was ignored because axis {} is driving; wait for its end or stop it first",
+                card, condition.a, "XYZU"[condition.b & 3]);
         case path_ignored:
-            return fmt::format("{}: interpolation command {:02X}h was ignored: the next segment is queued already, or an axis is named twice "
-                               "or drives on its own; wait for CNEXT", card, condition.a);
+            return fmt::format(
+                "{}: interpolation command {:02X}h was ignored: the next segment is queued already, or an axis is "
+                "named twice "
+                "or drives on its own; wait for CNEXT",
+                card, condition.a);
         case unknown_command:
             return fmt::format("{}: command {:02X}h is not one of this model's; nothing was done", card, condition.a);
-        default: return fmt::format("{}: condition {}", card, condition.code);
+        default:
+            return fmt::format("{}: condition {}", card, condition.code);
     }
 }
 
-// ---- building -----------------------------------------------------------------------------------------------------------------
+// ---- building -------------------------------------------------------------------------------------------------------
 
-Chip::Chip(sim::Kernel& kernel, const std::string& name) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::cards, name)) {
+Chip::Chip(sim::Kernel& kernel, const std::string& name)
+    : kernel_(kernel), id_(kernel.add(*this, sim::Phase::cards, name)) {
     for (int a = 0; a < axes_of_chip; ++a) {
         const std::string prefix = name + "." + axis_letters[a];
         outputs_[a].chip = ears_[a].chip = this;
@@ -67,7 +74,7 @@ int Chip::Output::listen(sim::MotionListener& listener) {
     return listener_count++;
 }
 
-// ---- time ---------------------------------------------------------------------------------------------------------------------
+// ---- time -----------------------------------------------------------------------------------------------------------
 
 void Chip::advance_to(std::int64_t to) {
     work_to(to);
@@ -173,7 +180,7 @@ void Chip::update_interrupt() {
     if (active) kernel_.break_run();
 }
 
-// ---- motions ------------------------------------------------------------------------------------------------------------------
+// ---- motions --------------------------------------------------------------------------------------------------------
 
 void Chip::law_changed_of(int generator) {
     changed_ |= state_.axis[generator].gen.drive == Drive::path ? state_.path.command.mask() : 1u << generator;
@@ -184,7 +191,8 @@ void Chip::note_rates() {
     if (state_.chain == 0 || !state_.path.command.arc()) return;
     for (int i = 0; i < 2; ++i) {
         const int a = state_.path.command.axis[i];
-        if (outputs_[a].listener_count > 0) state_.axis[a].told_rate = std::bit_cast<std::uint64_t>(rate_of(a, Instant{0}));
+        if (outputs_[a].listener_count > 0)
+            state_.axis[a].told_rate = std::bit_cast<std::uint64_t>(rate_of(a, Instant{0}));
     }
 }
 
@@ -196,7 +204,8 @@ void Chip::tell_listeners(Instant now) {
             if (output.edge_listener) flush_edges(a);
             if (output.listener_count > 0) {
                 const double rate = rate_of(a, now);
-                const auto before = std::bit_cast<double>(std::exchange(state_.axis[a].told_rate, std::bit_cast<std::uint64_t>(rate)));
+                const auto before =
+                    std::bit_cast<double>(std::exchange(state_.axis[a].told_rate, std::bit_cast<std::uint64_t>(rate)));
                 for (int i = 0; i < output.listener_count; ++i) output.listeners[i]->rate_changed(before, rate, now);
             }
         }
@@ -220,7 +229,8 @@ void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {
     stale_ = true;
     const Instant now = kernel_.now();
     const std::int64_t count = count_at(a, now);
-    if ((count <= below && below != sim::unwatched_below) || (count >= above && above != sim::unwatched_above)) state_.crossed |= 1u << a;
+    if ((count <= below && below != sim::unwatched_below) || (count >= above && above != sim::unwatched_above))
+        state_.crossed |= 1u << a;
     // In an event of the chip's own settle() comes afterwards anyhow; else it is asked for, at this very instant.
     kernel_.schedule(id_, state_.crossed != 0 ? now + Duration{1} : now);
 }
@@ -257,21 +267,30 @@ double Chip::rate_of(int a, Instant t) const {
             const int s = rules::octants[path.arc.octant].short_axis;
             const std::int64_t ticks = tick_of(t) - gen.at - gen.wait;
             const auto at = path.arc.after(ticks > 0 ? pulses_in(gen, ticks) : 0);
-            const double slope = std::min(1.0, std::fabs(static_cast<double>(at[s])) / std::max(1.0, std::fabs(static_cast<double>(at[1 - s]))));
+            const double slope = std::min(
+                1.0, std::fabs(static_cast<double>(at[s])) / std::max(1.0, std::fabs(static_cast<double>(at[1 - s]))));
             const double basic = phase / (r1 + extra * slope);
             return sign * (s == i ? basic : basic * slope);
         }
         const double longest = static_cast<double>(path.longest);
         double slope = 0;
         if (extra != 0)
-            slope = static_cast<double>(std::min(rules::magnitude(path.command.finish[0]), rules::magnitude(path.command.finish[1]))) / longest;
+            slope = static_cast<double>(
+                        std::min(rules::magnitude(path.command.finish[0]), rules::magnitude(path.command.finish[1]))) /
+                    longest;
         return phase / (r1 + extra * slope) * static_cast<double>(path.command.finish[i]) / longest;
     }
     return 0;
 }
 
-std::int64_t Chip::pulses_made(int axis) { return state_.axis[axis].made; }
-std::int32_t Chip::lp(int axis) { return state_.axis[axis].lp; }
-std::int32_t Chip::ep(int axis) const { return encoder_position(state_.axis[axis], axis); }
+std::int64_t Chip::pulses_made(int axis) {
+    return state_.axis[axis].made;
+}
+std::int32_t Chip::lp(int axis) {
+    return state_.axis[axis].lp;
+}
+std::int32_t Chip::ep(int axis) const {
+    return encoder_position(state_.axis[axis], axis);
+}
 
 }  // namespace motionrack::mcx314

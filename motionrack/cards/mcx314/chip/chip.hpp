@@ -1,12 +1,13 @@
-// The virtual MCX314: registers in front, four speed generators and an interpolator behind, exact to the tick (RULES.md).
+// The virtual MCX314: registers in front, four speed generators and an interpolator behind, exact to the tick
+// (RULES.md).
 //
 //          WR0..WR7 ┌──────────┐ P, V, ..  ┌───────────┐ basic pulses ┌──────────────┐ pulses  xpp xpm
 //   host ──────────►│ registers├──────────►│ generators├─────────────►│ lines, arcs  ├────────►  .. upp upm
 //          RR0..RR7 └────▲─────┘           └─────▲─────┘              └──────────────┘
 //                        └── EP ◄── encoders     └── limits, IN0..3, alarm, emergency ◄── wires
 //
-// Nothing ticks: between two interesting ticks (a speed step, a special pulse, an input) everything is closed form; an interesting
-// tick is worked off by the rules, one by one. Edges are made only while somebody listens to them.
+// Nothing ticks: between two interesting ticks (a speed step, a special pulse, an input) everything is closed form; an
+// interesting tick is worked off by the rules, one by one. Edges are made only while somebody listens to them.
 #pragma once
 
 #include <array>
@@ -21,9 +22,9 @@ namespace motionrack::mcx314 {
 
 /// What the chip reports as conditions.
 enum ChipCondition : std::uint16_t {
-    drive_ignored = 1,      ///< a: command, b: axis that is driving
-    path_ignored = 2,       ///< a: command; queue full, axis busy or named twice
-    unknown_command = 3     ///< a: command
+    drive_ignored = 1,   ///< a: command, b: axis that is driving
+    path_ignored = 2,    ///< a: command; queue full, axis busy or named twice
+    unknown_command = 3  ///< a: command
 };
 
 /// The sentence of a condition that a chip reported.
@@ -80,7 +81,8 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
         sim::EdgeBatch batch;
         std::int64_t batch_tick = 0;  ///< of its origin
     };
-    /// Pulses at one speed and range: the first at tick `at`, each `quotient` ticks after the one before, or one more when `slack` runs out.
+    /// Pulses at one speed and range: the first at tick `at`, each `quotient` ticks after the one before, or one more
+    /// when `slack` runs out.
     struct EvenPulses {
         std::int64_t at = 0, quotient = 0, remainder = 0, slack = 0, speed = 1;
     };
@@ -225,10 +227,10 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     std::array<std::array<sim::WireId, 2>, axes_of_chip> encoder_wires_{};
     sim::WireId emgn_{};
     sim::WireId int_n_{};
-    unsigned listened_ = 0;   // axes of which somebody listens to motion or edges
-    bool stale_ = false;      // the next interesting tick must be looked for again
+    unsigned listened_ = 0;    // axes of which somebody listens to motion or edges
+    bool stale_ = false;       // the next interesting tick must be looked for again
     unsigned moved_last_ = 0;  // axes that stepped in the basic pulse at hand
-    unsigned changed_ = 0;  // axes whose law of motion changed in the present event
+    unsigned changed_ = 0;     // axes whose law of motion changed in the present event
 };
 
 }  // namespace motionrack::mcx314

@@ -7,7 +7,8 @@ namespace motionrack::mcx314 {
 namespace {
 constexpr std::int64_t longest_batch = 0xF000'0000;  // ticks between the first and the last edge of a batch
 
-/// Ticks between even edges: `whole`, or one more when `slack` has no `part` left to give; then it gets `all` of a tick back.
+/// Ticks between even edges: `whole`, or one more when `slack` has no `part` left to give; then it gets `all` of a tick
+/// back.
 struct Interval {
     std::int32_t whole = 0, part = 0, all = 1;
 
@@ -31,9 +32,10 @@ struct Place {
 using SignedLanes = std::int32_t __attribute__((vector_size(16)));
 using UnsignedLanes = std::uint32_t __attribute__((vector_size(16)));
 
-/// `count` offsets from `next` on, which is then the place after them. Since each edge hangs on the one before, they are made as sixteen
-/// rows of every sixteenth edge.
-void fill_evenly(std::uint32_t* out, std::int64_t count, Place<std::int32_t, std::uint32_t>& next, const Interval& interval) {
+/// `count` offsets from `next` on, which is then the place after them. Since each edge hangs on the one before, they
+/// are made as sixteen rows of every sixteenth edge.
+void fill_evenly(std::uint32_t* out, std::int64_t count, Place<std::int32_t, std::uint32_t>& next,
+                 const Interval& interval) {
     constexpr int rows = 16, lanes = 4;
     std::int64_t i = 0;
     if (count >= 3 * rows) {
@@ -63,8 +65,8 @@ void fill_evenly(std::uint32_t* out, std::int64_t count, Place<std::int32_t, std
     }
 }
 
-/// The long axis along an arc within an octant: which basic pulses step it, without a root for each. The long coordinate's magnitude m is
-/// nearest to the circle while m * m - m < q = r2 - short^2 <= m * m + m.
+/// The long axis along an arc within an octant: which basic pulses step it, without a root for each. The long
+/// coordinate's magnitude m is nearest to the circle while m * m - m < q = r2 - short^2 <= m * m + m.
 class LongAxis {
   public:
     explicit LongAxis(const rules::Arc& arc) {
@@ -129,7 +131,8 @@ void Chip::flush_edges(int axis) {
 void Chip::add_edge(int a, std::int64_t at, int direction, std::int64_t count) {
     sim::EdgeBatch& batch = outputs_[a].batch;
     const std::int64_t offset = at - outputs_[a].batch_tick;
-    if (batch.size > 0 && (batch.step != direction || batch.size == sim::EdgeBatch::capacity || offset > longest_batch)) flush_edges(a);
+    if (batch.size > 0 && (batch.step != direction || batch.size == sim::EdgeBatch::capacity || offset > longest_batch))
+        flush_edges(a);
     if (batch.size > 0) {
         batch.at[batch.size++] = static_cast<std::uint32_t>(offset);
         return;
@@ -147,8 +150,8 @@ void Chip::begin_batch(int a, std::int64_t at, int direction, std::int64_t count
     output.batch.first_count = count;
 }
 
-/// `pulses` edges of axis `a`, evenly: each comes quotient ticks after the one before, or one more if the remainder has used up the slack.
-/// The first comes at `run.at`.
+/// `pulses` edges of axis `a`, evenly: each comes quotient ticks after the one before, or one more if the remainder has
+/// used up the slack. The first comes at `run.at`.
 void Chip::make_even_edges(int a, EvenPulses run, std::int64_t pulses, int direction) {
     sim::EdgeBatch& batch = outputs_[a].batch;
     std::int64_t count = state_.axis[a].count;
@@ -162,7 +165,8 @@ void Chip::make_even_edges(int a, EvenPulses run, std::int64_t pulses, int direc
         const auto first = static_cast<std::uint32_t>(run.at - outputs_[a].batch_tick);
         Place<std::int32_t, std::uint32_t> next{first, static_cast<std::int32_t>(run.slack)};
         fill_evenly(batch.at.data() + batch.size, some, next,
-                    {static_cast<std::int32_t>(run.quotient), static_cast<std::int32_t>(run.remainder), static_cast<std::int32_t>(run.speed)});
+                    {static_cast<std::int32_t>(run.quotient), static_cast<std::int32_t>(run.remainder),
+                     static_cast<std::int32_t>(run.speed)});
         run.at += next.offset - first;
         run.slack = next.slack;
         batch.size += static_cast<std::uint32_t>(some);
@@ -184,12 +188,14 @@ Chip::EvenPulses Chip::even_pulses(const Generator& gen, std::int64_t waited) co
     return run;
 }
 
-/// The next `pulses` basic pulses of generator `a`, which begins to work after `waited` more ticks; called before its state moves on.
+/// The next `pulses` basic pulses of generator `a`, which begins to work after `waited` more ticks; called before its
+/// state moves on.
 void Chip::make_edges(int a, std::int64_t waited, std::int64_t pulses) {
     const Generator& gen = state_.axis[a].gen;
     if (gen.drive != Drive::path) return make_even_edges(a, even_pulses(gen, waited), pulses, state_.axis[a].direction);
     const Path& path = state_.path;
-    if (path.range_for[1] != path.range_for[0] || path.range_for[2] != path.range_for[0]) return make_varied_edges(waited, pulses);
+    if (path.range_for[1] != path.range_for[0] || path.range_for[2] != path.range_for[0])
+        return make_varied_edges(waited, pulses);
     if (path.command.arc()) return make_arc_edges(even_pulses(gen, waited), pulses);
     for (int i = 0; i < path.command.count; ++i) {
         const std::int64_t p = rules::magnitude(path.command.finish[i]);
@@ -202,16 +208,19 @@ void Chip::make_edges(int a, std::int64_t waited, std::int64_t pulses) {
     }
 }
 
-/// An axis that is led along a line steps every so many basic pulses, or one more: two intervals, each with its quotient and remainder.
+/// An axis that is led along a line steps every so many basic pulses, or one more: two intervals, each with its
+/// quotient and remainder.
 void Chip::make_led_edges(int i, EvenPulses run, std::int64_t pulses) {
     const Generator& gen = state_.axis[state_.master].gen;
     const Path& path = state_.path;
     const std::int64_t p = rules::magnitude(path.command.finish[i]), longest = path.longest;
     const int axis = path.command.axis[i], direction = path.command.finish[i] < 0 ? -1 : 1;
-    const std::int64_t made = rules::line_steps(gen.n, p, longest), steps = rules::line_steps(gen.n + pulses, p, longest) - made;
+    const std::int64_t made = rules::line_steps(gen.n, p, longest),
+                       steps = rules::line_steps(gen.n + pulses, p, longest) - made;
     if (steps == 0) return;
     const std::int64_t first = rules::line_pulse_of_step(made + 1, p, longest);
-    std::int64_t spare = 2 * p * first - (2 * made + 1) * longest;  // of the basic pulse beyond the exact place of the step
+    std::int64_t spare =
+        2 * p * first - (2 * made + 1) * longest;  // of the basic pulse beyond the exact place of the step
     const std::int64_t between = longest / p, rest = 2 * (longest % p);
     const std::int64_t phase = (first - gen.n - 1) * gen.range_now - run.slack;
     const std::int64_t ticks = phase > 0 ? rules::ceil_div(phase, gen.speed) : 0;

@@ -9,9 +9,12 @@ namespace {
 sim::Edges edges_of(const Axis& axis) {
     if (bit(axis.wr2, 9)) return sim::Edges::all;
     switch (axis.wr2 >> 10 & 3) {
-        case 1: return sim::Edges::both_of_a;
-        case 2: return sim::Edges::rising_a;
-        default: return sim::Edges::all;
+        case 1:
+            return sim::Edges::both_of_a;
+        case 2:
+            return sim::Edges::rising_a;
+        default:
+            return sim::Edges::all;
     }
 }
 
@@ -67,7 +70,8 @@ void Chip::encoder_crossed(int a, Instant now) {
 void Chip::encoder_lines(int a, Instant now) {
     Axis& axis = state_.axis[a];
     if (ears_[a].motion) return;
-    const unsigned lines = (kernel_.level(encoder_wires_[a][0]) != 0 ? 1u : 0u) | (kernel_.level(encoder_wires_[a][1]) != 0 ? 2u : 0u);
+    const unsigned lines =
+        (kernel_.level(encoder_wires_[a][0]) != 0 ? 1u : 0u) | (kernel_.level(encoder_wires_[a][1]) != 0 ? 2u : 0u);
     const unsigned before = axis.encoder_lines;
     axis.encoder_lines = static_cast<std::uint8_t>(lines);
     int change = 0;

@@ -13,7 +13,8 @@ constexpr std::int64_t far = std::numeric_limits<std::int64_t>::max() / 4;
 
 /// Ticks until va reaches 64,000; small numbers, divided as such.
 std::int64_t ticks_to_carry(std::int64_t speed_part, std::int64_t rate) {
-    const auto left = static_cast<std::uint32_t>(rules::speed_carry - speed_part), each = static_cast<std::uint32_t>(rate);
+    const auto left = static_cast<std::uint32_t>(rules::speed_carry - speed_part),
+               each = static_cast<std::uint32_t>(rate);
     return (left + each - 1) / each;
 }
 
@@ -24,7 +25,7 @@ bool keeps_rate(const Generator& gen) {
 
 }  // namespace
 
-// ---- the next interesting tick ------------------------------------------------------------------------------------------------
+// ---- the next interesting tick --------------------------------------------------------------------------------------
 
 /// The next tick at which generator `a` does more than add up, and whether that is a step of its speed only.
 void Chip::find_next_tick(int a) {
@@ -49,7 +50,8 @@ void Chip::find_next_tick(int a) {
     }
     const std::int64_t phase = phase_for(gen, gen.next_special - gen.n) - gen.acc;
     gen.plain = ticks < far && ticks * gen.speed < phase;
-    if (!gen.plain) gen.next_tick = state_.tick + std::max<std::int64_t>(1, quick_div(phase + gen.speed - 1, gen.speed));
+    if (!gen.plain)
+        gen.next_tick = state_.tick + std::max<std::int64_t>(1, quick_div(phase + gen.speed - 1, gen.speed));
 }
 
 std::int64_t Chip::ticks_to_speed_event(const Axis& axis) const {
@@ -67,7 +69,8 @@ std::int64_t Chip::ticks_to_speed_event(const Axis& axis) const {
     if (gen.ramp == 0) return gen.speed != to ? 1 : far;
     const std::int64_t step = gen.rate > 0 ? ticks_to_carry(gen.speed_part, gen.rate) : far;
     if (keeps_rate(gen)) return step;
-    return std::max<std::int64_t>(1, std::min(rules::jerk_ticks_per_k * rules::used_jerk(axis.jerk) - gen.rate_part, step));
+    return std::max<std::int64_t>(
+        1, std::min(rules::jerk_ticks_per_k * rules::used_jerk(axis.jerk) - gen.rate_part, step));
 }
 
 /// Basic pulses until one does more than step its axes (>= 1), far if never.
@@ -113,7 +116,8 @@ std::int64_t Chip::pulses_to_final(int a) const {
     if (gen.manual) return std::max<std::int64_t>(1, std::int64_t{axis.decel_point} - gen.n);
     const std::int64_t left = total - gen.n - axis.offset;
     // P - n <= accel_pulses + AO, where accel_pulses rises, stays or falls with n.
-    if (gen.ramp > 0) return std::max<std::int64_t>(1, rules::ceil_div(std::max<std::int64_t>(0, left - gen.accel_pulses), 2));
+    if (gen.ramp > 0)
+        return std::max<std::int64_t>(1, rules::ceil_div(std::max<std::int64_t>(0, left - gen.accel_pulses), 2));
     if (gen.ramp == 0) return std::max<std::int64_t>(1, left - gen.accel_pulses);
     return left <= gen.accel_pulses ? 1 : std::max<std::int64_t>(1, left);
 }
@@ -168,7 +172,7 @@ std::int64_t Chip::pulses_until_steps(int a, int i, std::int64_t steps) const {
     return high;
 }
 
-// ---- phase and pulses ---------------------------------------------------------------------------------------------------------
+// ---- phase and pulses -----------------------------------------------------------------------------------------------
 
 /// How many of the next `pulses` basic pulses step two axes (paths of two axes).
 std::int64_t Chip::extra_steps(std::int64_t pulses) const {
@@ -188,7 +192,8 @@ std::int64_t Chip::phase_for(const Generator& gen, std::int64_t pulses) const {
     if (gen.drive != Drive::path) return pulses * gen.range_now;
     const auto& range = state_.path.range_for;
     std::int64_t phase = gen.range_now + (pulses - 1) * range[0];
-    if (range[1] != range[0] && state_.path.command.count == 2) phase += (range[1] - range[0]) * extra_steps(pulses - 1);
+    if (range[1] != range[0] && state_.path.command.count == 2)
+        phase += (range[1] - range[0]) * extra_steps(pulses - 1);
     return phase;
 }
 
@@ -229,7 +234,7 @@ std::array<std::int64_t, 3> Chip::path_steps(std::int64_t pulses) const {
     return steps;
 }
 
-// ---- many plain ticks at once ---------------------------------------------------------------------------------------------------
+// ---- many plain ticks at once ---------------------------------------------------------------------------------------
 
 /// Nothing happens up to tick `to`.
 void Chip::skip_to(std::int64_t to) {
@@ -256,7 +261,8 @@ void Chip::skip_speed(Axis& axis, std::int64_t ticks) const {
     if (gen.s_curve) {
         gen.rate_part += ticks;
         const std::int64_t jerk = rules::jerk_ticks_per_k * rules::used_jerk(axis.jerk);
-        if (gen.rate_part >= jerk && ticks > 0) gen.rate_part = (std::min(gen.rate_part - ticks, jerk - 1) + ticks) % jerk;
+        if (gen.rate_part >= jerk && ticks > 0)
+            gen.rate_part = (std::min(gen.rate_part - ticks, jerk - 1) + ticks) % jerk;
     } else if (ticks > 0)
         gen.rate = rules::used_speed(gen.ramp < 0 && gen.own_deceleration ? axis.decel : axis.accel);
     gen.speed_part += ticks * gen.rate;

@@ -38,7 +38,9 @@ std::int64_t Chip::target(const Axis& axis) const {
 void Chip::set_ramp(int a, int ramp) {
     Axis& axis = state_.axis[a];
     Generator& gen = axis.gen;
-    auto flag = [&axis](unsigned which) { axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & which)); };
+    auto flag = [&axis](unsigned which) {
+        axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & which));
+    };
     if (gen.ramp != 0 && ramp == 0 && !gen.final) {
         gen.constant = true;
         flag(flag_constant_start);

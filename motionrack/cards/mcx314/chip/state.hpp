@@ -1,4 +1,5 @@
-// All of the chip's state, trivially copyable: registers, one speed generator an axis, the interpolation with its queue.
+// All of the chip's state, trivially copyable: registers, one speed generator an axis, the interpolation with its
+// queue.
 #pragma once
 
 #include <array>
@@ -40,9 +41,9 @@ struct PathCommand {
 struct Path {
     PathCommand command;
     rules::Arc arc;
-    std::int64_t longest = 0;                   ///< lines: basic pulses
-    std::array<std::int64_t, 3> made{};         ///< lines: steps of each axis so far
-    std::array<std::int64_t, 3> range_for{};    ///< Rnow when one, two, three axes stepped
+    std::int64_t longest = 0;                 ///< lines: basic pulses
+    std::array<std::int64_t, 3> made{};       ///< lines: steps of each axis so far
+    std::array<std::int64_t, 3> range_for{};  ///< Rnow when one, two, three axes stepped
 };
 
 /// One speed generator.
@@ -52,9 +53,9 @@ struct Generator {
     bool manual = false, own_deceleration = false, s_curve = false;
     bool final = false, final_seen = false, stopping = false, constant = false;
     bool ask_decelerating = false, ask_immediate = false;
-    bool look = false;            ///< the next working tick must be worked in full (inputs, limits or commands changed)
-    bool special_known = false;   ///< next_special is up to date
-    bool plain = false;           ///< what comes at next_tick is a step of the speed and nothing else
+    bool look = false;           ///< the next working tick must be worked in full (inputs, limits or commands changed)
+    bool special_known = false;  ///< next_special is up to date
+    bool plain = false;          ///< what comes at next_tick is a step of the speed and nothing else
     std::array<std::uint8_t, 2> reserved{};
     std::int32_t wait = 0;
     std::int32_t ramp = 0;
@@ -63,9 +64,9 @@ struct Generator {
     std::int64_t rate = 0, rate_part = 0;    ///< CA, ja
     std::int64_t speed_steps = 0, aim = 0;   ///< dvup
     std::int64_t n = 0, accel_pulses = 0;
-    std::int64_t next_special = 0;           ///< the next n at which more happens than a plain pulse
-    std::int64_t next_tick = 0;              ///< the next tick that is not plain closed form
-    std::int64_t at = 0;                     ///< the tick up to which it has worked; behind State::tick while nothing happens
+    std::int64_t next_special = 0;  ///< the next n at which more happens than a plain pulse
+    std::int64_t next_tick = 0;     ///< the next tick that is not plain closed form
+    std::int64_t at = 0;            ///< the tick up to which it has worked; behind State::tick while nothing happens
 };
 
 /// A range of counts that a listener watches.
@@ -78,8 +79,8 @@ struct Watch {
 struct PulseMark {
     std::int64_t tick = 0;
     std::int64_t acc = 0;
-    std::int32_t speed = 0;      ///< 0: it is over
-    std::int32_t range = 0;      ///< Rnow after it
+    std::int32_t speed = 0;  ///< 0: it is over
+    std::int32_t range = 0;  ///< Rnow after it
     std::int32_t direction = 0;
     std::int32_t reserved = 0;
 
@@ -96,7 +97,7 @@ struct Axis {
     std::uint16_t causes = 0, finished = 0, flags = 0, compared = 0;
     std::uint16_t levels = 0x3FF;  ///< input pins as last heard, bit Pin
     std::int32_t lp = 0, comp_plus = 0, comp_minus = 0;
-    std::int32_t ep = 0;           ///< EP where no encoder is connected
+    std::int32_t ep = 0;             ///< EP where no encoder is connected
     sim::ClosedFormCounter encoder;  ///< EP behind a connected one
     std::int32_t direction = 1;
     std::int32_t held_command = 0;
@@ -104,11 +105,11 @@ struct Axis {
     bool pulses_wanted = false, outputs_wanted = false;  ///< somebody follows xpp, xpm; nOUT4..7
     std::uint8_t encoder_lines = 3;                      ///< xeca, xecb as last heard
     std::array<std::uint8_t, 4> reserved{};
-    std::int64_t shown = 0;        ///< `made` when the pulse wires were set last
+    std::int64_t shown = 0;  ///< `made` when the pulse wires were set last
     PulseMark mark;
-    std::int64_t count = 0;        ///< net pulses since the start
-    std::int64_t made = 0;         ///< pulses of both directions
-    std::uint64_t told_rate = 0;   ///< bits of the double that listeners heard last, or that it has drifted to since
+    std::int64_t count = 0;       ///< net pulses since the start
+    std::int64_t made = 0;        ///< pulses of both directions
+    std::uint64_t told_rate = 0;  ///< bits of the double that listeners heard last, or that it has drifted to since
     std::array<Watch, sim::Motion::max_listeners> watch{};
     PathCommand held_path;
     Generator gen;
@@ -125,7 +126,7 @@ struct State {
     bool begun = false;       ///< the wires have been looked at since the world began
     std::uint32_t chain = 0;  ///< axes of the interpolation that runs
     std::int32_t master = 0;
-    std::int32_t stepped = 1; ///< axes stepped in the last basic pulse
+    std::int32_t stepped = 1;     ///< axes stepped in the last basic pulse
     std::uint32_t working = 0;    ///< axes whose generator works
     std::uint32_t in_place = 0;   ///< axes whose drive is over but not yet in position
     std::uint32_t following = 0;  ///< axes whose lazily driven wires somebody follows
@@ -151,7 +152,11 @@ constexpr std::int64_t quick_div(std::int64_t a, std::int64_t b) {
     return static_cast<std::int64_t>(static_cast<std::uint32_t>(a) / static_cast<std::uint32_t>(b));
 }
 
-constexpr bool bit(unsigned value, int n) { return (value >> n & 1u) != 0; }
-constexpr bool level(const Axis& axis, Pin pin) { return bit(axis.levels, static_cast<int>(pin)); }
+constexpr bool bit(unsigned value, int n) {
+    return (value >> n & 1u) != 0;
+}
+constexpr bool level(const Axis& axis, Pin pin) {
+    return bit(axis.levels, static_cast<int>(pin));
+}
 
 }  // namespace motionrack::mcx314

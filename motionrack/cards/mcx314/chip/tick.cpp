@@ -8,8 +8,9 @@ constexpr unsigned flag_pulse = 1u << 0;
 constexpr unsigned flag_drive_end = 1u << 7;
 }  // namespace
 
-/// Everything up to and including tick `to`, the next interesting one: generators that only change their speed there do so in closed
-/// form, those with more to do work that tick by the rules. Those to which nothing happens, and on which no path hangs, stay behind.
+/// Everything up to and including tick `to`, the next interesting one: generators that only change their speed there do
+/// so in closed form, those with more to do work that tick by the rules. Those to which nothing happens, and on which
+/// no path hangs, stay behind.
 void Chip::work_off(std::int64_t to) {
     state_.tick = to;
     for_each_axis(state_.working, [&](int a) {
@@ -58,7 +59,7 @@ void Chip::work(int a) {
     speed_step(a);
 }
 
-// ---- step 1 -------------------------------------------------------------------------------------------------------------------
+// ---- step 1 ---------------------------------------------------------------------------------------------------------
 
 /// Axes that generator `a` steps in the present segment.
 std::uint32_t Chip::moved_by(int a) const {
@@ -143,7 +144,7 @@ void Chip::end(int a) {
     state_.axis[a].gen.ramp = 0;
 }
 
-// ---- step 2 -------------------------------------------------------------------------------------------------------------------
+// ---- step 2 ---------------------------------------------------------------------------------------------------------
 
 /// A pulse of the generator; true if the drive ended with it.
 bool Chip::pulse(int a) {
@@ -218,8 +219,12 @@ void Chip::mark_pulse(int a, unsigned stepped, std::int64_t tick_now) {
     const Generator& gen = state_.axis[a].gen;
     for_each_axis(moved_by(a), [&](int i) {
         Axis& axis = state_.axis[i];
-        axis.mark = {tick_now, gen.acc, stepped >> i & 1 ? static_cast<std::int32_t>(gen.speed) : 0,
-                     static_cast<std::int32_t>(gen.range_now), axis.direction, 0};
+        axis.mark = {tick_now,
+                     gen.acc,
+                     stepped >> i & 1 ? static_cast<std::int32_t>(gen.speed) : 0,
+                     static_cast<std::int32_t>(gen.range_now),
+                     axis.direction,
+                     0};
     });
 }
 
@@ -260,9 +265,11 @@ void Chip::begin_segment(const PathCommand& command) {
     path.longest = 0;
     path.made = {};
     if (command.arc())
-        path.arc.begin(command.centre[0], command.centre[1], command.finish[0], command.finish[1], command.code == 0x32);
+        path.arc.begin(command.centre[0], command.centre[1], command.finish[0], command.finish[1],
+                       command.code == 0x32);
     else
-        for (int i = 0; i < command.count; ++i) path.longest = std::max(path.longest, rules::magnitude(command.finish[i]));
+        for (int i = 0; i < command.count; ++i)
+            path.longest = std::max(path.longest, rules::magnitude(command.finish[i]));
     auto range_of = [&](int i) { return rules::used_range(state_.axis[command.axis[i]].range); };
     path.range_for.fill(state_.axis[state_.master].gen.range);
     if (command.vector_speed == 1) path.range_for[1] = path.range_for[2] = range_of(1);
@@ -274,7 +281,7 @@ void Chip::begin_segment(const PathCommand& command) {
         if (const int d = path_direction(i); d != 0) state_.axis[command.axis[i]].direction = d;
 }
 
-// ---- when the final deceleration begins -----------------------------------------------------------------------------------------
+// ---- when the final deceleration begins -----------------------------------------------------------------------------
 
 void Chip::check_final(int a) {
     const Axis& axis = state_.axis[a];

@@ -6,7 +6,7 @@
 
 namespace motionrack::mcx314 {
 
-// ---- inputs -------------------------------------------------------------------------------------------------------------------
+// ---- inputs ---------------------------------------------------------------------------------------------------------
 
 /// Inputs that are not enabled are not wanted, so that a wire that is made on demand (an index) costs nothing.
 void Chip::set_wants(int a) {
@@ -28,7 +28,7 @@ void Chip::set_wants(int a) {
     for (int i = 0; i < 2; ++i) kernel_.want(encoder_wires_[a][i], id_, ears_[a].motion == nullptr);
 }
 
-// ---- outputs ------------------------------------------------------------------------------------------------------------------
+// ---- outputs --------------------------------------------------------------------------------------------------------
 
 void Chip::update_outputs() {
     for (int a = 0; a < axes_of_chip; ++a)
@@ -44,8 +44,12 @@ PulseMark Chip::mark_at(int a, std::int64_t to) const {
     if (gen.drive == Drive::idle || ticks <= 0) return axis.mark;
     const std::int64_t pulses = pulses_in(gen, ticks);
     if (pulses == 0) return axis.mark;
-    PulseMark mark{to, gen.acc + ticks * gen.speed - phase_for(gen, pulses), static_cast<std::int32_t>(gen.speed),
-                   static_cast<std::int32_t>(gen.range_now), axis.direction, 0};
+    PulseMark mark{to,
+                   gen.acc + ticks * gen.speed - phase_for(gen, pulses),
+                   static_cast<std::int32_t>(gen.speed),
+                   static_cast<std::int32_t>(gen.range_now),
+                   axis.direction,
+                   0};
     if (!on_path) return mark;
     const auto after = path_steps(pulses), before = path_steps(pulses - 1);
     int stepped = 0;
@@ -118,7 +122,8 @@ void Chip::show_wires(Instant now) {
             for (int which = 0; which < 2; ++which) {
                 const int level = pulse_level(a, which, axis.mark.active(at), axis.mark.direction);
                 const int idle = pulse_level(a, which, false, axis.mark.direction);
-                if (fresh && level != idle) kernel_.set_wire(pulse_wires_[a][which], idle);  // two pulses never melt into one
+                if (fresh && level != idle)
+                    kernel_.set_wire(pulse_wires_[a][which], idle);  // two pulses never melt into one
                 kernel_.set_wire(pulse_wires_[a][which], level);
             }
         }

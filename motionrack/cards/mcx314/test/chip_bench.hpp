@@ -1,4 +1,5 @@
-// A chip in a kernel of its own, as a host with wires sees it: write, read, advance, move a wire, look at the interrupt.
+// A chip in a kernel of its own, as a host with wires sees it: write, read, advance, move a wire, look at the
+// interrupt.
 #pragma once
 
 #include <cstdint>
@@ -81,7 +82,9 @@ class HandWheel final : public sim::Motion {
     void turn(std::int64_t to, Instant now) {
         while (count_ != to) {
             count_ += to > count_ ? 1 : -1;
-            if ((count_ > below_ || below_ == sim::unwatched_below) && (count_ < above_ || above_ == sim::unwatched_above)) continue;
+            if ((count_ > below_ || below_ == sim::unwatched_below) &&
+                (count_ < above_ || above_ == sim::unwatched_above))
+                continue;
             ++crossings;
             if (listener_ != nullptr) listener_->crossed(now);
         }
@@ -99,7 +102,9 @@ class Bench {
     Bench() : chip(kernel, "c") {}
 
     // ---- the bus
-    void write(int number, unsigned value) { chip.write(static_cast<std::uint32_t>(2 * number), static_cast<std::uint16_t>(value)); }
+    void write(int number, unsigned value) {
+        chip.write(static_cast<std::uint32_t>(2 * number), static_cast<std::uint16_t>(value));
+    }
     unsigned read(int number) { return chip.read(static_cast<std::uint32_t>(2 * number)); }
     void command(unsigned axes, unsigned code) { write(0, axes << 8 | code); }
     void data(unsigned axes, unsigned code, std::int64_t value) {
@@ -138,7 +143,8 @@ class Bench {
     void start() { kernel.start(); }
     void advance(Duration time) {
         const Instant until = kernel.now() + time;
-        while (kernel.run_until(until) == sim::RunEnd::broken) {}
+        while (kernel.run_until(until) == sim::RunEnd::broken) {
+        }
     }
     /// Runs until the interrupt line is active or `time` has passed; true if it is active.
     bool wait(Duration time) {

@@ -1,14 +1,15 @@
 // The chip from outside: drives of one axis, their speeds, stops, status and interrupts.
 #include <gtest/gtest.h>
-#include <motionrack/cards/mcx314/test/chip_bench.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/cards/mcx314/test/chip_bench.hpp>
 
 namespace motionrack::mcx314::outside {
 namespace {
 
-// The maker's sample: R = 800,000 (M = 10), A = D = 200, SV = 100, V = 4000: 1,000 to 40,000 pps in 0.156 s, 3,198 pulses each way.
+// The maker's sample: R = 800,000 (M = 10), A = D = 200, SV = 100, V = 4000: 1,000 to 40,000 pps in 0.156 s, 3,198
+// pulses each way.
 TEST(ChipDrive, ATrapezoidHasTheMakersRampAndExactlyItsPulses) {
     Bench b;
     EdgeLog log;
@@ -22,11 +23,12 @@ TEST(ChipDrive, ATrapezoidHasTheMakersRampAndExactlyItsPulses) {
     EXPECT_EQ(b.lp(X), 80'000);
     EXPECT_EQ(b.count(0), 80'000);
     ASSERT_EQ(log.list.size(), 80'000u);
-    // 73,604 pulses at 40,000 pps lie between two ramps; ideally the drive takes 2.1521 s. Falling, every speed comes one step earlier
-    // than rising, which saves the last pulse and a half.
+    // 73,604 pulses at 40,000 pps lie between two ramps; ideally the drive takes 2.1521 s. Falling, every speed comes
+    // one step earlier than rising, which saves the last pulse and a half.
     EXPECT_NEAR(to_seconds(b.kernel.now() - from), 2.1521, 0.002);
     const auto period = [&](std::size_t i) { return log.list[i].tick - log.list[i - 1].tick; };
-    const auto of_ramp = [&](std::size_t from_pulse, std::size_t to_pulse) {  // pulses that are not 200 ticks apart, but for the jitter of one
+    const auto of_ramp = [&](std::size_t from_pulse,
+                             std::size_t to_pulse) {  // pulses that are not 200 ticks apart, but for the jitter of one
         std::size_t pulses = 0;
         for (std::size_t i = from_pulse; i < to_pulse; ++i) pulses += period(i) > 201;
         return static_cast<double>(pulses);

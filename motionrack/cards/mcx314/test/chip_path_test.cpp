@@ -1,11 +1,11 @@
 // The chip from outside: lines, arcs and chains of them.
 #include <gtest/gtest.h>
-#include <motionrack/cards/mcx314/arithmetic.hpp>
-#include <motionrack/cards/mcx314/test/chip_bench.hpp>
 #include <rapidcheck/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <motionrack/cards/mcx314/arithmetic.hpp>
+#include <motionrack/cards/mcx314/test/chip_bench.hpp>
 
 namespace motionrack::mcx314::outside {
 namespace {
@@ -27,9 +27,11 @@ void command_segment(Bench& b, const Segment& s) {
 
 // The maker's sample: a running track of four lines and four quarter circles of 1,500 pulses, joined without a stop.
 TEST(ChipPath, TheMakersContourCloses) {
-    const Segment track[] = {{0x30, 0, 0, 4500, 0},   {0x33, 0, 1500, 1500, 1500},    {0x30, 0, 0, 0, 1500},  {0x33, -1500, 0, -1500, 1500},
-                             {0x30, 0, 0, -4500, 0},  {0x33, 0, -1500, -1500, -1500}, {0x30, 0, 0, 0, -1500}, {0x33, 1500, 0, 1500, -1500}};
-    const int nodes[][2] = {{4500, 0}, {6000, 1500}, {6000, 3000}, {4500, 4500}, {0, 4500}, {-1500, 3000}, {-1500, 1500}, {0, 0}};
+    const Segment track[] = {{0x30, 0, 0, 4500, 0},         {0x33, 0, 1500, 1500, 1500}, {0x30, 0, 0, 0, 1500},
+                             {0x33, -1500, 0, -1500, 1500}, {0x30, 0, 0, -4500, 0},      {0x33, 0, -1500, -1500, -1500},
+                             {0x30, 0, 0, 0, -1500},        {0x33, 1500, 0, 1500, -1500}};
+    const int nodes[][2] = {{4500, 0}, {6000, 1500},  {6000, 3000},  {4500, 4500},
+                            {0, 4500}, {-1500, 3000}, {-1500, 1500}, {0, 0}};
     Bench b;
     b.start();
     b.speeds(X | Y, 800'000, 1000, 100);

@@ -1,5 +1,6 @@
 // The chip from outside: pulse outputs, encoder inputs, general outputs, listeners and snapshots.
 #include <gtest/gtest.h>
+
 #include <motionrack/cards/mcx314/test/chip_bench.hpp>
 
 namespace motionrack::mcx314::outside {
@@ -25,7 +26,8 @@ TEST(ChipWires, TwoPulseModeHasAWireForEachDirection) {
     short_drive(b, X, 1, 0x21);
     b.advance(microseconds(10));
     // Started at tick 0 the generator works from tick 3 on: pulses at 18 and 34.
-    EXPECT_EQ(log.of("c.xpp"), (std::vector<Change>{{"c.xpp", 1, 18}, {"c.xpp", 0, 26}, {"c.xpp", 1, 34}, {"c.xpp", 0, 42}}));
+    EXPECT_EQ(log.of("c.xpp"),
+              (std::vector<Change>{{"c.xpp", 1, 18}, {"c.xpp", 0, 26}, {"c.xpp", 1, 34}, {"c.xpp", 0, 42}}));
     EXPECT_EQ(log.of("c.xpm"), (std::vector<Change>{{"c.xpm", 1, 98}, {"c.xpm", 0, 106}}));
     EXPECT_EQ(b.lp(X), 1);
 }
@@ -68,7 +70,8 @@ TEST(ChipWires, AWireThatIsOnlyLookedAtShowsTheSameLevelsAtNoCost) {
     for (int i = 0; i < 60'000; ++i) {
         seen.advance(tick);
         followed.advance(tick);
-        for (const char* wire : {"xpp", "ypp", "ypm"}) ASSERT_EQ(seen.level(wire), followed.level(wire)) << wire << " at tick " << i + 1;
+        for (const char* wire : {"xpp", "ypp", "ypm"})
+            ASSERT_EQ(seen.level(wire), followed.level(wire)) << wire << " at tick " << i + 1;
         pulses += seen.level("ypm") > before;
         before = seen.level("ypm");
     }
@@ -204,7 +207,7 @@ TEST(ChipEncoder, WithoutAnEncoderTheLinesThemselvesCount) {
     EXPECT_EQ(b.ep(Z), 1);
 }
 
-// ---- listeners ------------------------------------------------------------------------------------------------------------------
+// ---- listeners ------------------------------------------------------------------------------------------------------
 
 class Watcher final : public sim::MotionListener {
   public:

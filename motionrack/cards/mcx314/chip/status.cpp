@@ -1,0 +1,98 @@
+// The bus: what a read shows.
+#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/map.hpp>
+
+namespace motionrack::mcx314 {
+
+int Chip::first_selected() const {
+    int a = 0;
+    while (a < axes_of_chip - 1 && !(state_.selected >> a & 1u)) ++a;
+    return a;
+}
+
+std::uint16_t Chip::read(std::uint32_t offset) {
+    const Instant now = kernel_.now();
+    catch_up(now);
+    const std::uint16_t value = peek(offset);
+    if (offset == reg::RR3) {
+        state_.axis[first_selected()].flags = 0;
+        for (Axis& axis : state_.axis) axis.gen.special_known = false;
+    }
+    settle(now);
+    return value;
+}
+
+std::uint16_t Chip::peek(std::uint32_t offset) const {
+    switch (offset) {
+        case reg::RR0:
+            return main_status();
+        case reg::RR1:
+            return status1(first_selected());
+        case reg::RR2:
+            return status2(first_selected());
+        case reg::RR3:
+            return state_.axis[first_selected()].flags;
+        case reg::RR4:
+            return static_cast<std::uint16_t>(input_levels(0) | input_levels(1) << 8);
+        case reg::RR5:
+            return static_cast<std::uint16_t>(input_levels(2) | input_levels(3) << 8);
+        case reg::RR6:
+            return state_.rr6;
+        case reg::RR7:
+            return state_.rr7;
+        default:
+            return 0;
+    }
+}
+
+std::uint16_t Chip::main_status() const {
+    unsigned v = 0;
+    for (int a = 0; a < axes_of_chip; ++a) {
+        const Axis& axis = state_.axis[a];
+        const bool out_of_position = bit(axis.wr2, 15) && level(axis, Pin::in_position) != bit(axis.wr2, 14);
+        if (driving(a) || ((state_.in_place >> a & 1u) && out_of_position)) v |= 1u << a;
+        if ((status2(a) & 0x3Fu) != 0 || (axis.finished & 0xF000u) != 0) v |= 1u << (4 + a);
+    }
+    if (state_.chain != 0) {
+        v |= 1u << 8;
+        if (!state_.queued) v |= 1u << 9;
+        if (state_.path.command.arc())
+            v |= static_cast<unsigned>(state_.path.arc.clockwise ? 7 - state_.path.arc.octant : state_.path.arc.octant)
+                 << 10;
+    }
+    return static_cast<std::uint16_t>(v);
+}
+
+std::uint16_t Chip::status1(int a) const {
+    const Axis& axis = state_.axis[a];
+    const Generator& gen = axis.gen;
+    const std::int32_t counter = bit(axis.wr2, 5) ? encoder_position(axis, a) : axis.lp;
+    unsigned v = axis.finished;
+    if (counter >= axis.comp_plus) v |= 1u << 0;
+    if (counter < axis.comp_minus) v |= 1u << 1;
+    if (gen.drive != Drive::idle) {
+        v |= gen.ramp > 0 ? 1u << 2 : gen.ramp < 0 ? 1u << 4 : 1u << 3;
+        if (gen.s_curve && gen.ramp != 0) v |= 1u << (5 + static_cast<int>(gen.phase));
+    }
+    return static_cast<std::uint16_t>(v);
+}
+
+std::uint16_t Chip::status2(int a) const {
+    const Axis& axis = state_.axis[a];
+    unsigned v = 0;
+    if (beyond_software_limit(a)) v |= axis.direction > 0 ? 1u << 0 : 1u << 1;
+    if (level(axis, Pin::limit_plus) == bit(axis.wr2, 3)) v |= 1u << 2;
+    if (level(axis, Pin::limit_minus) == bit(axis.wr2, 4)) v |= 1u << 3;
+    if (bit(axis.wr2, 13) && level(axis, Pin::alarm) == bit(axis.wr2, 12)) v |= 1u << 4;
+    if (!state_.emergency_high) v |= 1u << 5;
+    return static_cast<std::uint16_t>(v);
+}
+
+/// RR4 and RR5: eight input levels of one axis.
+std::uint16_t Chip::input_levels(int a) const {
+    unsigned v = 0;
+    for (int i = 0; i < 8; ++i) v |= static_cast<unsigned>(kernel_.level(inputs_[a][i]) != 0) << i;
+    return static_cast<std::uint16_t>(v);
+}
+
+}  // namespace motionrack::mcx314
