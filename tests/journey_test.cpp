@@ -116,6 +116,26 @@ TEST(Journey, FourAxesTogetherEndExactly) {
     EXPECT_LE(done.outcome.worst.mm, 0.01);
 }
 
+TEST(Journey, ASteeredAxisThatIsThenInterpolatedEndsExactly) {
+    const Done done = drive(router(), "G21 G90\nG1 X4 Y3 Z75 A20 F600\nG1 X0 A0\nM2\n");
+    expect_exact(done.outcome, false);
+    EXPECT_DOUBLE_EQ(done.outcome.axes[3].real_end, 0.0);
+}
+
+TEST(Journey, ASteeredAxisThatTurnsRoundEndsExactly) {
+    const Done done = drive(router(),
+                            "G21 G90\nG0 X150 Y100 Z40\nG2 X149.169 Y101.298 Z50.522 A-5.12 R1.281 F2032\nG1 X75.358 Y82.564 A-89.69 F2698\n"
+                            "G3 X233.471 Y146.362 Z24.944 A86.80 R254.569 F111\nG1 X233.123 Y144.372 Z51.462 A67.19 F485\nM2\n");
+    expect_exact(done.outcome, false);
+    EXPECT_NEAR(done.outcome.axes[3].real_end, 67.19, 1e-9);
+}
+
+TEST(Journey, AHelixBeforeACornerSlowsDownForIt) {
+    const Done done = drive(router(), "G21 G90 G64 P0.005\nG0 X150 Y100 Z40\nG2 X120 Y110 Z30 R40 F4000\nG1 X150 Y100 F4000\nG3 X140 Y90 Z35 R20\nG1 X160\nM2\n");
+    expect_exact(done.outcome, false);
+    EXPECT_LE(done.outcome.worst.mm, 0.007);
+}
+
 TEST(Journey, TheSameProgramGivesTheSameHistory) {
     const std::string program = "G21 G90 F2400\nG1 X20 Y10\nG3 X30 Y20 I0 J10\nG1 X0 Y0 Z70\nM2\n";
     const Done first = drive(router(), program), second = drive(router(), program);

@@ -95,7 +95,9 @@ Result<void> Controller::run(std::string_view text, const std::string& file, Pro
         outcome = take(**step, run);
     }
     // What was read before a problem is driven to its end, so that the machine stands where the program says.
-    if (outcome || outcome.error().trouble == Trouble::bad_input) {
+    const bool axes_stopped =
+        !outcome && (outcome.error().trouble == Trouble::machine || outcome.error().trouble == Trouble::stopped);
+    if (!axes_stopped) {
         planner_.flush();
         Result<void> rest = hand_over();
         if (rest) rest = axes_.finish();

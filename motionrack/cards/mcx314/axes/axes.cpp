@@ -49,6 +49,8 @@ Result<void> Axes::set_up(const control::Point& position) {
 /// At a joint the generator's rate goes on, but a basic pulse is another length of path on each side: the speed of every axis jumps by
 /// the difference, which its start speed must allow.
 double Axes::joint_speed(const control::Geometry& before, const control::Geometry& after) const {
+    // An axis that is steered stands before it is interpolated, or the other way round: its registers are those of one drive only.
+    if (drawing_of(map_, before).companion != drawing_of(map_, after).companion) return 0;
     const double a = basic_pulses_along(map_, drawing_of(map_, before), before.tangent_out);
     const double b = basic_pulses_along(map_, drawing_of(map_, after), after.tangent_in);
     constexpr double reserve = 0.95;  // for whole speed units
@@ -258,10 +260,14 @@ Result<void> Axes::steer_companion(const Segment& segment, const Segment* next) 
         beyond = next->companion_pulses;
     const bool driving = driver_.status().driving(1u << c);
     if (!driving || companion_negative_ != (left < 0)) {
-        if (driving) MOTIONRACK_CHECK(driver_.wait_until_stopped(1u << c, whole_seconds(1)));
-        companion_from_ = at;
+        std::int64_t from = at;
+        if (driving) {  // it ends its way in the other direction first
+            MOTIONRACK_CHECK(driver_.wait_until_stopped(1u << c, whole_seconds(1)));
+            from = driver_.ReadLPS(c);
+        }
+        companion_from_ = from;
         companion_negative_ = left < 0;
-        return start_companion(c, left + beyond, v, beyond == 0);
+        return start_companion(c, companion_target_ - from + beyond, v, beyond == 0);
     }
     const std::int64_t pulses = companion_target_ + beyond - companion_from_;
     MOTIONRACK_CHECK(driver_.Pulse(1u << c, pulses));

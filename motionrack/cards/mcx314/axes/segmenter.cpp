@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/cards/mcx314/arithmetic.hpp>
@@ -125,7 +126,7 @@ void Segmenter::emit(const Work& work, std::optional<double> next_units) {
             if (speeds.fall_from > 0) emit_arcs(work, 0, speeds.fall_from, speeds.top, speeds.acceleration);
             emit_arcs(work, speeds.fall_from, work.path.length, speeds.exit, speeds.acceleration);
             break;
-        case Shape::chords: emit_chords(work, speeds, rests); break;
+        case Shape::chords: emit_chords(work, speeds); break;
         default: emit_straight(work, speeds); break;
     }
     if (rests) {
@@ -152,7 +153,7 @@ void Segmenter::close_chain() {
 }
 
 void Segmenter::emit_straight(const Work& work, const Speeds& speeds) {
-    if (work.companion >= 0) return emit_chords(work, speeds, false);
+    if (work.companion >= 0) return emit_chords(work, speeds);
     if (speeds.fall_from > 0) emit_line(work, pulses_at(work, speeds.fall_from), speeds.top, speeds.acceleration);
     emit_line(work, work.to, speeds.exit, speeds.acceleration);
 }
@@ -199,7 +200,7 @@ bool Segmenter::emit_s_curve(const Work& work) {
     return true;
 }
 
-void Segmenter::emit_chords(const Work& work, const Speeds& speeds, bool rests) {
+void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
     const bool arc = work.path.shape == control::PathShape::arc;
     double count = 1, deviation = 0;
     if (arc) {
@@ -218,26 +219,53 @@ void Segmenter::emit_chords(const Work& work, const Speeds& speeds, bool rests) 
     const double step = work.path.length / count;
     // A companion is told its speed once a piece, so the speeds of the pieces rise and fall more slowly than it can follow.
     const double top_speed = work.move.cruise, accel = work.companion >= 0 ? companion_share * work.move.accel : work.move.accel;
-    const double exit_speed = rests ? 0 : work.move.exit;
+    // First the speeds that the limits allow, from the start; then, from the end, what the chip can brake: the basic pulses for a mm change
+    // from chord to chord, so this is counted in the chip's own pulses and speed units.
+    struct Chord {
+        double to = 0;
+        Pulses4 at = {};
+        double v = 0;
+        std::int32_t acceleration = 1;
+    };
+    std::vector<Chord> chords(static_cast<std::size_t>(count));
     double units_before = work.units_in;
-    for (double i = 0; i < count; ++i) {
-        const double to = i + 1 < count ? (i + 1) * step : work.path.length;
-        const double units = arc ? units_along(work, control::tangent_at(work.path, to - step / 2)) : work.units_in;
-        const double next = i + 1 < count && arc ? units_along(work, control::tangent_at(work.path, to + step / 2)) : units;
-        const double left = work.path.length - to;
-        const double slowed = std::sqrt(squared(exit_speed) + 2 * accel * std::max(0.0, left - fall_length(units, {0, 2, 1, speeds.acceleration})));
-        const double raised = work.companion >= 0 ? std::sqrt(squared(work.move.entry) + 2 * accel * to) : top_speed;
-        std::int32_t v = speed_units(std::min(units, next), std::min({top_speed, slowed, raised}));
-        if (i + 1 >= count) v = std::min(v, speeds.exit);
-        v = std::max(v, std::min(speeds.exit, speeds.top));
-        emit_line(work, pulses_at(work, to), v, acceleration_units(std::max(units, units_before), work.move.accel));
+    for (std::size_t i = 0; i < chords.size(); ++i) {
+        Chord& chord = chords[i];
+        const bool last = i + 1 == chords.size();
+        chord.to = last ? work.path.length : static_cast<double>(i + 1) * step;
+        chord.at = pulses_at(work, chord.to);
+        const double units = arc ? units_along(work, control::tangent_at(work.path, chord.to - step / 2)) : work.units_in;
+        const double next = arc && !last ? units_along(work, control::tangent_at(work.path, chord.to + step / 2)) : units;
+        const double raised = work.companion >= 0 ? std::sqrt(squared(work.move.entry) + 2 * accel * chord.to) : top_speed;
+        chord.v = speed_units(std::min(units, next), std::min(top_speed, raised));
+        chord.acceleration = acceleration_units(std::max(units, units_before), work.move.accel);
         units_before = units;
     }
-    if (at_ != work.to) {  // what is left of a companion after the last pulse of the others
-        Work alone = work;
-        alone.companion = -1;
-        emit_line(alone, work.to, speeds.exit, speeds.acceleration);
+    chords.back().v = std::min<double>(chords.back().v, speeds.exit);
+    for (std::size_t i = chords.size() - 1; i > 0; --i) {
+        const Chord& after = chords[i];
+        std::int64_t pulses = 0;
+        for (std::size_t c = 0; c < after.at.size(); ++c)
+            if (static_cast<int>(c) != work.companion) pulses = std::max<std::int64_t>(pulses, std::llabs(after.at[c] - chords[i - 1].at[c]));
+        const double share = work.companion >= 0 ? companion_share : 1;
+        // V units squared; less the steps of whole units and the register accesses before the new speed counts.
+        const double slope = 125.0 * after.acceleration * share, spent = latency_seconds_ + 64'000.0 / after.acceleration / 8e6 * 2;
+        const double room = std::max(0.0, (static_cast<double>(pulses) - 2) / pulses_per_v_ - spent * chords[i - 1].v);
+        chords[i - 1].v = std::min(chords[i - 1].v, std::floor(std::sqrt(squared(after.v) + 2 * slope * room)));
     }
+    for (const Chord& chord : chords)
+        emit_line(work, chord.at, std::max(static_cast<std::int32_t>(chord.v), std::min(speeds.exit, speeds.top)), chord.acceleration);
+    if (at_ == work.to) return;
+    // What is left of a companion after the last pulse of the others belongs to their last piece.
+    const auto c = static_cast<std::size_t>(std::max(0, work.companion));
+    if (work.companion >= 0 && !ready_.empty() && ready_.back().block == work.block && ready_.back().companion_channel == work.companion) {
+        ready_.back().companion_pulses += static_cast<std::int32_t>(work.to[c] - at_[c]);
+        at_[c] = work.to[c];
+        return;
+    }
+    Work alone = work;
+    alone.companion = -1;
+    emit_line(alone, work.to, speeds.exit, speeds.acceleration);
 }
 
 void Segmenter::emit_arcs(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration) {
@@ -298,6 +326,16 @@ void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, s
         longest = std::max(longest, delta < 0 ? -delta : delta);
     }
     if (count == 0) return;  // less than half a pulse; a companion's pulses stay for the next piece
+    if (count > 3) {  // a pulse or two that an arc left beside its end: they wait for a piece with room, at the latest for the standstill
+        int least = 0;
+        auto size = [&](int i) { return std::llabs(to[static_cast<std::size_t>(moving[static_cast<std::size_t>(i)])] - at_[static_cast<std::size_t>(moving[static_cast<std::size_t>(i)])]); };
+        for (int i = 1; i < count; ++i)
+            if (size(i) < size(least)) least = i;
+        Pulses4 without = to;
+        const auto left = static_cast<std::size_t>(moving[static_cast<std::size_t>(least)]);
+        without[left] = at_[left];
+        return emit_line(work, without, v, acceleration);
+    }
     if (longest > longest_line) {
         Pulses4 half = at_;
         for (std::size_t c = 0; c < half.size(); ++c) half[c] += (to[c] - at_[c]) / 2;

@@ -71,7 +71,7 @@ class Segmenter {
     void emit_straight(const Work& work, const Speeds& speeds);
     void emit_arcs(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration);
     bool emit_fitted_arc(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration);
-    void emit_chords(const Work& work, const Speeds& speeds, bool rests);
+    void emit_chords(const Work& work, const Speeds& speeds);
     void emit_line(const Work& work, const Pulses4& to, std::int32_t v, std::int32_t acceleration);
     void append(Segment segment, const Work& work, const Pulses4& to);
     void close_chain();
