@@ -30,24 +30,15 @@ class Mcx314Card final : public Card {
     sim::VirtualPort& port() override { return port_; }
 
     Result<control::PathAxes*> path_axes(const RackConfig& config, const control::Point& position) override {
-        mcx314::AxisMap map;
-        map.limits = config.limits();
-        map.arc_tolerance_mm = config.controller.arc_tolerance_mm;
-        for (const RackAxis& axis : config.axes)
-            if (axis.card == name_) map.channel[static_cast<std::size_t>(axis.index())] = channel_number(axis.channel);
-        axes_.emplace(driver_, map, access_);
+        axes_.emplace(driver_, axis_map(config), access_);
         MOTIONRACK_CHECK(axes_->set_up(position));
         return &*axes_;
     }
 
     double kept_back() const override { return mcx314::Axes::kept_back; }
     double jump_hz(const RackConfig& config) const override {
-        mcx314::AxisMap map;
-        map.limits = config.limits();
-        for (const RackAxis& axis : config.axes)
-            if (axis.card == name_) map.channel[static_cast<std::size_t>(axis.index())] = channel_number(axis.channel);
         // A ramp changes the rate by one speed unit at a time, of the long axis or of two axes stepping together.
-        return 1.5 * 8e6 / mcx314::Segmenter::best_range(map);
+        return 1.5 * 8e6 / mcx314::Segmenter::best_range(axis_map(config));
     }
     std::int64_t segments() const override { return axes_ ? axes_->segments() : 0; }
     std::int64_t pulses_made(int channel) override { return chip_.pulses_made(channel); }
@@ -56,6 +47,15 @@ class Mcx314Card final : public Card {
     std::string describe(const sim::Condition& condition) const override { return mcx314::describe(condition, name_); }
 
   private:
+    mcx314::AxisMap axis_map(const RackConfig& config) const {
+        mcx314::AxisMap map;
+        map.limits = config.limits();
+        map.arc_tolerance_mm = config.controller.arc_tolerance_mm;
+        for (const RackAxis& axis : config.axes)
+            if (axis.card == name_) map.channel[static_cast<std::size_t>(axis.index())] = channel_number(axis.channel);
+        return map;
+    }
+
     std::string name_;
     Duration access_;
     mcx314::Chip chip_;

@@ -66,7 +66,7 @@ std::string Rack::wire_name(const WireEnd& end) const {
 }
 
 void Rack::build_wires() {
-    estop_ = kernel_.add_wire("estop", 1);
+    kernel_.add_wire("estop", 1);
     junctions_ = std::make_unique<sim::Junctions>(kernel_, "wiring");
     for (const RackWire& wire : config_.wires) {
         const sim::WireId from = kernel_.find_wire(wire_name(wire.from));

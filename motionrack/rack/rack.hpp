@@ -67,7 +67,6 @@ class Rack {
     std::vector<std::unique_ptr<Card>> cards_;
     std::vector<RunningAxis> axes_;
     std::unique_ptr<sim::Junctions> junctions_;
-    sim::WireId estop_ = sim::WireId::none;
 };
 
 }  // namespace motionrack::rack

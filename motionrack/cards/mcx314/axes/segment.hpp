@@ -33,7 +33,6 @@ struct Segment {
     std::int32_t block = 0;                    ///< number of the planned move, from 0
     std::int32_t line = 0;                     ///< line of the part program
     double seconds = 0;                        ///< pause only
-    double expected_seconds = 0;               ///< about how long it takes at `speed`
 };
 
 }  // namespace motionrack::mcx314

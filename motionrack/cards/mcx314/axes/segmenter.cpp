@@ -378,10 +378,6 @@ void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
         segment.companion_channel = work.companion;
         segment.companion_pulses = static_cast<std::int32_t>(to[c] - at_[c]);
     }
-    std::int64_t longest = 0;
-    for (std::size_t c = 0; c < to.size(); ++c)
-        if (static_cast<int>(c) != work.companion) longest = std::max(longest, to[c] > at_[c] ? to[c] - at_[c] : at_[c] - to[c]);
-    segment.expected_seconds = static_cast<double>(longest) / (segment.speed * pulses_per_v_);
     at_ = to;
     ready_.push_back(segment);
 }

@@ -31,7 +31,6 @@ class Segmenter {
     /// No more moves: everything comes out.
     void finish();
 
-    bool empty() const { return ready_.empty(); }
     std::size_t ready() const { return ready_.size(); }
     const Segment& operator[](std::size_t i) const { return ready_[i]; }
     void pop() { ready_.pop_front(); }
