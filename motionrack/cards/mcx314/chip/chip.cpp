@@ -1,15 +1,14 @@
 // The chip in the rack: time, wires, listeners and the encoders behind EP.
 #include <fmt/format.h>
 
-#include <limits>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/ramp.hpp>
 #include <utility>
 
 namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr std::int64_t far = std::numeric_limits<std::int64_t>::max() / 4;
 constexpr const char* axis_letters = "xyzu";
 constexpr std::array<const char*, 10> input_names = {"in0",  "in1",   "in2",   "in3",  "expp",
                                                      "expm", "inpos", "alarm", "lmtp", "lmtm"};
@@ -238,10 +237,11 @@ void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {
 std::int64_t Chip::count_at(int a, Instant t) const {
     const Axis& axis = state_.axis[a];
     const bool on_path = (state_.chain >> a & 1u) != 0;
-    const Generator& gen = state_.axis[on_path ? state_.master : a].gen;
+    const int generator = on_path ? state_.master : a;
+    const Generator& gen = state_.axis[generator].gen;
     const std::int64_t ticks = tick_of(t) - gen.at - gen.wait;
     if (gen.drive == Drive::idle || ticks <= 0) return axis.count;
-    const std::int64_t pulses = pulses_in(gen, ticks);
+    const std::int64_t pulses = pulses_of(gen, phase_in(generator, ticks));
     if (!on_path) return axis.count + pulses * axis.direction;
     const std::array<std::int64_t, 3> steps = path_steps(pulses);
     for (int i = 0; i < state_.path.command.count; ++i)
@@ -253,9 +253,11 @@ std::int64_t Chip::count_at(int a, Instant t) const {
 double Chip::rate_of(int a, Instant t) const {
     const Axis& axis = state_.axis[a];
     const bool on_path = (state_.chain >> a & 1u) != 0;
-    const Generator& gen = state_.axis[on_path ? state_.master : a].gen;
+    const int generator = on_path ? state_.master : a;
+    const Generator& gen = state_.axis[generator].gen;
     if (gen.drive == Drive::idle) return 0;
-    const double phase = 8e6 * static_cast<double>(gen.speed);
+    const std::int64_t ticks = std::max<std::int64_t>(0, tick_of(t) - gen.at - gen.wait);
+    const double phase = 8e6 * static_cast<double>(gen.walks ? walk(generator, ticks, far).law.speed : gen.speed);
     if (!on_path) return phase / static_cast<double>(gen.range_now) * axis.direction;
     const Path& path = state_.path;
     const double r1 = static_cast<double>(path.range_for[0]);
@@ -265,8 +267,7 @@ double Chip::rate_of(int a, Instant t) const {
         const double sign = path_direction(i);
         if (path.command.arc()) {
             const int s = rules::octants[path.arc.octant].short_axis;
-            const std::int64_t ticks = tick_of(t) - gen.at - gen.wait;
-            const auto at = path.arc.after(ticks > 0 ? pulses_in(gen, ticks) : 0);
+            const auto at = path.arc.after(pulses_of(gen, phase_in(generator, ticks)));
             const double slope = std::min(
                 1.0, std::fabs(static_cast<double>(at[s])) / std::max(1.0, std::fabs(static_cast<double>(at[1 - s]))));
             const double basic = phase / (r1 + extra * slope);

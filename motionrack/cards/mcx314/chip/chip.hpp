@@ -148,7 +148,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void compare(int a);
     std::uint32_t moved_by(int generator) const;
     void begin_segment(const PathCommand& command);
-    void mark_pulse(int a, unsigned stepped, std::int64_t tick);
+    void mark_pulse(int a, unsigned stepped, const PulseMoment& at);
     bool path_finished() const;
     int path_direction(int i) const;
 
@@ -173,14 +173,23 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     bool walks_pulses(int a) const;
     std::int64_t phase_for(const Generator& gen, std::int64_t pulses) const;
     std::int64_t extra_steps(std::int64_t pulses) const;
-    std::int64_t pulses_in(const Generator& gen, std::int64_t ticks) const;
+    std::int64_t pulses_of(const Generator& gen, std::int64_t added) const;
     std::array<std::int64_t, 3> path_steps(std::int64_t pulses) const;
     void skip_to(std::int64_t tick);
     void bring_up(int a, std::int64_t tick);
     void skip_phase(int a, std::int64_t ticks);
     void skip_speed(Axis& axis, std::int64_t ticks) const;
-    void skip_pulses(int a, std::int64_t pulses, std::int64_t tick);
+    void skip_pulses(int a, std::int64_t pulses, const PulseMoment& last);
     void look_at_in_position();
+
+    // ramp.cpp: many steps of a speed that nobody hears
+    bool some_unheard() const { return (listened_ | state_.following) != (1u << axes_of_chip) - 1; }
+    bool may_walk(int a) const;
+    Walk walk(int a, std::int64_t tick_limit, std::int64_t phase_limit) const;
+    void walk_ahead(int a, std::int64_t phase_limit);
+    std::int64_t phase_in(int a, std::int64_t ticks) const;
+    PulseMoment last_pulse(int a, std::int64_t pulses, std::int64_t ticks) const;
+    void bring_along(int a, std::int64_t to);
 
     // edges.cpp
     bool edges_wanted(int a) const;

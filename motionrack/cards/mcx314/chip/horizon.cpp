@@ -2,35 +2,17 @@
 //
 //   tick    |--------- plain ticks, pulses in closed form ---------|  interesting tick, worked off by the rules
 //           now                                        speed step, special pulse, input ..
-#include <limits>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/ramp.hpp>
 
 namespace motionrack::mcx314 {
-
-namespace {
-
-constexpr std::int64_t far = std::numeric_limits<std::int64_t>::max() / 4;
-
-/// Ticks until va reaches 64,000; small numbers, divided as such.
-std::int64_t ticks_to_carry(std::int64_t speed_part, std::int64_t rate) {
-    const auto left = static_cast<std::uint32_t>(rules::speed_carry - speed_part),
-               each = static_cast<std::uint32_t>(rate);
-    return (left + each - 1) / each;
-}
-
-/// In an S-ramp whose rate stays, ja goes round without effect.
-bool keeps_rate(const Generator& gen) {
-    return gen.phase == Phase::constant || (gen.phase == Phase::decreasing && gen.rate <= 1);
-}
-
-}  // namespace
 
 // ---- the next interesting tick --------------------------------------------------------------------------------------
 
 /// The next tick at which generator `a` does more than add up, and whether that is a step of its speed only.
 void Chip::find_next_tick(int a) {
     Generator& gen = state_.axis[a].gen;
-    gen.plain = false;
+    gen.plain = gen.walks = false;
     if (gen.wait > 0 || gen.look) {
         gen.next_tick = state_.tick + gen.wait + 1;
         if (gen.special_known) return;
@@ -46,12 +28,15 @@ void Chip::find_next_tick(int a) {
     if (gen.next_special >= far) {
         gen.plain = true;
         if (ticks >= far) gen.next_tick = far;
+        if (some_unheard()) walk_ahead(a, far);
         return;
     }
     const std::int64_t phase = phase_for(gen, gen.next_special - gen.n) - gen.acc;
     gen.plain = ticks < far && ticks * gen.speed < phase;
     if (!gen.plain)
         gen.next_tick = state_.tick + std::max<std::int64_t>(1, quick_div(phase + gen.speed - 1, gen.speed));
+    else if (some_unheard())
+        walk_ahead(a, phase);
 }
 
 std::int64_t Chip::ticks_to_speed_event(const Axis& axis) const {
@@ -62,15 +47,11 @@ std::int64_t Chip::ticks_to_speed_event(const Axis& axis) const {
         const int want = to > gen.speed ? 1 : to < gen.speed ? -1 : 0;
         if (want != gen.ramp) return 1;
         if (gen.ramp == 0) return far;
-        const bool own = gen.ramp < 0 && gen.own_deceleration;
-        return ticks_to_carry(gen.speed_part, rules::used_speed(own ? axis.decel : axis.accel));
+        return ticks_to_carry(gen.speed_part, ramp_rate(axis, gen));
     }
     if (gen.final && !gen.final_seen) return 1;
     if (gen.ramp == 0) return gen.speed != to ? 1 : far;
-    const std::int64_t step = gen.rate > 0 ? ticks_to_carry(gen.speed_part, gen.rate) : far;
-    if (keeps_rate(gen)) return step;
-    return std::max<std::int64_t>(
-        1, std::min(rules::jerk_ticks_per_k * rules::used_jerk(axis.jerk) - gen.rate_part, step));
+    return s_ticks(gen, jerk_ticks(axis));
 }
 
 /// Basic pulses until one does more than step its axes (>= 1), far if never.
@@ -197,9 +178,9 @@ std::int64_t Chip::phase_for(const Generator& gen, std::int64_t pulses) const {
     return phase;
 }
 
-/// Basic pulses in the next `ticks` plain working ticks.
-std::int64_t Chip::pulses_in(const Generator& gen, std::int64_t ticks) const {
-    const std::int64_t phase = gen.acc + ticks * gen.speed;
+/// Basic pulses in the next plain working ticks, in which the speed adds up to `added`.
+std::int64_t Chip::pulses_of(const Generator& gen, std::int64_t added) const {
+    const std::int64_t phase = gen.acc + added;
     if (phase < gen.range_now) return 0;
     if (gen.drive != Drive::path) return quick_div(phase, gen.range_now);
     const auto& range = state_.path.range_for;
@@ -248,6 +229,7 @@ void Chip::bring_up(int a, std::int64_t to) {
     Axis& axis = state_.axis[a];
     const std::int64_t ticks = to - axis.gen.at;
     if (ticks <= 0) return;
+    if (axis.gen.walks) return bring_along(a, to);
     skip_speed(axis, ticks);
     skip_phase(a, ticks);
     axis.gen.at = to;
@@ -258,13 +240,8 @@ void Chip::skip_speed(Axis& axis, std::int64_t ticks) const {
     Generator& gen = axis.gen;
     if (gen.ramp == 0) return;
     ticks -= std::min<std::int64_t>(gen.wait, ticks);
-    if (gen.s_curve) {
-        gen.rate_part += ticks;
-        const std::int64_t jerk = rules::jerk_ticks_per_k * rules::used_jerk(axis.jerk);
-        if (gen.rate_part >= jerk && ticks > 0)
-            gen.rate_part = (std::min(gen.rate_part - ticks, jerk - 1) + ticks) % jerk;
-    } else if (ticks > 0)
-        gen.rate = rules::used_speed(gen.ramp < 0 && gen.own_deceleration ? axis.decel : axis.accel);
+    if (gen.s_curve) return s_skip(gen, ticks, jerk_ticks(axis));
+    if (ticks > 0) gen.rate = ramp_rate(axis, gen);
     gen.speed_part += ticks * gen.rate;
 }
 
@@ -275,16 +252,16 @@ void Chip::skip_phase(int a, std::int64_t ticks) {
     gen.wait -= static_cast<std::int32_t>(waited);
     ticks -= waited;
     if (ticks <= 0) return;
-    const std::int64_t pulses = pulses_in(gen, ticks);
+    const std::int64_t pulses = pulses_of(gen, ticks * gen.speed);
     if (pulses > 0 && edges_wanted(a)) make_edges(a, waited, pulses);
     gen.acc += ticks * gen.speed;
     if (pulses == 0) return;
     gen.acc -= phase_for(gen, pulses);
-    skip_pulses(a, pulses, gen.at + waited + ticks);
+    skip_pulses(a, pulses, {gen.at + waited + ticks, gen.acc, gen.speed});
 }
 
-/// The next `pulses` basic pulses, acc being what it is at tick `at`, after them.
-void Chip::skip_pulses(int a, std::int64_t pulses, std::int64_t at) {
+/// The next `pulses` basic pulses; when the last of them comes.
+void Chip::skip_pulses(int a, std::int64_t pulses, const PulseMoment& last) {
     Generator& gen = state_.axis[a].gen;
     auto add = [this](int i, std::int64_t steps) {
         if (steps == 0) return;
@@ -315,7 +292,7 @@ void Chip::skip_pulses(int a, std::int64_t pulses, std::int64_t at) {
     gen.n += pulses;
     if (gen.ramp > 0) gen.accel_pulses += pulses;
     if (gen.ramp < 0 && !gen.final) gen.accel_pulses = std::max<std::int64_t>(0, gen.accel_pulses - pulses);
-    mark_pulse(a, stepped, at);
+    mark_pulse(a, stepped, last);
 }
 
 }  // namespace motionrack::mcx314

@@ -1,16 +1,12 @@
 // The third step of a tick: the speed moves towards its target, by a straight or an S-shaped ramp (RULES.md).
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/ramp.hpp>
 
 namespace motionrack::mcx314 {
 
 namespace {
 constexpr unsigned flag_constant_end = 1u << 5;
 constexpr unsigned flag_constant_start = 1u << 6;
-
-std::int64_t ramp_rate(const Axis& axis) {
-    const bool own = axis.gen.ramp < 0 && axis.gen.own_deceleration;
-    return rules::used_speed(own ? axis.decel : axis.accel);
-}
 }  // namespace
 
 /// True if the drive ended.
@@ -63,7 +59,7 @@ void Chip::t_curve(int a) {
         gen.speed_part = 0;
     }
     if (gen.ramp == 0) return;
-    gen.rate = ramp_rate(axis);
+    gen.rate = ramp_rate(axis, gen);
     gen.speed_part += gen.rate;
     if (gen.speed_part >= rules::speed_carry) {
         gen.speed_part -= rules::speed_carry;
@@ -108,27 +104,9 @@ void Chip::s_turn_final(int a) {
 void Chip::s_advance(int a) {
     Axis& axis = state_.axis[a];
     Generator& gen = axis.gen;
-    const std::int64_t jerk_ticks = rules::jerk_ticks_per_k * rules::used_jerk(axis.jerk);
-    if (++gen.rate_part >= jerk_ticks) {
-        gen.rate_part = 0;
-        if (gen.phase == Phase::increasing) {
-            if (++gen.rate >= ramp_rate(axis)) gen.phase = Phase::constant;
-        } else if (gen.phase == Phase::decreasing && gen.rate > 1) {
-            --gen.rate;
-        }
-    }
-    gen.speed_part += gen.rate;
-    if (gen.speed_part < rules::speed_carry) return;
-    gen.speed_part -= rules::speed_carry;
-    gen.speed += gen.ramp;
-    if (gen.phase == Phase::increasing) ++gen.speed_steps;
-    if (gen.speed == gen.aim) {
-        set_ramp(a, 0);
-        gen.speed_part = gen.rate_part = 0;
-    } else if (gen.phase != Phase::decreasing && rules::magnitude(gen.aim - gen.speed) <= gen.speed_steps) {
-        gen.rate_part = jerk_ticks - gen.rate_part;
-        gen.phase = Phase::decreasing;
-    }
+    if (!s_tick(gen, jerk_ticks(axis), ramp_rate(axis, gen))) return;
+    set_ramp(a, 0);
+    gen.speed_part = gen.rate_part = 0;
 }
 
 }  // namespace motionrack::mcx314

@@ -46,23 +46,42 @@ struct Path {
     std::array<std::int64_t, 3> range_for{};  ///< Rnow when one, two, three axes stepped
 };
 
-/// One speed generator.
-struct Generator {
-    Drive drive = Drive::idle;
+/// A speed and the ramp it is on.
+struct Speed {
+    std::int64_t speed = 0, speed_part = 0;  ///< CV, va
+    std::int64_t rate = 0, rate_part = 0;    ///< CA, ja
+    std::int64_t speed_steps = 0, aim = 0;   ///< dvup; where an S-ramp goes
+    std::int32_t ramp = 0;
     Phase phase = Phase::increasing;
+    std::array<std::uint8_t, 3> reserved{};
+};
+
+/// Steps of a speed up to some tick, the steps' ticks included, in which nothing but the speed changes.
+struct Walk {
+    Speed law;                                    ///< after them
+    std::int64_t ticks = 0;                       ///< how long they take
+    std::int64_t phase = 0;                       ///< what the speed adds up to in these ticks
+    std::int64_t last_phase = 0, last_speed = 0;  ///< of the last step
+};
+
+/// When a pulse came: at `tick`, or in closed form at tick - acc / speed.
+struct PulseMoment {
+    std::int64_t tick = 0, acc = 0, speed = 0;
+};
+
+/// One speed generator.
+struct Generator : Speed {
+    Drive drive = Drive::idle;
     bool manual = false, own_deceleration = false, s_curve = false;
     bool final = false, final_seen = false, stopping = false, constant = false;
     bool ask_decelerating = false, ask_immediate = false;
     bool look = false;           ///< the next working tick must be worked in full (inputs, limits or commands changed)
     bool special_known = false;  ///< next_special is up to date
     bool plain = false;          ///< what comes at next_tick is a step of the speed and nothing else
+    bool walks = false;          ///< plain, and there are more such steps on the way there: State::ahead
     std::array<std::uint8_t, 2> reserved{};
-    std::int32_t wait = 0;
-    std::int32_t ramp = 0;
+    std::int64_t wait = 0;
     std::int64_t range = 0, range_now = 0, acc = 0;
-    std::int64_t speed = 0, speed_part = 0;  ///< CV, va
-    std::int64_t rate = 0, rate_part = 0;    ///< CA, ja
-    std::int64_t speed_steps = 0, aim = 0;   ///< dvup
     std::int64_t n = 0, accel_pulses = 0;
     std::int64_t next_special = 0;  ///< the next n at which more happens than a plain pulse
     std::int64_t next_tick = 0;     ///< the next tick that is not plain closed form
@@ -133,6 +152,7 @@ struct State {
     std::uint32_t crossed = 0;    ///< axes of which a watched count may have been left
     Path path;
     PathCommand queue;
+    std::array<Walk, axes_of_chip> ahead{};  ///< of generators that walk, from `at` to next_tick
 };
 
 static_assert(std::has_unique_object_representations_v<State>, "equal chips have equal bytes: no padding");

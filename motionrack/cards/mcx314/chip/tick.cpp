@@ -18,6 +18,8 @@ void Chip::work_off(std::int64_t to) {
         const bool path = axis.gen.drive == Drive::path;
         if (axis.gen.next_tick > to) {
             if (path) bring_up(a, to);
+        } else if (axis.gen.walks) {
+            bring_along(a, to);
         } else if (axis.gen.plain) {
             skip_speed(axis, to - axis.gen.at - 1);
             skip_phase(a, to - axis.gen.at);
@@ -159,7 +161,7 @@ bool Chip::pulse(int a) {
     if (gen.ramp > 0) ++gen.accel_pulses;
     if (gen.ramp < 0 && !gen.final && gen.accel_pulses > 0) --gen.accel_pulses;
     if (gen.n >= gen.next_special) gen.special_known = false;
-    mark_pulse(a, moved_last_, state_.tick);
+    mark_pulse(a, moved_last_, {state_.tick, gen.acc, gen.speed});
     bool beyond = false;
     const std::uint32_t moved = moved_by(a);
     for (int i = 0; i < axes_of_chip; ++i) beyond = beyond || ((moved >> i & 1) && beyond_software_limit(i));
@@ -215,13 +217,13 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
 }
 
 /// The wires of the generator's axes after a basic pulse: `stepped` have a new pulse, the others' last one is over.
-void Chip::mark_pulse(int a, unsigned stepped, std::int64_t tick_now) {
+void Chip::mark_pulse(int a, unsigned stepped, const PulseMoment& at) {
     const Generator& gen = state_.axis[a].gen;
     for_each_axis(moved_by(a), [&](int i) {
         Axis& axis = state_.axis[i];
-        axis.mark = {tick_now,
-                     gen.acc,
-                     stepped >> i & 1 ? static_cast<std::int32_t>(gen.speed) : 0,
+        axis.mark = {at.tick,
+                     at.acc,
+                     stepped >> i & 1 ? static_cast<std::int32_t>(at.speed) : 0,
                      static_cast<std::int32_t>(gen.range_now),
                      axis.direction,
                      0};

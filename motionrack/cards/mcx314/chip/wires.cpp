@@ -39,14 +39,16 @@ void Chip::update_outputs() {
 PulseMark Chip::mark_at(int a, std::int64_t to) const {
     const Axis& axis = state_.axis[a];
     const bool on_path = (state_.chain >> a & 1u) != 0;
-    const Generator& gen = state_.axis[on_path ? state_.master : a].gen;
+    const int generator = on_path ? state_.master : a;
+    const Generator& gen = state_.axis[generator].gen;
     const std::int64_t ticks = to - gen.at - gen.wait;
     if (gen.drive == Drive::idle || ticks <= 0) return axis.mark;
-    const std::int64_t pulses = pulses_in(gen, ticks);
+    const std::int64_t pulses = pulses_of(gen, phase_in(generator, ticks));
     if (pulses == 0) return axis.mark;
-    PulseMark mark{to,
-                   gen.acc + ticks * gen.speed - phase_for(gen, pulses),
-                   static_cast<std::int32_t>(gen.speed),
+    const PulseMoment last = last_pulse(generator, pulses, ticks);
+    PulseMark mark{last.tick,
+                   last.acc,
+                   static_cast<std::int32_t>(last.speed),
                    static_cast<std::int32_t>(gen.range_now),
                    axis.direction,
                    0};

@@ -1,0 +1,145 @@
+// Many steps of a speed at once, where nobody hears of each: a ramp is then one event.
+//
+//   speed            ┌──            One step after the other is added up, from tick `at` to the last step before
+//              ┌─────┘              - the pulse at which more happens than a pulse (`phase_limit`),
+//        ┌─────┘  phase             - the step that reaches the ramp's aim, or
+//    ────┘                          - tick `at` + `tick_limit`.
+//      at ├── ticks ──┤
+#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/ramp.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+constexpr int longest_walk = 512;  // steps: a change in between costs no more than to walk them again
+
+/// Straight: the ticks of a step are 64,000 / rate, and one more where the remainder asks for it.
+Walk t_walk(const Speed& from, std::int64_t rate, std::int64_t to, std::int64_t tick_limit, std::int64_t phase_limit) {
+    Walk walk{from};
+    const std::int64_t steps = std::min<std::int64_t>(longest_walk, rules::magnitude(to - from.speed) - 1);
+    const std::int64_t whole = rules::speed_carry / rate, rest = rules::speed_carry % rate;
+    std::int64_t part = from.speed_part, speed = from.speed;
+    std::int64_t each = ticks_to_carry(part, rate);
+    for (std::int64_t i = 0; i < steps; ++i) {
+        const std::int64_t phase = walk.phase + each * speed;
+        if (phase >= phase_limit || walk.ticks + each > tick_limit) break;
+        walk.phase = phase;
+        walk.ticks += each;
+        walk.last_phase = each * speed;
+        walk.last_speed = speed;
+        part += each * rate - rules::speed_carry;
+        speed += from.ramp;
+        each = rest > part ? whole + 1 : whole;
+    }
+    if (walk.ticks > 0) walk.law.rate = rate;
+    walk.law.speed = speed;
+    walk.law.speed_part = part;
+    return walk;
+}
+
+/// S-shaped: the same, with a rate that changes now and then; ends one step of the speed before the aim, or before SV
+/// where that is the end of a stop.
+Walk s_walk(const Speed& from, const Axis& axis, std::int64_t tick_limit, std::int64_t phase_limit) {
+    const std::int64_t jerk = jerk_ticks(axis), top_rate = ramp_rate(axis, from);
+    const std::int64_t end = axis.gen.stopping ? rules::used_speed(axis.start_speed) : -1;
+    Speed law = from;
+    std::int64_t rate = 0, whole = 0, rest = 0, ticks = 0, sum = 0, last_phase = 0, last_speed = 0;
+    for (int i = 0; i < longest_walk; ++i) {
+        const std::int64_t next = law.speed + law.ramp;
+        if (next == law.aim || next <= end) break;
+        if (law.rate != rate) {
+            rate = law.rate;
+            whole = rules::speed_carry / rate;
+            rest = rules::speed_carry % rate;
+        }
+        std::int64_t each = far;
+        if (rate > 0)
+            each = law.speed_part < rate ? whole + (rest > law.speed_part) : ticks_to_carry(law.speed_part, rate);
+        if (!keeps_rate(law)) each = std::max<std::int64_t>(1, std::min(jerk - law.rate_part, each));
+        const std::int64_t phase = each * law.speed;
+        if (each > tick_limit - ticks || sum + phase >= phase_limit) break;
+        last_phase = phase;
+        last_speed = law.speed;
+        s_skip(law, each - 1, jerk);
+        s_tick(law, jerk, top_rate);
+        sum += phase;
+        ticks += each;
+    }
+    return {law, ticks, sum, last_phase, last_speed};
+}
+
+}  // namespace
+
+/// Whether generator `a` is on a ramp of which nobody hears each step.
+bool Chip::may_walk(int a) const {
+    const Axis& axis = state_.axis[a];
+    const Generator& gen = axis.gen;
+    if (gen.ramp == 0 || (moved_by(a) & (listened_ | state_.following)) != 0) return false;
+    if (gen.stopping && gen.speed <= rules::used_speed(axis.start_speed)) return false;
+    if (gen.s_curve) return !gen.final || gen.final_seen;
+    const std::int64_t to = target(axis);
+    return (to - gen.speed) * gen.ramp > 0;
+}
+
+/// Steps of generator `a` from where it is.
+Walk Chip::walk(int a, std::int64_t tick_limit, std::int64_t phase_limit) const {
+    const Axis& axis = state_.axis[a];
+    const Generator& gen = axis.gen;
+    return gen.s_curve ? s_walk(gen, axis, tick_limit, phase_limit)
+                       : t_walk(gen, ramp_rate(axis, gen), target(axis), tick_limit, phase_limit);
+}
+
+/// The steps after the one at next_tick, if there are any before `phase_limit`, are done together with it.
+void Chip::walk_ahead(int a, std::int64_t phase_limit) {
+    Generator& gen = state_.axis[a].gen;
+    if (!may_walk(a)) return;
+    const Walk& ahead = state_.ahead[a] = walk(a, far, phase_limit);
+    gen.walks = ahead.ticks > 0;
+    if (gen.walks) gen.next_tick = gen.at + ahead.ticks;
+}
+
+/// What the generator's speed adds up to in the next `ticks`, none of them after next_tick.
+std::int64_t Chip::phase_in(int a, std::int64_t ticks) const {
+    const Generator& gen = state_.axis[a].gen;
+    if (!gen.walks) return ticks * gen.speed;
+    const Walk so_far = walk(a, ticks, far);
+    return so_far.phase + (ticks - so_far.ticks) * so_far.law.speed;
+}
+
+/// The last of `pulses` basic pulses within the next `ticks`: when it came, and at which speed.
+PulseMoment Chip::last_pulse(int a, std::int64_t pulses, std::int64_t ticks) const {
+    const Generator& gen = state_.axis[a].gen;
+    const std::int64_t phase = phase_for(gen, pulses) - gen.acc;
+    Walk until{gen};
+    if (gen.walks) until = walk(a, ticks, phase);
+    const std::int64_t left = phase - until.phase;
+    const std::int64_t speed = until.law.speed, more = rules::ceil_div(left, speed);
+    return {gen.at + until.ticks + more, more * speed - left, speed};
+}
+
+/// Generator `a` goes `to` a tick on its walk, not beyond its end.
+void Chip::bring_along(int a, std::int64_t to) {
+    Generator& gen = state_.axis[a].gen;
+    const std::int64_t ticks = to - gen.at;
+    const Walk done = to == gen.next_tick ? state_.ahead[a] : walk(a, ticks, far);
+    const std::int64_t rest = ticks - done.ticks, rest_phase = rest * done.law.speed;
+    const std::int64_t pulses = pulses_of(gen, done.phase + rest_phase);
+    std::int64_t acc = gen.acc + done.phase + rest_phase;
+    if (pulses > 0) {
+        acc -= phase_for(gen, pulses);
+        PulseMoment moment{to, acc, done.law.speed};
+        if (rest == 0) moment.speed = done.last_speed;
+        if (acc >= (rest > 0 ? rest_phase : done.last_phase)) moment = last_pulse(a, pulses, ticks);
+        skip_pulses(a, pulses, moment);
+    }
+    gen.acc = acc;
+    static_cast<Speed&>(gen) = done.law;
+    state_.ahead[a].ticks -= ticks;
+    state_.ahead[a].phase -= done.phase + rest_phase;
+    gen.final_seen = gen.final;
+    gen.at = to;
+    skip_speed(state_.axis[a], rest);
+}
+
+}  // namespace motionrack::mcx314
