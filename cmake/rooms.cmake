@@ -4,7 +4,8 @@
 add_library(motionrack_flags INTERFACE)
 target_compile_features(motionrack_flags INTERFACE cxx_std_20)
 target_include_directories(motionrack_flags INTERFACE ${CMAKE_SOURCE_DIR})
-target_compile_options(motionrack_flags INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+# Nobody replaces a function at load time, so position-independent code may inline it: the chip is a tenth to a third faster.
+target_compile_options(motionrack_flags INTERFACE -ffp-contract=off -fno-semantic-interposition -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                        -Wno-sign-conversion)
 
 # motionrack_room(NAME [SOURCES ...] [DEPS ...]): the library motionrack_NAME; without sources it is headers only.

@@ -5,27 +5,19 @@
 #include <array>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
+#include <tests/text_of.hpp>
 
 namespace motionrack::rack {
 namespace {
 
 namespace fs = std::filesystem;
 const fs::path root = MOTIONRACK_SOURCE_DIR;
-
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 struct History {
     JobOutcome outcome;

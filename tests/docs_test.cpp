@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
@@ -10,19 +9,13 @@
 #include <sstream>
 #include <string>
 #include <vector>
+#include <tests/text_of.hpp>
 
 namespace motionrack {
 namespace {
 
 namespace fs = std::filesystem;
 const fs::path root = MOTIONRACK_SOURCE_DIR;
-
-std::string text_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 
 std::string trimmed(const std::string& line) {
     const std::size_t begin = line.find_first_not_of(' '), end = line.find_last_not_of(" \r");
