@@ -5,9 +5,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
+#include <set>
+#include <sstream>
 #include <unistd.h>
 
 namespace motionrack::rack {
@@ -60,6 +63,89 @@ TEST(Waves, SigrokCountsThePulsesAndEncoderEdgesOfAJob) {
     std::filesystem::remove(path);
 }
 
+/// Runs a move of X and Y with a recording of `signals` and gives the file's text.
+std::string recorded(const std::string& ending, const std::vector<std::string>& signals) {
+    const std::string path =
+        (std::filesystem::temp_directory_path() / ("motionrack_waves_" + std::to_string(::getpid()) + ending)).string();
+    Rack rack(*read_rack_text(*rack_template("router")).config);
+    WaveSettings waves;
+    waves.path = path;
+    waves.format = *wave_format(path);
+    waves.signals = signals;
+    auto recorder = WaveRecorder::create(rack, waves);
+    EXPECT_TRUE(recorder) << recorder.error().text();
+    JobSettings settings;
+    settings.program = "G21 G90\nG1 X2 Y1 F600\nG1 X0.5\nM2\n";
+    settings.on_slice = [&recorder] { (*recorder)->drain(); };
+    Job job(rack, settings);
+    rack.start();
+    (*recorder)->begin();
+    EXPECT_TRUE(job.run().ended);
+    EXPECT_TRUE((*recorder)->finish());
+    std::ifstream in(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    std::filesystem::remove(path);
+    return text;
+}
+
+TEST(Waves, EachScopeIsOpenedOnceAndNoneIsEmpty) {
+    for (const std::vector<std::string>& signals : {std::vector<std::string>{"X.*"}, {}, {"motion.?lp", "estop"}}) {
+        std::istringstream text(recorded(".vcd", signals));
+        std::set<std::string> scopes, names;
+        std::string line, last;
+        while (std::getline(text, line) && line != "$enddefinitions $end") {
+            std::istringstream words(line);
+            std::string kind, type, name;
+            words >> kind >> type >> name;
+            if (kind == "$scope") EXPECT_TRUE(scopes.insert(name).second) << name << " is opened twice";
+            if (kind == "$upscope") EXPECT_EQ(last, "$var") << "a scope with nothing in it";
+            if (kind == "$var") {
+                words >> name >> name;
+                EXPECT_TRUE(names.insert(name).second) << name;
+            }
+            last = kind;
+        }
+        EXPECT_EQ(names.count("X_limit_minus"), signals.size() == 2 ? 0u : 1u);
+        for (const std::string& name : names) EXPECT_EQ(name.find("_2_"), std::string::npos) << name;
+    }
+}
+
+TEST(Waves, ACsvRecordingHasEveryChangeInOrderOfTime) {
+    std::istringstream text(recorded(".csv", {"X.step", "X.dir", "motion.xlp"}));
+    std::string line;
+    std::getline(text, line);
+    EXPECT_EQ(line, "time_s,signal,value\r");
+    double before = 0;
+    int rises = 0;
+    std::int64_t pulses = 0, counter = 0;
+    int sense = 1;
+    std::string name;
+    while (std::getline(text, line)) {
+        const std::size_t first = line.find(','), second = line.rfind(',');
+        const double at = std::stod(line.substr(0, first));
+        name = line.substr(first + 1, second - first - 1);
+        const int value = std::stoi(line.substr(second + 1));
+        EXPECT_GE(at, before);
+        before = at;
+        if (name == "X.dir") sense = value != 0 ? 1 : -1;
+        if (name == "X.step" && value == 1) ++rises, pulses += sense;
+        if (name == "motion.xlp") {
+            counter = value;
+            EXPECT_EQ(counter, pulses) << "LP at " << at;
+        }
+    }
+    EXPECT_EQ(rises, 2240);
+    EXPECT_EQ(pulses, 320);
+    EXPECT_EQ(counter, 320);
+}
+
+TEST(Waves, AFileOfAnotherKindIsRefused) {
+    EXPECT_EQ(wave_format("a.vcd").value(), WaveFormat::vcd);
+    EXPECT_EQ(wave_format("a.csv").value(), WaveFormat::csv);
+    for (const char* name : {"a.h5", "a", ".vcd", "a.vcd.gz", ""}) EXPECT_FALSE(wave_format(name)) << name;
+    EXPECT_NE(wave_format("a.h5").error().message.find("HDF5"), std::string::npos);
+}
+
 TEST(Waves, AnUnknownSignalIsRefusedWithASentence) {
     Rack rack(*read_rack_text(*rack_template("single")).config);
     WaveSettings waves;
@@ -68,7 +154,7 @@ TEST(Waves, AnUnknownSignalIsRefusedWithASentence) {
     const auto recorder = WaveRecorder::create(rack, waves);
     ASSERT_FALSE(recorder);
     EXPECT_NE(recorder.error().message.find("Q.*"), std::string::npos);
-    std::filesystem::remove(waves.path);
+    EXPECT_FALSE(std::filesystem::exists(waves.path)) << "nothing was recorded";
 }
 
 }  // namespace

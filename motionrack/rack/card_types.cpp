@@ -53,8 +53,8 @@ constexpr std::array<DefaultWire, 8> mcx314_wires = {{
 }};
 
 constexpr std::array<Field, 2> mcx314_settings = {
-    field<&Mcx314Settings::clock_hz>("clock_hz", 1'000'000, 16'000'000, "Hz",
-                                     "the chip's clock; all its speeds are proportional to it"),
+    field<&Mcx314Settings::clock_hz>("clock_hz", 16'000'000, 16'000'000, "Hz",
+                                     "the chip's clock; the model knows the documented one"),
     field<&Mcx314Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
                                           "time that one register access of the host takes"),
 };
@@ -64,10 +64,9 @@ double mcx314_pulse_hz(const RackCard& card) {
     return static_cast<double>(card.mcx314.clock_hz) / 4;
 }
 
-// A = 8,000 at multiple 500: 8,000 * 125 * 500 pulses/s2 at 16 MHz; as the square of the clock.
-double mcx314_accel_hz_s(const RackCard& card) {
-    const double clock = static_cast<double>(card.mcx314.clock_hz) / 16e6;
-    return 8000.0 * 125 * 500 * clock * clock;
+// A = 8,000 at multiple 500: 8,000 * 125 * 500 pulses/s2.
+double mcx314_accel_hz_s(const RackCard&) {
+    return 8000.0 * 125 * 500;
 }
 
 // The inputs are sampled at every second clock; a state that is shorter is not seen.

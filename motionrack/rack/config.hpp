@@ -21,7 +21,7 @@ namespace motionrack::rack {
 
 /// Settings of a card of type mcx314.
 struct Mcx314Settings {
-    std::int64_t clock_hz = 16'000'000;  ///< 1,000,000 .. 16,000,000 Hz
+    std::int64_t clock_hz = 16'000'000;  ///< only this: the model's tick is 125 ns
     std::int64_t bus_access_ns = 250;    ///< 0 .. 100,000 ns for a register access
 };
 
@@ -117,6 +117,25 @@ struct RackWire {
     bool by_default = true;  ///< from the default rule, not from the file
 };
 
+/// Pulses and encoder tracks of the wires, joined into what they carry: a position as a function of time.
+/// The pulses of that channel of cards[card] turn the motor of axes[axis].
+struct PulseLink {
+    int axis = 0;
+    int card = 0;
+    int channel = 0;
+    friend bool operator==(const PulseLink&, const PulseLink&) = default;
+};
+
+/// The encoder of axes[axis] is at the encoder inputs of that channel; `swapped`: track A at input B, so that it counts
+/// backwards.
+struct EncoderLink {
+    int axis = 0;
+    int card = 0;
+    int channel = 0;
+    bool swapped = false;
+    friend bool operator==(const EncoderLink&, const EncoderLink&) = default;
+};
+
 // ---- The rack ---------------------------------------------------------------------------------------------------
 
 /// How the controller cuts paths where the part program does not say.
@@ -131,6 +150,8 @@ struct RackConfig {
     std::vector<RackCard> cards;  ///< in the order of the file
     std::vector<RackAxis> axes;   ///< in the order X Y Z A B C
     std::vector<RackWire> wires;  ///< the default rule with the file's changes; sorted by `to`: cards, axes, pins
+    std::vector<PulseLink> pulse_links;  ///< follow from `wires`; an axis without one has a motor that nobody drives
+    std::vector<EncoderLink> encoder_links;  ///< follow from `wires`; one at most for each channel
     RackController controller;
 
     /// The axis of that letter, or nullptr.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <motionrack/rack/card_types.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/toml_reader.hpp>
@@ -52,8 +53,15 @@ struct AxisSource {
 /// `sources` goes with config.axes.
 void check_axes(const RackConfig& config, const std::vector<AxisSource>& sources, Problems& problems);
 
-/// The default rule, changed by the file's [wires] (may be nullptr).
-std::vector<RackWire> resolve_wires(const RackConfig& config, const TomlNode* wires, Problems& problems);
+/// Sets the wires of `config`: the default rule, changed by the file's [wires] (may be nullptr); and their links.
+void resolve_wires(RackConfig& config, const TomlNode* wires, Problems& problems);
+
+/// Sets the links that follow from config.wires. `place_of` tells where the file names an input, if it does.
+void resolve_links(RackConfig& config, const std::function<Place(const std::string& input)>& place_of,
+                   Problems& problems);
+
+/// Whether the wire carries pulses or encoder counts as a link.
+bool is_link(const RackWire& wire);
 
 /// The index of `axis`' channel in its card's type, or -1 if the card or the channel does not exist.
 int channel_index(const RackConfig& config, const RackAxis& axis);

@@ -33,7 +33,7 @@ class RackReader {
         read_cards();
         read_axes();
         check_axes(config_, sources_, problems_);
-        config_.wires = resolve_wires(config_, table("wires"), problems_);
+        resolve_wires(config_, table("wires"), problems_);
         return std::move(config_);
     }
 

@@ -61,6 +61,11 @@ std::string wires_text() {
         "drives it right, both in "
         "quotes; `\"open\"` leaves an input without a wire. An output may drive many inputs.\n\n"
         "```toml\n[wires]\n\"motion.xlmtp\" = \"Y.limit_plus\"\n\"motion.xin2\" = \"open\"\n```\n\n"
+        "A motor takes its pulses and their direction from one channel, and one channel drives one motor; `\"X.step\" = "
+        "\"open\"` leaves the motor standing. An encoder is wired with both tracks or not at all: with the tracks "
+        "crossed over it counts backwards, with both inputs open the channel counts what its pins are driven with.\n\n"
+        "```toml\n[wires]\n\"X.step\" = \"motion.upp\"\n\"X.dir\" = \"motion.upm\"\n\"motion.xeca\" = \"X.enc_b\"\n"
+        "\"motion.xecb\" = \"X.enc_a\"\n```\n\n"
         "Pins of cards are written CARD.pin (below), the ends of an axis' parts NAME.end:\n\n"
         "| end | direction | meaning | there if |\n|---|---|---|---|\n";
     for (const AxisEnd& end : axis_ends()) {

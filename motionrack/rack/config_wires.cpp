@@ -66,6 +66,15 @@ class WireResolver {
         return out;
     }
 
+    /// Nothing was wrong so far.
+    bool sound() const { return sound_; }
+
+    /// Where the file names that input; no place if it does not.
+    Place place_of(const std::string& input) const {
+        const auto found = named_.find(input);
+        return found != named_.end() ? found->second->key_place : Place{};
+    }
+
   private:
     void add_card(int index) {
         const RackCard& card = config_.cards[static_cast<std::size_t>(index)];
@@ -107,7 +116,7 @@ class WireResolver {
         const auto found = known_.find(name);
         if (found != known_.end()) {
             if (found->second.missing.empty()) return &found->second;
-            problems_.error(place, fmt::format("There is no {}: {}.", name, found->second.missing));
+            error(place, fmt::format("There is no {}: {}.", name, found->second.missing));
             return nullptr;
         }
         const std::string owner = name.substr(0, name.find('.'));
@@ -118,14 +127,14 @@ class WireResolver {
             for (const auto& [known, end] : known_) names.push_back(known);
             hint = did_you_mean(name, names);
         }
-        problems_.error(place, fmt::format("No card, axis or part of this rack has the pin {}{}", in_quotes(name),
+        error(place, fmt::format("No card, axis or part of this rack has the pin {}{}", in_quotes(name),
                                            hint.empty() ? "." : hint));
         return nullptr;
     }
 
     void read_wire(const std::string& name, const TomlNode& node) {
         if (node.type != TomlType::text) {
-            problems_.error(
+            error(
                 node.value_place,
                 fmt::format("The wire {} is {}; write what drives it in quotes, such as \"X.home\", or \"open\".",
                             in_quotes(name), type_name(node.type)));
@@ -133,12 +142,12 @@ class WireResolver {
         }
         const KnownEnd* left = find_end(name, node.key_place);
         if (left != nullptr && !named_.emplace(name, &node).second) {
-            problems_.error(node.key_place, fmt::format("{} is wired twice; an input has one wire.", name));
+            error(node.key_place, fmt::format("{} is wired twice; an input has one wire.", name));
             return;
         }
         if (node.text == "open") {
             if (left != nullptr && left->direction == PinDirection::output) {
-                problems_.error(
+                error(
                     node.key_place,
                     fmt::format("{} is an output; to leave it open, write \"open\" for each input that it drives.",
                                 name));
@@ -154,14 +163,14 @@ class WireResolver {
     void join(const std::string& name, const KnownEnd& left, const KnownEnd& right, const TomlNode& node) {
         using enum PinDirection;
         if (name == node.text) {
-            problems_.error(node.key_place, fmt::format("{} is wired to itself.", name));
+            error(node.key_place, fmt::format("{} is wired to itself.", name));
         } else if (left.direction == output && right.direction == output) {
-            problems_.error(
+            error(
                 node.key_place,
                 fmt::format("{} and {} are both outputs and would drive against each other; write input = output.",
                             name, node.text));
         } else if (left.direction == output) {
-            problems_.error(
+            error(
                 node.key_place,
                 fmt::format("{0} is an output and {1} an input; the input stands left: write \"{1}\" = \"{0}\".", name,
                             node.text));
@@ -185,19 +194,25 @@ class WireResolver {
             }
             if (at->text == name) {
                 told.insert(way.begin(), way.end());
-                problems_.error(node->key_place,
+                error(node->key_place,
                                 fmt::format("These wires go round in a circle: {} = {}; no output drives them.",
                                             fmt::join(way, " = "), name));
             } else {
-                problems_.error(
+                error(
                     node->key_place,
                     fmt::format("{} and {} are both inputs; name the output that drives {}.", name, node->text, name));
             }
         }
     }
 
+    void error(Place place, std::string message) {
+        sound_ = false;
+        problems_.error(place, std::move(message));
+    }
+
     const RackConfig& config_;
     Problems& problems_;
+    bool sound_ = true;
     std::map<std::string, KnownEnd> known_;
     std::map<std::string, RackWire> wires_;  ///< by the name of the input
     std::map<std::string, const TomlNode*> named_;
@@ -207,11 +222,13 @@ class WireResolver {
 
 }  // namespace
 
-std::vector<RackWire> resolve_wires(const RackConfig& config, const TomlNode* wires, Problems& problems) {
+void resolve_wires(RackConfig& config, const TomlNode* wires, Problems& problems) {
     WireResolver resolver(config, problems);
     resolver.default_rule();
     if (wires != nullptr) resolver.read(*wires);
-    return resolver.take();
+    config.wires = resolver.take();
+    if (!resolver.sound()) return;  // one mistake, one error
+    resolve_links(config, [&](const std::string& input) { return resolver.place_of(input); }, problems);
 }
 
 }  // namespace motionrack::rack

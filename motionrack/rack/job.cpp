@@ -107,7 +107,7 @@ std::vector<AxisOutcome> Job::axis_outcomes() {
         one.pulse_position = axis.card->pulse_counter(axis.channel);
         one.pulse_start = static_cast<std::int64_t>(std::floor(axis.config.start_position * axis.config.pulses_per_unit() + 0.5));
         one.counts_read = axis.card->encoder_counter(axis.channel);
-        one.lost_pulses = axis.machine->lost_steps(now);
+        one.lost_pulses = commanded - axis.machine->rotor().count(now);
         const double counts_per_pulse =
             static_cast<double>(axis.config.encoder_counts_per_rev) / static_cast<double>(axis.config.pulses_per_rev());
         one.counts_expected = static_cast<std::int64_t>(std::floor(static_cast<double>(commanded) * counts_per_pulse));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/geometry.hpp>
+#include <motionrack/rack/counted.hpp>
 #include <motionrack/rack/job_report.hpp>
 #include <nlohmann/json.hpp>
 
@@ -145,8 +146,9 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
 std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
     std::string out = fmt::format("{}\n", verdict_text(outcome));
     out += fmt::format("  rack        {}\n", config.name);
-    out += fmt::format("  time        {:.3f} s (planned {:.3f} s), {} moves, {} dwells, {} stops\n", to_seconds(outcome.time),
-                       outcome.run.plan.seconds, outcome.run.plan.moves, outcome.run.plan.dwells, outcome.run.plan.stops);
+    out += fmt::format("  time        {:.3f} s (planned {:.3f} s), {}, {}, {}\n", to_seconds(outcome.time), outcome.run.plan.seconds,
+                       counted(outcome.run.plan.moves, "move"), counted(outcome.run.plan.dwells, "dwell"),
+                       counted(outcome.run.plan.stops, "stop"));
     out += fmt::format("  path        {:.3f} mm, worst deviation {:.4f} mm", outcome.path_mm, outcome.worst.mm);
     if (outcome.worst.line > 0) out += fmt::format(" in line {} at {:.3f} s", outcome.worst.line, to_seconds(outcome.worst.at));
     if (outcome.tolerance_mm > 0) out += fmt::format(" (tolerance {:.4f} mm)", outcome.tolerance_mm);

@@ -1,6 +1,7 @@
 // From a rack file's config to cards, parts and wires in one kernel.
 #include <fmt/format.h>
 
+#include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/rack.hpp>
 
 namespace motionrack::rack {
@@ -8,6 +9,7 @@ namespace motionrack::rack {
 Rack::Rack(const RackConfig& config) : config_(config) {
     build_cards();
     build_axes();
+    join_links();
     build_wires();
 }
 
@@ -49,13 +51,26 @@ void Rack::build_axes() {
         MOTIONRACK_ASSERT(running.card != nullptr);
         running.channel = running.card->channel_number(axis.channel);
         running.machine = std::make_unique<parts::AxisMachine>(kernel_, std::string(1, axis.letter), settings);
-        running.machine->connect(running.card->pulses(running.channel));
-        if (running.machine->has_encoder()) running.card->connect_encoder(running.channel, running.machine->encoder());
         axes_.push_back(std::move(running));
     }
 }
 
-/// The name of an end's wire in the kernel. Pulses and encoder lines have none: they are connected as motions.
+void Rack::join_links() {
+    std::vector<sim::Motion*> pulses(axes_.size(), &still_);
+    for (const PulseLink& link : config_.pulse_links)
+        pulses[static_cast<std::size_t>(link.axis)] = &cards_[static_cast<std::size_t>(link.card)]->pulses(link.channel);
+    for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].machine->connect(*pulses[i]);
+    for (const EncoderLink& link : config_.encoder_links) {
+        sim::Motion* counts = &axes_[static_cast<std::size_t>(link.axis)].machine->encoder();
+        if (link.swapped) {
+            mirrored_.push_back(std::make_unique<MirroredMotion>(*counts));
+            counts = mirrored_.back().get();
+        }
+        cards_[static_cast<std::size_t>(link.card)]->connect_encoder(link.channel, *counts);
+    }
+}
+
+/// The name of an end's wire in the kernel. Pulses and encoder tracks of an axis have none: they are links.
 std::string Rack::wire_name(const WireEnd& end) const {
     switch (end.owner) {
         case EndOwner::card: return config_.cards[static_cast<std::size_t>(end.index)].name + "." + end.pin;
@@ -69,14 +84,17 @@ void Rack::build_wires() {
     kernel_.add_wire("estop", 1);
     junctions_ = std::make_unique<sim::Junctions>(kernel_, "wiring");
     for (const RackWire& wire : config_.wires) {
+        if (is_link(wire)) continue;
         const sim::WireId from = kernel_.find_wire(wire_name(wire.from));
         const sim::WireId to = kernel_.find_wire(wire_name(wire.to));
-        if (from != sim::WireId::none && to != sim::WireId::none) junctions_->join(from, to);
+        MOTIONRACK_ASSERT(from != sim::WireId::none && to != sim::WireId::none);
+        junctions_->join(from, to);
     }
 }
 
 void Rack::start() {
     kernel_.start();
+    started_ = true;
     while (kernel_.run_until(kernel_.now()) == sim::RunEnd::broken) {
     }
 }

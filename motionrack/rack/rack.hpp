@@ -10,6 +10,7 @@
 #include <motionrack/control/path_axes.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config.hpp>
+#include <motionrack/rack/motions.hpp>
 #include <motionrack/sim/input_log.hpp>
 #include <motionrack/sim/junction.hpp>
 #include <motionrack/sim/kernel.hpp>
@@ -44,6 +45,7 @@ class Rack {
 
     /// No more parts: virtual time can run.
     void start();
+    bool started() const { return started_; }
     /// All axes of the rack's motion card as a group that follows paths, set up at the machine's start position. Errors: refused if
     /// the axes are not all on one card. The rack must be started.
     Result<control::PathAxes*> path_axes();
@@ -58,6 +60,7 @@ class Rack {
   private:
     void build_cards();
     void build_axes();
+    void join_links();
     void build_wires();
     std::string wire_name(const WireEnd& end) const;
 
@@ -66,7 +69,10 @@ class Rack {
     sim::InputLog log_;
     std::vector<std::unique_ptr<Card>> cards_;
     std::vector<RunningAxis> axes_;
+    StillMotion still_;  // what turns a motor whose step input is open
+    std::vector<std::unique_ptr<MirroredMotion>> mirrored_;
     std::unique_ptr<sim::Junctions> junctions_;
+    bool started_ = false;
 };
 
 }  // namespace motionrack::rack

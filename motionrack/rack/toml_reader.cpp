@@ -160,7 +160,8 @@ std::string range_text(const Field& field, std::string_view unit) {
         case FieldType::number:
             break;
     }
-    std::string out = number_text(field.min) + " .. " + number_text(field.max);
+    std::string out = field.min == field.max ? "only " + number_text(field.min)
+                                             : number_text(field.min) + " .. " + number_text(field.max);
     if (field.unit.empty()) return out;
     return fmt::format("{} {}", out, with_unit(field.unit, unit));
 }
@@ -231,7 +232,8 @@ class FieldReader {
         if (!std::isfinite(value)) {
             refuse(fmt::format("is {}, which is not a number that can be used; the range is {}", seen, range()));
         } else if (value < field_.min || value > field_.max) {
-            refuse(fmt::format("is {}, outside its range {}", seen, range()));
+            const bool one_value = field_.min == field_.max;
+            refuse(fmt::format("is {}, {} {}", seen, one_value ? "but it can be" : "outside its range", range()));
         } else if (field_.type == FieldType::number) {
             return value;
         } else if (value != std::floor(value)) {

@@ -35,7 +35,7 @@ constexpr Duration direction_lead = nanoseconds(250);
 
 class WaveRecorder::StepEar final : public sim::EdgeListener {
   public:
-    StepEar(WaveRecorder& recorder, std::uint32_t step, std::uint32_t direction)
+    StepEar(WaveRecorder& recorder, std::size_t step, std::size_t direction)
         : recorder_(recorder), step_(step), direction_(direction) {}
 
     void edges(const sim::EdgeBatch& batch) override {
@@ -60,7 +60,7 @@ class WaveRecorder::StepEar final : public sim::EdgeListener {
 
   private:
     WaveRecorder& recorder_;
-    std::uint32_t step_, direction_;
+    std::size_t step_, direction_;
     Instant last_{};
     int sense_ = 0;
     bool high_ = false;
@@ -68,7 +68,7 @@ class WaveRecorder::StepEar final : public sim::EdgeListener {
 
 class WaveRecorder::LineEar final : public sim::EdgeListener {
   public:
-    LineEar(WaveRecorder& recorder, std::uint32_t a, std::uint32_t b) : recorder_(recorder), a_(a), b_(b) {}
+    LineEar(WaveRecorder& recorder, std::size_t a, std::size_t b) : recorder_(recorder), a_(a), b_(b) {}
 
     void edges(const sim::EdgeBatch& batch) override {
         std::int64_t count = batch.first_count;
@@ -82,93 +82,126 @@ class WaveRecorder::LineEar final : public sim::EdgeListener {
 
   private:
     WaveRecorder& recorder_;
-    std::uint32_t a_, b_;
+    std::size_t a_, b_;
 };
 
-WaveRecorder::WaveRecorder(Rack& rack, trace::VcdWriter writer, Duration register_period)
-    : rack_(rack), writer_(std::move(writer)), register_period_(register_period) {
+std::uint64_t WaveRecorder::Counter::value() const {
+    return static_cast<std::uint64_t>(encoder ? card->encoder_counter(channel) : card->pulse_counter(channel));
+}
+
+// ---- choosing ---------------------------------------------------------------------------------------------------------
+
+WireTap::WireTap(sim::Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "tap")) {
+    for (std::size_t i = 0; i < kernel.wire_count(); ++i)
+        if (kernel.lazy(static_cast<sim::WireId>(i))) kernel.listen(static_cast<sim::WireId>(i), id_, 0);
+}
+
+WaveRecorder::WaveRecorder(Rack& rack, const WaveSettings& settings)
+    : rack_(rack), patterns_(settings.signals), tap_(settings.tap), register_period_(settings.register_period) {
     buffer_.reserve(buffer_size);
 }
 
-WaveRecorder::~WaveRecorder() { rack_.kernel().observe_wires(nullptr); }
+WaveRecorder::~WaveRecorder() { stop_listening(); }
 
 Result<std::unique_ptr<WaveRecorder>> WaveRecorder::create(Rack& rack, const WaveSettings& settings) {
-    trace::VcdSettings vcd;
-    vcd.timescale = settings.timescale;
-    vcd.full_names = true;
-    MOTIONRACK_TRY(trace::VcdWriter writer, trace::VcdWriter::create(settings.path, vcd));
-    std::unique_ptr<WaveRecorder> out(new WaveRecorder(rack, std::move(writer), settings.register_period));
-    if (!out->declare(settings))
-        return fail(Trouble::bad_input, fmt::format("No signal fits '{}'; nothing was recorded. Signals are called like X.step, X.enc_a or "
-                                                    "motion.xlmtp; * and ? stand for anything.", fmt::join(settings.signals, "', '")));
-    out->id_ = rack.kernel().add(*out, sim::Phase::observers, "wave recorder");
+    std::unique_ptr<WaveRecorder> out(new WaveRecorder(rack, settings));
+    out->choose_axes();
+    out->choose_wires();
+    out->choose_counters();
+    if (out->signals_.empty())
+        return fail(Trouble::bad_input,
+                    fmt::format("No signal fits '{}'; nothing was recorded. Signals are called like X.step, X.enc_a or "
+                                "motion.xlmtp; * and ? stand for anything.",
+                                fmt::join(settings.signals, "', '")));
+    MOTIONRACK_TRY(out->sink_, make_wave_sink({settings.path, settings.format, settings.timescale, rack.kernel().now()},
+                                              out->signals_));
+    if (!rack.started()) {
+        out->id_ = rack.kernel().add(*out, sim::Phase::observers, "wave recorder");
+        out->is_device_ = true;
+    }
+    out->recording_ = true;
+    for (const sim::WireId wire : out->followed_) out->tap_->follow(wire, true);
     rack.kernel().observe_wires(out.get());
     return out;
 }
 
-bool WaveRecorder::declare(const WaveSettings& settings) {
-    auto wanted = [&](const std::string& name) {
-        return settings.signals.empty() ||
-               std::any_of(settings.signals.begin(), settings.signals.end(), [&](const std::string& p) { return matches(p, name); });
-    };
-    sim::Kernel& kernel = rack_.kernel();
-    bool any = false;
-    wire_ids_.assign(kernel.wire_count(), -1);
+bool WaveRecorder::wanted(const std::string& name) const {
+    return patterns_.empty() ||
+           std::any_of(patterns_.begin(), patterns_.end(), [&](const std::string& p) { return matches(p, name); });
+}
+
+std::size_t WaveRecorder::add(const std::string& scope, const std::string& name, int bits, std::uint64_t initial) {
+    signals_.push_back({scope, name, bits, bits > 1, initial});
+    return signals_.size() - 1;
+}
+
+void WaveRecorder::choose_axes() {
     for (RunningAxis& axis : rack_.axes()) {
         const std::string name(1, axis.config.letter);
-        writer_.push_scope(name);
+        parts::AxisMachine& machine = *axis.machine;
         const bool pulses = wanted(name + ".step") || wanted(name + ".dir");
-        const bool lines = axis.machine->has_encoder() && (wanted(name + ".enc_a") || wanted(name + ".enc_b"));
+        const bool lines = machine.has_encoder() && (wanted(name + ".enc_a") || wanted(name + ".enc_b"));
         if (pulses) {
-            const auto step = writer_.add_wire("step"), direction = writer_.add_wire("dir", true);
+            const std::size_t step = add(name, "step", 1, 0), direction = add(name, "dir", 1, 1);
             steps_.push_back(std::make_unique<StepEar>(*this, step, direction));
-            axis.machine->listen_pulse_edges(steps_.back().get());
+            machine.listen_pulse_edges(steps_.back().get());
         }
         if (lines) {
-            const auto a = writer_.add_wire("enc_a"), b = writer_.add_wire("enc_b");
+            const parts::Lines now = machine.encoder_lines(rack_.kernel().now());
+            const std::size_t a = add(name, "enc_a", 1, now.a != 0), b = add(name, "enc_b", 1, now.b != 0);
             lines_.push_back(std::make_unique<LineEar>(*this, a, b));
-            axis.machine->encoder().listen_edges(lines_.back().get());
+            machine.encoder().listen_edges(lines_.back().get());
         }
-        any = any || pulses || lines;
-        writer_.pop_scope();
+        if (pulses || lines) heard_.push_back(&machine);
     }
+}
+
+void WaveRecorder::choose_wires() {
+    const sim::Kernel& kernel = rack_.kernel();
+    wire_signals_.assign(kernel.wire_count(), -1);
     for (std::size_t i = 0; i < kernel.wire_count(); ++i) {
         const auto wire = static_cast<sim::WireId>(i);
         const std::string& name = kernel.wire_name(wire);
-        if (!wanted(name) || kernel.lazy(wire)) continue;
-        const std::size_t dot = name.find('.');
-        writer_.push_scope(dot == std::string::npos ? "rack" : name.substr(0, dot));
-        wire_ids_[i] = writer_.add_wire(dot == std::string::npos ? name : name.substr(dot + 1), kernel.level(wire) != 0);
-        writer_.pop_scope();
-        any = true;
-    }
-    for (const auto& card : rack_.cards()) {
-        CardSignals signals;
-        signals.card = card.get();
-        writer_.push_scope(card->name());
-        for (int channel = 0; channel < card->channel_count(); ++channel) {
-            const std::string letter = card->channel_name(channel);
-            if (!wanted(card->name() + "." + letter + "lp")) continue;
-            signals.lp.push_back(writer_.add_vector(letter + "lp", 32));
-            signals.ep.push_back(writer_.add_vector(letter + "ep", 32));
-            any = true;
+        if (!wanted(name)) continue;
+        if (kernel.lazy(wire)) {
+            if (tap_ == nullptr || patterns_.empty()) continue;
+            followed_.push_back(wire);
         }
-        writer_.pop_scope();
-        if (!signals.lp.empty() && static_cast<int>(signals.lp.size()) == card->channel_count()) cards_.push_back(signals);
+        const std::size_t dot = name.find('.');
+        const bool plain = dot == std::string::npos;
+        wire_signals_[i] = static_cast<std::int64_t>(add(plain ? "rack" : name.substr(0, dot),
+                                                         plain ? name : name.substr(dot + 1), 1,
+                                                         kernel.level(wire) != 0));
     }
-    return any;
 }
 
-void WaveRecorder::begin() { rack_.kernel().schedule(id_, rack_.kernel().now()); }
+void WaveRecorder::choose_counters() {
+    for (const auto& card : rack_.cards())
+        for (int channel = 0; channel < card->channel_count(); ++channel)
+            for (const bool encoder : {false, true}) {
+                const std::string name = card->channel_name(channel) + (encoder ? "ep" : "lp");
+                if (!wanted(card->name() + "." + name)) continue;
+                Counter counter{card.get(), channel, encoder, 0};
+                counter.signal = add(card->name(), name, 32, counter.value() & 0xFFFF'FFFFu);
+                counters_.push_back(counter);
+            }
+}
 
-void WaveRecorder::push(Instant at, std::uint32_t id, std::uint64_t value) {
-    buffer_.push_back({at, id, value});
+// ---- recording --------------------------------------------------------------------------------------------------------
+
+void WaveRecorder::begin() {
+    MOTIONRACK_ASSERT(is_device_);
+    rack_.kernel().schedule(id_, rack_.kernel().now());
+}
+
+void WaveRecorder::push(Instant at, std::size_t signal, std::uint64_t value) {
+    buffer_.push_back({at, signal, value});
     if (buffer_.size() > buffer_size / 2) rack_.kernel().break_run();
 }
 
 void WaveRecorder::wire_changed(sim::WireId wire, int level, Instant now) {
-    const std::int64_t id = wire_ids_[sim::Kernel::index(wire)];
-    if (id >= 0) push(now, static_cast<std::uint32_t>(id), level != 0);
+    const std::int64_t signal = wire_signals_[sim::Kernel::index(wire)];
+    if (signal >= 0) push(now, static_cast<std::size_t>(signal), level != 0);
 }
 
 void WaveRecorder::act(Instant now) {
@@ -177,11 +210,7 @@ void WaveRecorder::act(Instant now) {
 }
 
 void WaveRecorder::look_at_cards(Instant now) {
-    for (const CardSignals& signals : cards_)
-        for (std::size_t i = 0; i < signals.lp.size(); ++i) {
-            push(now, signals.lp[i], static_cast<std::uint32_t>(signals.card->pulse_counter(static_cast<int>(i))));
-            push(now, signals.ep[i], static_cast<std::uint32_t>(signals.card->encoder_counter(static_cast<int>(i))));
-        }
+    for (const Counter& counter : counters_) push(now, counter.signal, counter.value() & 0xFFFF'FFFFu);
 }
 
 void WaveRecorder::drain() {
@@ -190,16 +219,30 @@ void WaveRecorder::drain() {
     std::stable_sort(buffer_.begin(), buffer_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
     for (const Event& event : buffer_) {
         last_ = std::max(last_, event.at);  // a pulse's end may be told after a later change
-        writer_.change(event.id, event.value, last_);
+        sink_->change(event.signal, event.value, last_);
     }
     changes_ += buffer_.size();
     buffer_.clear();
 }
 
+void WaveRecorder::stop_listening() {
+    for (parts::AxisMachine* machine : heard_) {
+        machine->listen_pulse_edges(nullptr);
+        if (machine->has_encoder()) machine->encoder().listen_edges(nullptr);
+    }
+    heard_.clear();
+    if (!recording_) return;
+    recording_ = false;
+    rack_.kernel().observe_wires(nullptr);
+    if (is_device_) rack_.kernel().schedule(id_, never);
+    for (const sim::WireId wire : followed_) tap_->follow(wire, false);
+}
+
 Result<void> WaveRecorder::finish() {
+    stop_listening();
+    look();
     drain();
-    rack_.kernel().schedule(id_, never);
-    return writer_.close(std::max(rack_.kernel().now(), last_));
+    return sink_->close(std::max(rack_.kernel().now(), last_));
 }
 
 }  // namespace motionrack::rack

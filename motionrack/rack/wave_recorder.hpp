@@ -1,40 +1,63 @@
-// Wires, pulses, encoder lines and card values of a running rack, written to a VCD file while it runs.
+// Wires, pulses, encoder lines and card values of a running rack, written to a file while it runs.
 //
 //   kernel wires ──┐
-//   pulse edges ───┼──► events in a buffer ──drain(), between runs, in order of time──► VcdWriter
-//   encoder edges ─┘
+//   pulse edges ───┼──► events in a buffer ──drain(), between runs, in order of time──► WaveSink (VCD, CSV)
+//   encoder edges ─┤
+//   LP, EP ────────┘ looked at every register_period
 //
-// A pulse of the recording lasts half the way to the next one, at most 5 us; the direction changes 250 ns before the first pulse that way.
+// A pulse of X.step lasts half the way to the next one, at most 5 us; X.dir changes 250 ns before the first pulse that
+// way. Pins that the card drives on demand (its pulse outputs) are recorded as they are, if a pattern names them and
+// there is a WireTap.
 #pragma once
 
 #include <memory>
 #include <motionrack/rack/rack.hpp>
-#include <motionrack/trace/vcd.hpp>
+#include <motionrack/rack/wave_sink.hpp>
 #include <string>
 #include <vector>
 
 namespace motionrack::rack {
 
+/// Makes pins that are driven on demand worth driving: listens to all of them, and wants those that are followed.
+class WireTap final : public sim::Device {
+  public:
+    /// Before the rack is started and after everything else was built.
+    explicit WireTap(sim::Kernel& kernel);
+    void follow(sim::WireId wire, bool wanted) { kernel_.want(wire, id_, wanted); }
+    void act(Instant) override {}
+
+  private:
+    sim::Kernel& kernel_;
+    sim::DeviceId id_;
+};
+
 struct WaveSettings {
-    std::string path;                                ///< the VCD file
-    std::vector<std::string> signals;                ///< patterns with * and ?, over full names ("X.step", "motion.xlmtp"); empty: all
-    Duration timescale{1000};                        ///< 100 ns: fine for viewers and sigrok; 100 ps ticks are exact
-    Duration register_period = milliseconds(1);      ///< how often LP, EP and RR0 are looked at
+    std::string path;
+    WaveFormat format = WaveFormat::vcd;
+    std::vector<std::string> signals;            ///< patterns with * and ?, over full names ("X.step", "motion.xlmtp");
+                                                 ///< empty: all but the pins driven on demand
+    Duration timescale{1000};                    ///< VCD; 100 ns: fine for viewers and sigrok; 100 ps ticks are exact
+    Duration register_period = milliseconds(1);  ///< how often LP and EP are looked at
+    WireTap* tap = nullptr;                      ///< pins driven on demand are recorded through it
 };
 
 class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver {
   public:
-    /// Before the rack is started. Errors: io; bad_input if no signal fits the patterns.
+    /// Before the rack is started it becomes a device that looks at the registers by itself after begin(); in a running
+    /// rack its owner calls look(). Errors: io; refused (timescale); bad_input if no signal fits the patterns.
     static Result<std::unique_ptr<WaveRecorder>> create(Rack& rack, const WaveSettings& settings);
     ~WaveRecorder() override;
 
-    /// After the rack was started.
+    /// After the rack was started, if the recorder was made before that.
     void begin();
+    /// Between runs: looks at the registers.
+    void look() { look_at_cards(rack_.kernel().now()); }
     /// Between runs: writes what has come together.
     void drain();
-    /// Ends the file. Errors: io.
+    /// Ends the file and listens no more. Errors: io.
     Result<void> finish();
     std::uint64_t changes() const { return changes_; }
+    Duration register_period() const { return register_period_; }
 
     void act(Instant now) override;
     void wire_changed(sim::WireId wire, int level, Instant now) override;
@@ -42,33 +65,49 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
   private:
     struct Event {
         Instant at{};
-        std::uint32_t id = 0;
+        std::size_t signal = 0;
         std::uint64_t value = 0;
     };
     /// Hears the pulses of one axis.
     class StepEar;
     /// Hears the encoder of one axis.
     class LineEar;
-    struct CardSignals {
+    /// LP (or EP) of a channel.
+    struct Counter {
         Card* card = nullptr;
-        std::vector<std::uint32_t> lp, ep;
+        int channel = 0;
+        bool encoder = false;
+        std::size_t signal = 0;
+        std::uint64_t value() const;
     };
 
-    WaveRecorder(Rack& rack, trace::VcdWriter writer, Duration register_period);
-    bool declare(const WaveSettings& settings);
-    void push(Instant at, std::uint32_t id, std::uint64_t value);
+    WaveRecorder(Rack& rack, const WaveSettings& settings);
+    bool wanted(const std::string& name) const;
+    std::size_t add(const std::string& scope, const std::string& name, int bits, std::uint64_t initial);
+    void choose_axes();
+    void choose_wires();
+    void choose_counters();
+    void stop_listening();
+    void push(Instant at, std::size_t signal, std::uint64_t value);
     void look_at_cards(Instant now);
 
     static constexpr std::size_t buffer_size = 1 << 21;
 
     Rack& rack_;
-    trace::VcdWriter writer_;
+    std::vector<std::string> patterns_;
+    WireTap* tap_;
     Duration register_period_;
     sim::DeviceId id_{};
-    std::vector<std::int64_t> wire_ids_;  // VCD id of each kernel wire, -1: not recorded
+    bool is_device_ = false;
+    bool recording_ = false;
+    std::vector<WaveSignal> signals_;
+    std::unique_ptr<WaveSink> sink_;
+    std::vector<std::int64_t> wire_signals_;  // signal of each kernel wire, -1: not recorded
     std::vector<std::unique_ptr<StepEar>> steps_;
     std::vector<std::unique_ptr<LineEar>> lines_;
-    std::vector<CardSignals> cards_;
+    std::vector<parts::AxisMachine*> heard_;
+    std::vector<sim::WireId> followed_;
+    std::vector<Counter> counters_;
     std::vector<Event> buffer_;
     std::uint64_t changes_ = 0;
     Instant last_{};

@@ -8,6 +8,7 @@
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/rack/counted.hpp>
 #include <motionrack/rack/template.hpp>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -15,6 +16,8 @@
 namespace motionrack::cli {
 
 namespace {
+
+using rack::counted;
 
 constexpr std::size_t problems_shown = 100;
 
@@ -43,10 +46,10 @@ int check_rack(const std::string& path, nlohmann::json* json) {
         for (const Error& warning : reading.warnings) print_warning(warning.text());
         for (const Error& error : reading.errors) print_error(error.text());
         if (reading.config)
-            fmt::print("{}: good. {}: {} card{}, {} axes, {} wires.\n", path, reading.config->name, reading.config->cards.size(),
-                       reading.config->cards.size() == 1 ? "" : "s", reading.config->axes.size(), reading.config->wires.size());
+            fmt::print("{}: good. {}: {}, {}, {}.\n", path, reading.config->name, counted(reading.config->cards.size(), "card"),
+                       counted(reading.config->axes.size(), "axis", "axes"), counted(reading.config->wires.size(), "wire"));
         else
-            fmt::print("{}: {} error{}.\n", path, reading.errors.size(), reading.errors.size() == 1 ? "" : "s");
+            fmt::print("{}: {}.\n", path, counted(reading.errors.size(), "error"));
     }
     return reading.errors.empty() ? exit_done : exit_code(reading.errors.front().trouble);
 }
@@ -72,7 +75,8 @@ int check_program_file(const std::string& path, const CheckOptions& options, nlo
         return check.problems.empty() ? exit_done : exit_bad_input;
     }
     if (const int bad = print_problems(check, path); bad != exit_done) return bad;
-    fmt::print("{}: good. {} lines, {} moves, {} dwells", path, check.lines, check.moves, check.dwells);
+    fmt::print("{}: good. {}, {}, {}", path, counted(check.lines, "line"), counted(check.moves, "move"),
+               counted(check.dwells, "dwell"));
     for (const rack::RackAxis& axis : config->axes) {
         const auto i = static_cast<std::size_t>(axis.index());
         fmt::print("{} {} {:.3f} to {:.3f} {}", i == 0 ? ";" : ",", axis.letter, check.least[i], check.greatest[i], axis.unit());

@@ -4,6 +4,7 @@
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/rack/counted.hpp>
 #include <motionrack/rack/template.hpp>
 
 namespace motionrack::cli {
@@ -43,8 +44,8 @@ control::gcode::Settings reader_settings(const rack::RackConfig& config, bool bl
 int print_problems(const control::gcode::Check& check, const std::string& name) {
     if (check.problems.empty()) return exit_done;
     for (const control::gcode::Problem& problem : check.problems) print_error(problem.text());
-    print_error(fmt::format("{} has {}{} problem{}; nothing was moved.", name, check.problems.size(),
-                            check.more_problems ? " or more" : "", check.problems.size() == 1 ? "" : "s"));
+    print_error(fmt::format("{} has {}{}; nothing was moved.", name, check.more_problems ? "at least " : "",
+                            rack::counted(check.problems.size(), "problem")));
     return exit_bad_input;
 }
 

@@ -135,10 +135,10 @@ TEST(RackKeys, KeepsNumbersBitForBit) {
 
 TEST(RackKeys, TakesWholeNumbersWrittenWithAnExponentOrAPoint) {
     const RackConfig config =
-        good(rack_with("microsteps = 8.0\nlead_mm = 10\n") + "[card.n]\ntype = \"mcx314\"\nclock_hz = 8e6\n");
+        good(rack_with("microsteps = 8.0\nlead_mm = 10\n") + "[card.n]\ntype = \"mcx314\"\nbus_access_ns = 1.25e2\n");
     EXPECT_EQ(config.axes[0].microsteps, 8);
     EXPECT_EQ(config.axes[0].lead_mm, 10.0);
-    EXPECT_EQ(config.cards[1].mcx314.clock_hz, 8'000'000);
+    EXPECT_EQ(config.cards[1].mcx314.bus_access_ns, 125);
 }
 
 // ---- Templates and the reference page ---------------------------------------------------------------------------

@@ -62,6 +62,7 @@ const std::vector<BadFile>& bad_files() {
         {"[card.m]\nslot = 1\n", {1, 7}, {"card m has no type"}},
         {"[card.m]\ntype = \"mcx31\"\n", {2, 8}, {"'mcx31'", "did you mean 'mcx314'?"}},
         {"[card.m]\ntype = 314\n", {2, 8}, {"type of card m", "whole number", "in quotes"}},
+        {"[card.m]\ntype = \"mcx314\"\nclock_hz = 8e6\n", {3, 12}, {"is 8000000, but it can be only 16000000 Hz"}},
         {"card.m = \"mcx3\"\n", {1, 10}, {"'mcx3'", "did you mean 'mcx314'?"}},
         {"[card.X]\ntype = \"mcx314\"\n", {1, 7}, {"called X", "axis"}},
         {"[card.estop]\ntype = \"mcx314\"\n", {1, 7}, {"called estop", "emergency stop"}},
@@ -238,14 +239,15 @@ TEST(RackFile, ChangesOnlyTheWiresThatTheFileNames) {
     const std::string machine = "[axis.X.switches]\nhome_mm = 1\n[wires]\n";
     const RackConfig config =
         good(rack_with(machine + "m.xin1 = \"X.home\"\n\"m.xin2\" = \"open\"\n\"m.xeca\" = \"X.enc_b\"\n"
-                                 "\"m.xecb\" = \"X.enc_a\"\n\"X.step\" = \"m.upp\"\n\"m.xin3\" = \"m.xout0\"\n"));
+                                 "\"m.xecb\" = \"X.enc_a\"\n\"X.step\" = \"m.upp\"\n\"X.dir\" = \"m.upm\"\n"
+                                 "\"m.xin3\" = \"m.xout0\"\n"));
     EXPECT_EQ(driver_of(config, "m.xin0"), "X.home");
     EXPECT_EQ(driver_of(config, "m.xin1"), "X.home");
     EXPECT_EQ(driver_of(config, "m.xin2"), "");
     EXPECT_EQ(driver_of(config, "m.xeca"), "X.enc_b");
     EXPECT_EQ(driver_of(config, "m.xecb"), "X.enc_a");
     EXPECT_EQ(driver_of(config, "X.step"), "m.upp");
-    EXPECT_EQ(driver_of(config, "X.dir"), "m.xpm");
+    EXPECT_EQ(driver_of(config, "X.dir"), "m.upm");
     EXPECT_EQ(driver_of(config, "m.xin3"), "m.xout0");
 }
 

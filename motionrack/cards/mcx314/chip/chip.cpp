@@ -287,8 +287,11 @@ double Chip::rate_of(int a, Instant t) const {
 std::int64_t Chip::pulses_made(int axis) {
     return state_.axis[axis].made;
 }
-std::int32_t Chip::lp(int axis) {
-    return state_.axis[axis].lp;
+std::int32_t Chip::lp(int axis) const {
+    // Between events the generators stay behind: the pulses since then are counted, not yet entered.
+    const Axis& own = state_.axis[axis];
+    const auto since = static_cast<std::uint32_t>(count_at(axis, kernel_.now()) - own.count);
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(own.lp) + since);
 }
 std::int32_t Chip::ep(int axis) const {
     return encoder_position(state_.axis[axis], axis);

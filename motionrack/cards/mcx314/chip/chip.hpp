@@ -45,7 +45,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void connect_encoder(int axis, sim::Motion& counts);
     /// Pulses of both directions since the start.
     std::int64_t pulses_made(int axis);
-    std::int32_t lp(int axis);
+    std::int32_t lp(int axis) const;
     std::int32_t ep(int axis) const;
 
     sim::DeviceId id() const { return id_; }

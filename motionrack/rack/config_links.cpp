@@ -1,0 +1,191 @@
+// Pulses and encoder tracks among the wires. They are not switched edge by edge but joined as motions, so step and
+// direction, and the two tracks of an encoder, must be a pair:
+//
+//   m.xpp -> X.step,  m.xpm -> X.dir      the pulses of channel x turn the motor of X
+//   X.enc_a -> m.xeca, X.enc_b -> m.xecb  the encoder of X at channel x; crossed over: it counts backwards
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/rack/config_parts.hpp>
+#include <motionrack/sim/motion.hpp>
+#include <tuple>
+
+namespace motionrack::rack {
+namespace {
+
+/// The pin of a card type that the default rule joins with that end of an axis; empty if it has none.
+std::string_view pin_for(const CardType& type, std::string_view end) {
+    for (const DefaultWire& wire : type.default_wires)
+        if (wire.end == end) return wire.pin;
+    return {};
+}
+
+class LinkResolver {
+  public:
+    LinkResolver(RackConfig& config, const std::function<Place(const std::string&)>& place_of, Problems& problems)
+        : config_(config), place_of_(place_of), problems_(problems) {}
+
+    void run() {
+        for (std::size_t i = 0; i < config_.axes.size(); ++i) pulses_of(static_cast<int>(i));
+        for (const RackWire& wire : config_.wires)
+            if (is_track(wire.from)) encoder_at(wire);
+        std::sort(config_.encoder_links.begin(), config_.encoder_links.end(),
+                  [](const EncoderLink& a, const EncoderLink& b) {
+                      return std::tie(a.card, a.channel) < std::tie(b.card, b.channel);
+                  });
+        too_many_readers();
+    }
+
+  private:
+    static bool is_track(const WireEnd& end) {
+        return end.owner == EndOwner::axis && (end.pin == "enc_a" || end.pin == "enc_b");
+    }
+
+    const RackWire* wire_to(const WireEnd& to) const {
+        const auto found =
+            std::find_if(config_.wires.begin(), config_.wires.end(), [&](const RackWire& w) { return w.to == to; });
+        return found != config_.wires.end() ? &*found : nullptr;
+    }
+
+    const CardType& type_of(int card) const {
+        return *find_card_type(config_.cards[static_cast<std::size_t>(card)].type);
+    }
+
+    /// The pin of that channel which the default rule joins with `end`.
+    WireEnd pin_of(int card, int channel, std::string_view end) const {
+        const CardType& type = type_of(card);
+        return {EndOwner::card, card,
+                type.channels[static_cast<std::size_t>(channel)] + std::string(pin_for(type, end))};
+    }
+
+    /// The channel whose pin for `end` this is, or -1.
+    int channel_with(const WireEnd& pin, std::string_view end) const {
+        if (pin.owner != EndOwner::card || pin_for(type_of(pin.index), end).empty()) return -1;
+        const int channels = static_cast<int>(type_of(pin.index).channels.size());
+        for (int channel = 0; channel < channels; ++channel)
+            if (pin == pin_of(pin.index, channel, end)) return channel;
+        return -1;
+    }
+
+    // ---- Step and direction ----
+
+    void pulses_of(int axis) {
+        const WireEnd step_end{EndOwner::axis, axis, "step"}, dir_end{EndOwner::axis, axis, "dir"};
+        const RackWire* step = wire_to(step_end);
+        if (step == nullptr) return;  // open: the motor stands
+        const std::string step_name = name(step_end), dir_name = name(dir_end);
+        const int channel = channel_with(step->from, "step");
+        if (channel < 0) {
+            error({step_name}, fmt::format("{} cannot be driven by {}: a motor follows the pulse output of a channel, "
+                                           "such as {}. Write one of those, or \"open\".",
+                                           step_name, name(step->from), name(own_pin(axis, "step"))));
+            return;
+        }
+        const PulseLink link{axis, step->from.index, channel};
+        const WireEnd needed = pin_of(link.card, channel, "dir");
+        const RackWire* dir = wire_to(dir_end);
+        if (dir == nullptr || dir->from != needed) {
+            error({dir_name, step_name},
+                  fmt::format("{} is driven by {} and {} {}; pulses and their direction come from one channel: write "
+                              "\"{}\" = \"{}\".",
+                              step_name, name(step->from), dir_name,
+                              dir == nullptr ? "is open" : "by " + name(dir->from), dir_name, name(needed)));
+            return;
+        }
+        for (const PulseLink& other : config_.pulse_links) {
+            if (other.card != link.card || other.channel != link.channel) continue;
+            const std::string other_name = name({EndOwner::axis, other.axis, "step"});
+            error({step_name, other_name},
+                  fmt::format("{} drives {} and {}, but a channel's pulses turn one motor here; write \"open\" or "
+                              "another channel for one of them.",
+                              name(step->from), other_name, step_name));
+            return;
+        }
+        config_.pulse_links.push_back(link);
+    }
+
+    /// An example: the pin of the axis' own channel.
+    WireEnd own_pin(int axis, std::string_view end) const {
+        const RackAxis& own = config_.axes[static_cast<std::size_t>(axis)];
+        for (std::size_t i = 0; i < config_.cards.size(); ++i)
+            if (config_.cards[i].name == own.card)
+                return pin_of(static_cast<int>(i), channel_index(config_, own), end);
+        return {};
+    }
+
+    // ---- Encoder tracks ----
+
+    /// `wire` begins at a track: it must end at an encoder input, and the other input must have the other track.
+    void encoder_at(const RackWire& wire) {
+        int channel = channel_with(wire.to, "enc_a");
+        const bool at_a = channel >= 0;
+        if (!at_a) channel = channel_with(wire.to, "enc_b");
+        if (channel < 0) {
+            error({name(wire.to)}, fmt::format("{} cannot be driven by {}: the tracks of an encoder lead to the "
+                                               "encoder inputs of a channel, such as {} and {}.",
+                                               name(wire.to), name(wire.from),
+                                               name(own_pin(wire.from.index, "enc_a")),
+                                               name(own_pin(wire.from.index, "enc_b"))));
+            return;
+        }
+        const WireEnd other = pin_of(wire.to.index, channel, at_a ? "enc_b" : "enc_a");
+        const WireEnd track{EndOwner::axis, wire.from.index, wire.from.pin == "enc_a" ? "enc_b" : "enc_a"};
+        const RackWire* partner = wire_to(other);
+        if (partner == nullptr || partner->from != track) {
+            if (!at_a && partner != nullptr && is_track(partner->from)) return;  // told at input A
+            const std::string there = partner == nullptr ? "is open" : "is driven by " + name(partner->from);
+            error({name(other), name(wire.to)},
+                  fmt::format("{} is driven by {} but {} {}; an encoder is wired with both tracks or not at all: write "
+                              "\"{}\" = \"{}\", or \"open\" for both.",
+                              name(wire.to), name(wire.from), name(other), there, name(other), name(track)));
+            return;
+        }
+        if (at_a)
+            config_.encoder_links.push_back({wire.from.index, wire.to.index, channel, wire.from.pin == "enc_b"});
+    }
+
+    void too_many_readers() {
+        for (std::size_t axis = 0; axis < config_.axes.size(); ++axis) {
+            int readers = 0;
+            for (const EncoderLink& link : config_.encoder_links) {
+                if (link.axis != static_cast<int>(axis) || ++readers != sim::Motion::max_listeners + 1) continue;
+                const std::string input = name(pin_of(link.card, link.channel, "enc_a"));
+                error({input}, fmt::format("{} would be input number {} of the encoder of axis {}; one encoder leads "
+                                           "to {} channels at most.",
+                                           input, readers, config_.axes[axis].letter, sim::Motion::max_listeners));
+            }
+        }
+    }
+
+    // ---- Telling ----
+
+    std::string name(const WireEnd& end) const { return config_.end_name(end); }
+
+    /// At the first of these inputs that the file names.
+    void error(std::initializer_list<std::string> inputs, std::string message) {
+        for (const std::string& input : inputs) {
+            const Place place = place_of_(input);
+            if (place != Place{}) return problems_.error(place, std::move(message));
+        }
+        // Wires of the default rule alone: two axes on one channel, which was told already.
+        if (!problems_.any_errors()) problems_.error({}, std::move(message));
+    }
+
+    RackConfig& config_;
+    const std::function<Place(const std::string&)>& place_of_;
+    Problems& problems_;
+};
+
+}  // namespace
+
+bool is_link(const RackWire& wire) {
+    return (wire.to.owner == EndOwner::axis) ||
+           (wire.from.owner == EndOwner::axis && (wire.from.pin == "enc_a" || wire.from.pin == "enc_b"));
+}
+
+void resolve_links(RackConfig& config, const std::function<Place(const std::string& input)>& place_of,
+                   Problems& problems) {
+    LinkResolver(config, place_of, problems).run();
+}
+
+}  // namespace motionrack::rack

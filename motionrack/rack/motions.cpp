@@ -1,0 +1,32 @@
+// Negating what passes through.
+#include <algorithm>
+#include <motionrack/rack/motions.hpp>
+
+namespace motionrack::rack {
+
+void MirroredMotion::watch(int slot, std::int64_t below, std::int64_t above) {
+    of_.watch(slot, above == sim::unwatched_above ? sim::unwatched_below : -above,
+              below == sim::unwatched_below ? sim::unwatched_above : -below);
+}
+
+int MirroredMotion::listen(sim::MotionListener& listener) {
+    ears_.push_back(std::make_unique<Ear>(listener));
+    return of_.listen(*ears_.back());
+}
+
+void MirroredMotion::listen_edges(sim::EdgeListener* listener) {
+    edge_listener_ = listener;
+    of_.listen_edges(listener != nullptr ? this : nullptr);
+}
+
+void MirroredMotion::edges(const sim::EdgeBatch& batch) {
+    mirrored_.origin = batch.origin;
+    mirrored_.tick = batch.tick;
+    mirrored_.first_count = -batch.first_count;
+    mirrored_.step = -batch.step;
+    mirrored_.size = batch.size;
+    std::copy_n(batch.at.begin(), batch.size, mirrored_.at.begin());
+    edge_listener_->edges(mirrored_);
+}
+
+}  // namespace motionrack::rack

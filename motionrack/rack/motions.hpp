@@ -1,0 +1,58 @@
+// Motions between cards and parts: one that never moves, and one seen backwards.
+//
+//   open step input   ──► StillMotion ──► AxisMachine
+//   encoder ──► MirroredMotion (tracks A and B crossed over: count -> -count) ──► card
+#pragma once
+
+#include <memory>
+#include <motionrack/sim/motion.hpp>
+#include <vector>
+
+namespace motionrack::rack {
+
+/// Stands at 0 for ever.
+class StillMotion final : public sim::Motion {
+  public:
+    std::int64_t count(Instant) const override { return 0; }
+    double rate(Instant) const override { return 0; }
+    void watch(int, std::int64_t, std::int64_t) override {}
+    int listen(sim::MotionListener&) override { return listeners_++; }
+    void listen_edges(sim::EdgeListener*) override {}
+    void hand_over_edges() override {}
+
+  private:
+    int listeners_ = 0;
+};
+
+/// `of` with all counts and rates negated. Counts stand for the same lines with A and B exchanged: phase 1 (A) becomes
+/// phase 3 (B). Takes listener slots of `of`.
+class MirroredMotion final : public sim::Motion, private sim::EdgeListener {
+  public:
+    explicit MirroredMotion(sim::Motion& of) : of_(of) {}
+
+    std::int64_t count(Instant t) const override { return -of_.count(t); }
+    double rate(Instant t) const override { return -of_.rate(t); }
+    void watch(int slot, std::int64_t below, std::int64_t above) override;
+    int listen(sim::MotionListener& listener) override;
+    void listen_edges(sim::EdgeListener* listener) override;
+    void hand_over_edges() override { of_.hand_over_edges(); }
+
+  private:
+    class Ear final : public sim::MotionListener {
+      public:
+        explicit Ear(sim::MotionListener& to) : to_(to) {}
+        void crossed(Instant now) override { to_.crossed(now); }
+        void rate_changed(double before, double rate, Instant now) override { to_.rate_changed(-before, -rate, now); }
+
+      private:
+        sim::MotionListener& to_;
+    };
+    void edges(const sim::EdgeBatch& batch) override;
+
+    sim::Motion& of_;
+    std::vector<std::unique_ptr<Ear>> ears_;
+    sim::EdgeListener* edge_listener_ = nullptr;
+    sim::EdgeBatch mirrored_{};
+};
+
+}  // namespace motionrack::rack

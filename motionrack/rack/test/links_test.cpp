@@ -1,0 +1,163 @@
+// Pulses and encoder tracks in the rack file: what the wires say is what turns and counts; the rest is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <motionrack/rack/job.hpp>
+#include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/test/config_helpers.hpp>
+
+namespace motionrack::rack {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string second_axis = "[axis.A]\ncard = \"m\"\nchannel = \"u\"\n";
+
+std::string wired(const std::string& wires) { return rack_with("[wires]\n" + wires); }
+
+TEST(Links, FollowTheDefaultRule) {
+    const RackConfig config = good(rack_with(second_axis));
+    EXPECT_THAT(config.pulse_links, ElementsAre(PulseLink{0, 0, 0}, PulseLink{1, 0, 3}));
+    EXPECT_THAT(config.encoder_links, ElementsAre(EncoderLink{0, 0, 0, false}, EncoderLink{1, 0, 3, false}));
+    EXPECT_THAT(good(rack_with("encoder_counts_per_rev = 0\n")).encoder_links, IsEmpty());
+}
+
+TEST(Links, FollowTheFile) {
+    const RackConfig moved = good(wired("\"X.step\" = \"m.upp\"\n\"X.dir\" = \"m.upm\"\n"));
+    EXPECT_THAT(moved.pulse_links, ElementsAre(PulseLink{0, 0, 3}));
+    EXPECT_THAT(good(wired("X.step = \"open\"\n")).pulse_links, IsEmpty());
+    EXPECT_THAT(good(wired("m.xeca = \"open\"\nm.xecb = \"open\"\n")).encoder_links, IsEmpty());
+    const RackConfig crossed = good(wired("m.xeca = \"X.enc_b\"\nm.xecb = \"X.enc_a\"\n"));
+    EXPECT_THAT(crossed.encoder_links, ElementsAre(EncoderLink{0, 0, 0, true}));
+    const RackConfig twice = good(wired("m.yeca = \"X.enc_a\"\nm.yecb = \"X.enc_b\"\n"));
+    EXPECT_THAT(twice.encoder_links, ElementsAre(EncoderLink{0, 0, 0, false}, EncoderLink{0, 0, 1, false}));
+}
+
+struct BadWires {
+    std::string wires;
+    Place place;
+    std::vector<std::string> words;
+};
+
+TEST(Links, RefusesWhatCannotBeObeyedBeforeAnythingMoves) {
+    const std::vector<BadWires> cases = {
+        {"X.step = \"m.xout0\"\n", {7, 3}, {"X.step cannot be driven by m.xout0", "m.xpp", "open"}},
+        {"X.step = \"m.xpm\"\nX.dir = \"m.xpp\"\n", {7, 3}, {"X.step cannot be driven by m.xpm"}},
+        {"X.step = \"X.enc_z\"\n", {7, 3}, {"X.step cannot be driven by X.enc_z"}},
+        {"X.step = \"m.upp\"\n", {7, 3}, {"X.step is driven by m.upp and X.dir by m.xpm", "\"X.dir\" = \"m.upm\""}},
+        {"X.dir = \"open\"\n", {7, 3}, {"X.dir is open", "\"X.dir\" = \"m.xpm\""}},
+        {"X.dir = \"m.xout4\"\n", {7, 3}, {"X.dir by m.xout4"}},
+        {"m.xin1 = \"X.enc_a\"\n", {7, 3}, {"m.xin1 cannot be driven by X.enc_a", "m.xeca and m.xecb"}},
+        {"m.xeca = \"open\"\n", {7, 3}, {"m.xecb is driven by X.enc_b but m.xeca is open", "open"}},
+        {"m.xecb = \"m.xout0\"\n", {7, 3}, {"m.xecb is driven by m.xout0"}},
+        {"m.xecb = \"X.enc_a\"\n", {7, 3}, {"m.xecb is driven by X.enc_a", "\"m.xecb\" = \"X.enc_b\""}},
+    };
+    for (const BadWires& bad : cases) {
+        const RackReading reading = read_rack_text(wired(bad.wires));
+        EXPECT_FALSE(reading.config) << bad.wires;
+        ASSERT_EQ(reading.errors.size(), 1u) << all_texts(reading.errors) << bad.wires;
+        EXPECT_EQ(reading.errors[0].place, bad.place) << reading.errors[0].text() << bad.wires;
+        for (const std::string& word : bad.words) EXPECT_THAT(reading.errors[0].message, HasSubstr(word)) << bad.wires;
+    }
+}
+
+TEST(Links, OneChannelTurnsOneMotor) {
+    const RackReading reading =
+        read_rack_text(rack_with(second_axis + "[wires]\nX.step = \"m.upp\"\nX.dir = \"m.upm\"\n"));
+    ASSERT_EQ(reading.errors.size(), 1u) << all_texts(reading.errors);
+    EXPECT_EQ(reading.errors[0].place, (Place{10, 3}));
+    EXPECT_THAT(reading.errors[0].message, HasSubstr("m.upp drives X.step and A.step"));
+}
+
+TEST(Links, AnEncoderLeadsToSixChannels) {
+    std::string text = rack_with("[card.n]\ntype = \"mcx314\"\n[wires]\n");
+    for (const char* pin : {"m.y", "m.z", "m.u", "n.x", "n.y", "n.z"})
+        text += fmt::format("{0}eca = \"X.enc_a\"\n{0}ecb = \"X.enc_b\"\n", pin);
+    const RackReading reading = read_rack_text(text);
+    ASSERT_EQ(reading.errors.size(), 1u) << all_texts(reading.errors);
+    EXPECT_THAT(reading.errors[0].message, HasSubstr("n.zeca would be input number 7"));
+}
+
+// ---- On a running rack ----------------------------------------------------------------------------------------------
+
+struct Ended {
+    std::unique_ptr<Rack> rack;
+    JobOutcome outcome;
+};
+
+/// Runs X to 10 mm and A to 20 degrees.
+Ended run(const std::string& wires) {
+    Ended out;
+    out.rack = std::make_unique<Rack>(good(rack_with(second_axis + "[wires]\n" + wires)));
+    JobSettings settings;
+    settings.program = "G21 G90\nG1 X10 F600\nG1 A20\nM2\n";
+    Job job(*out.rack, settings);
+    out.rack->start();
+    out.outcome = job.run();
+    EXPECT_TRUE(out.outcome.ended) << out.outcome.ended.error().text();
+    return out;
+}
+
+TEST(Links, AnOpenStepInputLeavesTheMotorStandingAndTheJobSaysSo) {
+    const Ended ended = run("X.step = \"open\"\n");
+    const AxisOutcome& x = ended.outcome.axes[0];
+    EXPECT_EQ(x.pulses_sent, 6400);
+    EXPECT_EQ(x.real_end, 0);
+    EXPECT_EQ(x.counts_read, 0);
+    EXPECT_EQ(x.lost_pulses, 6400);
+    EXPECT_FALSE(ended.outcome.position_trusted);
+    EXPECT_EQ(ended.outcome.axes[1].real_end, 20);
+}
+
+TEST(Links, AnotherChannelsPulsesTurnTheMotor) {
+    const Ended ended = run("X.step = \"m.upp\"\nX.dir = \"m.upm\"\nA.step = \"m.xpp\"\nA.dir = \"m.xpm\"\n");
+    // 20 degrees are 16,000 pulses, at 640 pulses a mm; 10 mm are 6400 pulses, at 800 a degree.
+    EXPECT_EQ(ended.outcome.axes[0].real_end, 25);
+    EXPECT_EQ(ended.outcome.axes[1].real_end, 8);
+    EXPECT_FALSE(ended.outcome.position_trusted);
+}
+
+TEST(Links, CrossedTracksCountBackwardsAndOpenOnesNotAtAll) {
+    const Ended crossed = run("m.xeca = \"X.enc_b\"\nm.xecb = \"X.enc_a\"\n");
+    EXPECT_EQ(crossed.outcome.axes[0].counts_read, -8000);
+    EXPECT_EQ(crossed.outcome.axes[0].real_end, 10);
+    EXPECT_TRUE(crossed.outcome.position_trusted);
+    const Ended open = run("m.xeca = \"open\"\nm.xecb = \"open\"\n");
+    EXPECT_EQ(open.outcome.axes[0].counts_read, 0);
+    EXPECT_EQ(open.outcome.axes[1].counts_read, 20000);
+}
+
+/// A comparison of the crossed encoder stops the drive where the count comes to -2000.
+TEST(Links, WatchesOnACrossedEncoderFireAtTheMirroredCount) {
+    struct Ear final : sim::MotionListener {
+        void crossed(Instant) override { ++times; }
+        void rate_changed(double, double rate, Instant) override { last_rate = rate; }
+        int times = 0;
+        double last_rate = 0;
+    };
+    const RackConfig config = good(rack_with(""));
+    Rack rack(config);
+    MirroredMotion mirrored(rack.axes()[0].machine->encoder());
+    Ear ear;
+    const int slot = mirrored.listen(ear);
+    JobSettings settings;
+    settings.program = "G21 G90\nG1 X10 F600\nM2\n";
+    Job job(rack, settings);
+    rack.start();
+    mirrored.watch(slot, -2000, sim::unwatched_above);
+    EXPECT_TRUE(job.run().ended);
+    EXPECT_EQ(ear.times, 1);
+    EXPECT_EQ(mirrored.count(rack.kernel().now()), -8000);
+    mirrored.watch(slot, sim::unwatched_below, -7000);
+    EXPECT_TRUE(rack.kernel().run_until(rack.kernel().now() + milliseconds(1)) == sim::RunEnd::reached);
+    EXPECT_EQ(ear.times, 1);
+    mirrored.watch(slot, sim::unwatched_below, -8000);
+    rack.kernel().run_until(rack.kernel().now() + milliseconds(1));
+    EXPECT_EQ(ear.times, 2);
+    EXPECT_EQ(ear.last_rate, 0);
+}
+
+}  // namespace
+}  // namespace motionrack::rack

@@ -1,0 +1,117 @@
+// The two formats of a recording.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/rack/wave_sink.hpp>
+#include <motionrack/trace/csv.hpp>
+#include <motionrack/trace/vcd.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+class VcdSink final : public WaveSink {
+  public:
+    /// Each scope is opened once, in the order in which it is met first.
+    VcdSink(trace::VcdWriter writer, const std::vector<WaveSignal>& signals)
+        : writer_(std::move(writer)), ids_(signals.size()) {
+        std::vector<std::string> scopes;
+        for (const WaveSignal& signal : signals)
+            if (std::find(scopes.begin(), scopes.end(), signal.scope) == scopes.end()) scopes.push_back(signal.scope);
+        for (const std::string& scope : scopes) {
+            writer_.push_scope(scope);
+            for (std::size_t i = 0; i < signals.size(); ++i)
+                if (signals[i].scope == scope) ids_[i] = declare(signals[i]);
+            writer_.pop_scope();
+        }
+    }
+
+    void change(std::size_t index, std::uint64_t value, Instant at) override { writer_.change(ids_[index], value, at); }
+    Result<void> close(Instant end) override { return writer_.close(end); }
+
+  private:
+    trace::VcdWriter::Id declare(const WaveSignal& signal) {
+        return signal.bits == 1 ? writer_.add_wire(signal.name, signal.initial != 0)
+                                : writer_.add_vector(signal.name, signal.bits, signal.initial);
+    }
+
+    trace::VcdWriter writer_;
+    std::vector<trace::VcdWriter::Id> ids_;
+};
+
+class CsvSink final : public WaveSink {
+  public:
+    CsvSink(trace::CsvWriter writer, const std::vector<WaveSignal>& signals, Instant start)
+        : writer_(std::move(writer)) {
+        for (const WaveSignal& signal : signals) {
+            columns_.push_back({signal.scope + '.' + signal.name, signal.bits, signal.is_signed, signal.initial});
+            write(columns_.back(), start);
+        }
+    }
+
+    void change(std::size_t index, std::uint64_t value, Instant at) override {
+        Column& column = columns_[index];
+        if (column.bits < 64) value &= (std::uint64_t{1} << column.bits) - 1;
+        if (column.value == value) return;
+        column.value = value;
+        write(column, at);
+    }
+    Result<void> close(Instant) override { return writer_.close(); }
+
+  private:
+    struct Column {
+        std::string name;
+        int bits = 1;
+        bool is_signed = false;
+        std::uint64_t value = 0;
+
+        std::int64_t number() const {
+            const std::uint64_t sign = std::uint64_t{1} << (bits - 1);
+            return static_cast<std::int64_t>(is_signed ? (value ^ sign) - sign : value);
+        }
+    };
+
+    void write(const Column& column, Instant at) {
+        // Whole ticks of 100 ps: exact, where a double of seconds would not be.
+        writer_.add(fmt::format("{}.{:010}", at.count() / 10'000'000'000, at.count() % 10'000'000'000));
+        writer_.add(column.name);
+        writer_.add(column.number());
+        writer_.end_line();
+    }
+
+    trace::CsvWriter writer_;
+    std::vector<Column> columns_;
+};
+
+}  // namespace
+
+Result<WaveFormat> wave_format(const std::string& path) {
+    const auto ends_in = [&](std::string_view ending) {
+        return path.size() > ending.size() &&
+               path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+    };
+    if (ends_in(".vcd")) return WaveFormat::vcd;
+    if (ends_in(".csv")) return WaveFormat::csv;
+    if (ends_in(".h5"))
+        return fail(Trouble::refused, fmt::format("'{}': recordings cannot be written as HDF5; take .vcd or .csv. Nothing "
+                                                  "was recorded.",
+                                                  path));
+    return fail(Trouble::refused, fmt::format("'{}': the ending of the name chooses the format of a recording, .vcd or "
+                                              ".csv. Nothing was recorded.",
+                                              path));
+}
+
+Result<std::unique_ptr<WaveSink>> make_wave_sink(const WaveSinkSettings& settings,
+                                                 const std::vector<WaveSignal>& signals) {
+    if (settings.format == WaveFormat::csv) {
+        MOTIONRACK_TRY(trace::CsvWriter writer, trace::CsvWriter::create(settings.path, {"time_s", "signal", "value"}));
+        return std::make_unique<CsvSink>(std::move(writer), signals, settings.start);
+    }
+    trace::VcdSettings vcd;
+    vcd.timescale = settings.vcd_timescale;
+    vcd.full_names = true;
+    MOTIONRACK_TRY(trace::VcdWriter writer, trace::VcdWriter::create(settings.path, vcd));
+    return std::make_unique<VcdSink>(std::move(writer), signals);
+}
+
+}  // namespace motionrack::rack
