@@ -135,8 +135,8 @@ Result<void> Axes::play_pause(const Segment& segment) {
 Result<void> Axes::start_chain(const Segment& segment) {
     generator_ = segment.axes[0];
     const unsigned own = 1u << generator_;
-    MOTIONRACK_CHECK(driver_.SetRange(own, range_));
-    MOTIONRACK_CHECK(driver_.SetRange(all_axes & ~own, std::llround(range_ * both_axes_factor)));
+    MOTIONRACK_CHECK(driver_.WriteRange(own, range_));
+    MOTIONRACK_CHECK(driver_.WriteRange(all_axes & ~own, std::llround(range_ * both_axes_factor)));
     MOTIONRACK_CHECK(driver_.SetSV(own, segment.initial_speed));
     driver_.SetSCurve(own, segment.s_curve);
     if (segment.s_curve) {
@@ -292,7 +292,7 @@ Result<void> Axes::start_companion(int channel, std::int64_t pulses, std::int32_
         acceleration = limits.max_accel * limits.pulses_per_unit * range_ / 8e6 / 125;
         start = 0.5 * limits.start_speed * limits.pulses_per_unit * range_ / 8e6;
     }
-    MOTIONRACK_CHECK(driver_.SetRange(axis, range_));
+    MOTIONRACK_CHECK(driver_.WriteRange(axis, range_));
     companion_start_speed_ = static_cast<std::int32_t>(std::clamp(std::floor(start), 1.0, 8'000.0));
     companion_acceleration_ = static_cast<std::int32_t>(std::clamp(std::floor(acceleration), 1.0, 8'000.0));
     MOTIONRACK_CHECK(driver_.SetSV(axis, companion_start_speed_));

@@ -1,17 +1,21 @@
-// Register traffic of the function library: range check, then WR7, WR6, WR0.
+// Register traffic of the function library: range check, then WR7, WR6, WR0; and the parameters.
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 
 #include <fmt/format.h>
-#include <motionrack/cards/mcx314/map.hpp>
 
 namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr std::int64_t finish_least = -8'388'608;
-constexpr std::int64_t finish_greatest = 8'388'607;
-constexpr std::int64_t least_32 = -2'147'483'648LL;
-constexpr std::int64_t greatest_32 = 2'147'483'647LL;
+constexpr std::int64_t most_multiple = 500, most_pulse_rate = 4'000'000;
+constexpr Duration reset_time = nanoseconds(875);
+constexpr std::uint16_t reset_word = field("WR0", "RESET").mask;
+
+std::int64_t range_of_multiple(std::int64_t multiple) {
+    return param::R.greatest / multiple;
+}
+
+}  // namespace
 
 std::string axes_text(unsigned axes) {
     std::string out;
@@ -20,29 +24,10 @@ std::string axes_text(unsigned axes) {
     return out;
 }
 
-}  // namespace
-
-std::string AxisStatus::why_stopped() const {
-    struct Cause {
-        std::uint16_t rr1, rr2;
-        const char* text;
-    };
-    static constexpr Cause causes[] = {
-        {0x8000, 0x0020, "the emergency stop input is active"}, {0x4000, 0x0010, "the drive's alarm is active"},
-        {0x1000, 0, "the + limit switch was reached"},          {0x2000, 0, "the - limit switch was reached"},
-        {0, 0x0001, "the + software limit was passed"},         {0, 0x0002, "the - software limit was passed"},
-        {0x0100, 0, "input IN0 stopped it"},                    {0x0200, 0, "input IN1 stopped it"},
-        {0x0400, 0, "input IN2 stopped it"},                    {0x0800, 0, "input IN3 stopped it"},
-    };
-    for (const Cause& cause : causes)
-        if ((rr1 & cause.rr1) || (rr2 & cause.rr2)) return cause.text;
-    return {};
-}
-
-// ---- traffic ----------------------------------------------------------------------------------------------------------------
+// ---- traffic ----------------------------------------------------------------------------------------------------------
 
 void Driver::command(unsigned axes, unsigned code) {
-    port_.write(reg::WR0, static_cast<std::uint16_t>((axes & 0xFu) << 8 | code));
+    port_.write(reg::WR0, static_cast<std::uint16_t>((axes & xyzu) << 8 | code));
 }
 
 void Driver::write_data(unsigned axes, unsigned code, std::uint32_t value) {
@@ -52,191 +37,231 @@ void Driver::write_data(unsigned axes, unsigned code, std::uint32_t value) {
 }
 
 std::uint32_t Driver::read_data(int axis, unsigned code) {
+    MOTIONRACK_ASSERT(axis >= 0 && axis < 4);
     command(1u << axis, code);
     const std::uint32_t low = port_.read(reg::RR6);
     const std::uint32_t high = port_.read(reg::RR7);
     return high << 16 | low;
 }
 
-Result<void> Driver::checked(unsigned axes, unsigned code, std::int64_t value, std::int64_t least, std::int64_t greatest,
-                             const char* name) {
-    if (axes == 0 || axes > 15)
-        return fail(Trouble::refused, fmt::format("{}: the axis mask {} names no axes; X is 1, Y 2, Z 4, U 8 and sums of these. "
-                                                  "Nothing was written.", name, axes));
-    if (value < least || value > greatest)
-        return fail(Trouble::refused, fmt::format("{} of {} is {}, but the chip takes {} to {}. Nothing was written.", name,
-                                                  axes_text(axes), value, least, greatest));
-    write_data(axes, code, static_cast<std::uint32_t>(value));
+void Driver::write_mode(unsigned axes, int number, std::uint16_t word) {
+    command(axes, cmd::NOP);
+    port_.write(reg::WR0 + 2u * static_cast<unsigned>(number), word);
+    for (int i = 0; i < 4; ++i)
+        if (axes >> i & 1) kept(i).mode[static_cast<std::size_t>(number - 1)] = word;
+}
+
+void Driver::set_mode(unsigned axes, int number, Field bits, unsigned value) {
+    for (int i = 0; i < 4; ++i)
+        if (axes >> i & 1) write_mode(1u << i, number, bits.set(kept(i).mode[static_cast<std::size_t>(number - 1)], value));
+}
+
+void Driver::put(unsigned axes, const Parameter& parameter, std::int64_t value) {
+    write_data(axes, parameter.code, static_cast<std::uint32_t>(value));
+    for (int i = 0; i < 4; ++i)
+        if (axes >> i & 1) kept(i).data[parameter.code] = value;
+}
+
+Driver::Kept& Driver::kept(int axis) {
+    MOTIONRACK_ASSERT(axis >= 0 && axis < 4);
+    return kept_[static_cast<std::size_t>(axis)];
+}
+
+const Driver::Kept& Driver::kept(int axis) const {
+    MOTIONRACK_ASSERT(axis >= 0 && axis < 4);
+    return kept_[static_cast<std::size_t>(axis)];
+}
+
+// ---- checks -----------------------------------------------------------------------------------------------------------
+
+Result<void> Driver::check_axes(unsigned axes, const char* who) {
+    if (axes >= 1 && axes <= xyzu) return {};
+    return fail(Trouble::refused, fmt::format("{}: the axis mask {} names no axes; X is 1, Y 2, Z 4, U 8, and sums of these up "
+                                              "to 15. Nothing was written.", who, axes));
+}
+
+Result<void> Driver::check(unsigned axes, const Parameter& parameter, std::int64_t value) {
+    MOTIONRACK_CHECK(check_axes(axes, parameter.name));
+    if (value >= parameter.least && value <= parameter.greatest) return {};
+    return fail(Trouble::refused, fmt::format("{} of {} is {}, but the chip takes {} to {}. Nothing was written.", parameter.name,
+                                              axes_text(axes), value, parameter.least, parameter.greatest));
+}
+
+Result<void> Driver::check_switch(const char* who, int n, int greatest, const char* meanings) {
+    if (n >= 0 && n <= greatest) return {};
+    return fail(Trouble::refused, fmt::format("{}: n is {}, but it is 0 to {} ({}). Nothing was written.", who, n, greatest, meanings));
+}
+
+Result<void> Driver::check_standing(unsigned axes, const char* who) {
+    const unsigned busy = field("RR0", "DRV").get(status().word) & axes;
+    if (busy == 0) return {};
+    return fail(Trouble::refused, fmt::format("{}: {} {} driving. Nothing was written. Wait for the end of the drive, or stop it first.",
+                                              who, axes_text(busy), (busy & (busy - 1)) == 0 ? "is" : "are"));
+}
+
+Result<void> Driver::check_initialised(unsigned axes, const char* who) const {
+    unsigned without = 0;
+    for (int i = 0; i < 4; ++i)
+        if ((axes >> i & 1) && !kept(i).data[cmd::R]) without |= 1u << i;
+    if (without == 0) return {};
+    return fail(Trouble::refused, fmt::format("{}: the multiple of {} is not set. Nothing was written. Call SetMultiple, SetRange or "
+                                              "SetMaxSpeed first.", who, axes_text(without)));
+}
+
+Result<void> Driver::write(unsigned axes, const Parameter& parameter, std::int64_t value) {
+    MOTIONRACK_CHECK(check(axes, parameter, value));
+    put(axes, parameter, value);
     return {};
 }
 
-void Driver::write_mode(unsigned axes, int number, std::uint16_t word) {
-    command(axes, cmd::NOP);
-    port_.write(reg::WR0 + 2u * number, word);
-    for (std::size_t i = 0; i < 4; ++i)
-        if (axes >> i & 1) mode_[i][number - 1] = word;
+Result<void> Driver::write_switch(const char* who, unsigned axes, int number, Field bits, int n, int greatest, const char* meanings) {
+    MOTIONRACK_CHECK(check_axes(axes, who));
+    MOTIONRACK_CHECK(check_switch(who, n, greatest, meanings));
+    set_mode(axes, number, bits, static_cast<unsigned>(n));
+    return {};
 }
 
-// ---- initial ----------------------------------------------------------------------------------------------------------------
+// ---- initial ----------------------------------------------------------------------------------------------------------
 
 void Driver::RESET() {
-    port_.write(reg::WR0, 0x8000);
-    interrupt_.pass(nanoseconds(875));
-    for (auto& axis : mode_) axis = {};
+    port_.write(reg::WR0, reset_word);
+    interrupt_.pass(reset_time);
+    kept_ = {};
+    outputs_ = 0;
+    path_mode_ = 0;
+    vector_axes_ = 1;
+    chain_ = {};
+    pattern_ = {};
+    pieces_ = {};
+}
+
+void Driver::initialise() {
+    RESET();
+    for (int number = 1; number <= 3; ++number) write_mode(xyzu, number, 0);
+    write_outputs(0);
+    write_path_mode(0);
+    put(xyzu, param::AO, 0);
+    put(xyzu, param::LP, 0);
+    put(xyzu, param::EP, 0);
+    EnableDeceleration(false);
 }
 
 Result<void> Driver::SetPulseMode(unsigned axes, int mode) {
-    if (mode != 0 && mode != 1)
-        return fail(Trouble::refused, fmt::format("SetPulseMode: the mode is {}, but it is 0 (two pulse trains) or 1 (pulse and "
-                                                  "direction). Nothing was written.", mode));
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) {
-            const unsigned rest = mode_[i][1] & ~0x0040u;
-            write_mode(1u << i, 2, static_cast<std::uint16_t>(mode == 1 ? rest | 0x0040u : rest));
-        }
+    MOTIONRACK_CHECK(check_axes(axes, "SetPulseMode"));
+    MOTIONRACK_CHECK(check_switch("SetPulseMode", mode, 1, "0 two pulse trains, 1 pulse and direction"));
+    MOTIONRACK_CHECK(check_standing(axes, "SetPulseMode"));
+    set_mode(axes, 2, field("WR2", "PLSMD"), static_cast<unsigned>(mode));
     return {};
 }
 
+Result<void> Driver::SetPulseLevels(unsigned axes, bool negative, bool direction_high) {
+    MOTIONRACK_CHECK(check_axes(axes, "SetPulseLevels"));
+    MOTIONRACK_CHECK(check_standing(axes, "SetPulseLevels"));
+    set_mode(axes, 2, field("WR2", "PLSL"), negative);
+    set_mode(axes, 2, field("WR2", "DIRL"), direction_high);
+    return {};
+}
+
+Result<void> Driver::SetMultiple(unsigned axes, std::int64_t multiple) {
+    if (multiple < 1 || multiple > most_multiple)
+        return fail(Trouble::refused, fmt::format("SetMultiple: the multiple is {}, but the chip takes 1 to {}. Nothing was written.",
+                                                  multiple, most_multiple));
+    MOTIONRACK_CHECK(check_axes(axes, "SetMultiple"));
+    MOTIONRACK_CHECK(check_standing(axes, "SetMultiple"));
+    return WriteRange(axes, range_of_multiple(multiple));
+}
+
 Result<void> Driver::SetRange(unsigned axes, std::int64_t range) {
-    return checked(axes, cmd::R, range, 16'000, 13'856'000, "The range R");
+    MOTIONRACK_CHECK(check(axes, param::R, range));
+    MOTIONRACK_CHECK(check_standing(axes, "SetRange"));
+    return WriteRange(axes, range);
 }
 
-// ---- speeds and ramps -------------------------------------------------------------------------------------------------------
+Result<void> Driver::SetMaxSpeed(unsigned axes, std::int64_t pulses_a_second) {
+    if (pulses_a_second < 1 || pulses_a_second > most_pulse_rate)
+        return fail(Trouble::refused, fmt::format("SetMaxSpeed: the speed is {} pulses/s, but the chip makes 1 to {}. Nothing was "
+                                                  "written.", pulses_a_second, most_pulse_rate));
+    return SetMultiple(axes, rules::ceil_div(pulses_a_second, param::V.greatest));
+}
 
-Result<void> Driver::SetSV(unsigned axes, std::int64_t value) { return checked(axes, cmd::SV, value, 1, 8'000, "The initial speed SV"); }
-Result<void> Driver::SetV(unsigned axes, std::int64_t value) { return checked(axes, cmd::V, value, 1, 8'000, "The drive speed V"); }
-Result<void> Driver::SetA(unsigned axes, std::int64_t value) { return checked(axes, cmd::A, value, 1, 8'000, "The acceleration A"); }
-Result<void> Driver::SetD(unsigned axes, std::int64_t value) { return checked(axes, cmd::D, value, 1, 8'000, "The deceleration D"); }
-Result<void> Driver::SetAA(unsigned axes, std::int64_t value) {
-    return checked(axes, cmd::K, value, 1, 65'535, "The acceleration's rate K");
+Result<void> Driver::WriteRange(unsigned axes, std::int64_t range) {
+    MOTIONRACK_CHECK(write(axes, param::vector_range, range));
+    for (int i = 0; i < 4; ++i)
+        if (axes >> i & 1) kept(i).own_range = range;
+    return {};
 }
-Result<void> Driver::SetAO(unsigned axes, std::int64_t value) {
-    return checked(axes, cmd::AO, value, 0, 65'535, "The acceleration counter offset AO");
+
+double Driver::multiple(int axis) const {
+    const std::int64_t range = kept(axis).own_range;
+    return range == 0 ? 0 : static_cast<double>(rules::sclk_hz) / static_cast<double>(range);
 }
+
+// ---- speeds and ramps -------------------------------------------------------------------------------------------------
+
+Result<void> Driver::SetSV(unsigned axes, std::int64_t value) { return write(axes, param::SV, value); }
+Result<void> Driver::SetV(unsigned axes, std::int64_t value) { return write(axes, param::V, value); }
+Result<void> Driver::SetA(unsigned axes, std::int64_t value) { return write(axes, param::A, value); }
+Result<void> Driver::SetD(unsigned axes, std::int64_t value) { return write(axes, param::D, value); }
+Result<void> Driver::SetAA(unsigned axes, std::int64_t value) { return write(axes, param::K, value); }
+Result<void> Driver::SetAO(unsigned axes, std::int64_t value) { return write(axes, param::AO, value); }
 
 Result<void> Driver::Pulse(unsigned axes, std::int64_t pulses) {
-    return checked(axes, cmd::P, pulses < 0 ? -pulses : pulses, 0, 268'435'455, "The number of output pulses P");
+    MOTIONRACK_CHECK(check(axes, param::pulses, pulses));
+    put(axes, param::pulses, rules::magnitude(pulses));
+    for (int i = 0; i < 4; ++i)
+        if (axes >> i & 1) kept(i).negative = pulses < 0;
+    return {};
 }
 
 Result<void> Driver::AutoDec(unsigned axes) {
+    MOTIONRACK_CHECK(check_axes(axes, "AutoDec"));
+    set_mode(axes, 3, field("WR3", "MANLD"), 0);
     for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) write_mode(1u << i, 3, static_cast<std::uint16_t>(mode_[i][2] & ~0x0001u));
+        if (axes >> i & 1) kept(i).manual = false;
     return {};
 }
 
 Result<void> Driver::SetDecPoint(unsigned axes, std::int64_t point) {
-    return checked(axes, cmd::DP, point, 0, 268'435'455, "The manual deceleration point DP");
+    MOTIONRACK_CHECK(write(axes, param::DP, point));
+    for (int i = 0; i < 4; ++i)
+        if (axes >> i & 1) kept(i).dec_point = point;
+    return {};
 }
 
 Result<void> Driver::ManualDec(unsigned axes, std::int64_t point) {
     MOTIONRACK_CHECK(SetDecPoint(axes, point));
+    set_mode(axes, 3, field("WR3", "MANLD"), 1);
     for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) write_mode(1u << i, 3, static_cast<std::uint16_t>(mode_[i][2] | 0x0001u));
+        if (axes >> i & 1) kept(i).manual = true;
     return {};
 }
 
-void Driver::SetSCurve(unsigned axes, bool on) {
-    for (int i = 0; i < 4; ++i) {
-        if (!(axes >> i & 1)) continue;
-        const unsigned rest = mode_[i][2] & ~0x0004u;
-        write_mode(1u << i, 3, static_cast<std::uint16_t>(on ? rest | 0x0004u : rest));
-    }
-}
-
-// ---- drives -----------------------------------------------------------------------------------------------------------------
-
-void Driver::Drive(unsigned axes, bool negative) { command(axes, negative ? cmd::FIXED_MINUS : cmd::FIXED_PLUS); }
-void Driver::DriveContinuous(unsigned axes, bool negative) { command(axes, negative ? cmd::CONTINUOUS_MINUS : cmd::CONTINUOUS_PLUS); }
-void Driver::Hold(unsigned axes) { command(axes, cmd::HOLD); }
-void Driver::Start(unsigned axes) { command(axes, cmd::START); }
-void Driver::SlowStop(unsigned axes) { command(axes, cmd::SLOW_STOP); }
-void Driver::QuickStop(unsigned axes) { command(axes, cmd::QUICK_STOP); }
-
-// ---- interpolation ----------------------------------------------------------------------------------------------------------
-
-void Driver::SetInterpolationAxes(int first, int second, int third, bool constant_vector, bool interrupt_at_joints) {
-    unsigned word = static_cast<unsigned>(first) | static_cast<unsigned>(second) << 2 | static_cast<unsigned>(third < 0 ? 0 : third) << 4;
-    if (constant_vector) word |= 0x0100u;
-    if (interrupt_at_joints) word |= 0x4000u;
-    port_.write(reg::WR5, static_cast<std::uint16_t>(word));
-}
-
-Result<void> Driver::Line(const Finish* ends, int count) {
-    for (int i = 0; i < count; ++i)
-        MOTIONRACK_CHECK(checked(1u << ends[i].axis, cmd::P, ends[i].pulses, finish_least, finish_greatest, "The finish point P"));
-    command(0, count == 3 ? cmd::LINE3 : cmd::LINE2);
+Result<void> Driver::SetAsymmetric(unsigned axes, bool on) {
+    MOTIONRACK_CHECK(check_axes(axes, "SetAsymmetric"));
+    set_mode(axes, 3, field("WR3", "DSNDE"), on);
+    for (int i = 0; i < 4; ++i)
+        if (axes >> i & 1) kept(i).asymmetric = on;
     return {};
 }
 
-Result<void> Driver::Arc(const Finish (&ends)[2], bool clockwise) {
-    for (const Finish& end : ends) {
-        MOTIONRACK_CHECK(checked(1u << end.axis, cmd::P, end.pulses, finish_least, finish_greatest, "The finish point P"));
-        MOTIONRACK_CHECK(checked(1u << end.axis, cmd::C, end.centre, finish_least, finish_greatest, "The centre C"));
-    }
-    command(0, clockwise ? cmd::ARC_CW : cmd::ARC_CCW);
-    return {};
-}
+void Driver::SetSCurve(unsigned axes, bool on) { set_mode(axes, 3, field("WR3", "SACC"), on); }
 
-void Driver::EnableDeceleration(bool on) { command(0, on ? cmd::DECELERATION_ON : cmd::DECELERATION_OFF); }
-void Driver::ClearInterpolationInterrupt() { command(0, cmd::INTERPOLATION_INTERRUPT_CLEAR); }
-
-// ---- modes, positions, status -----------------------------------------------------------------------------------------------
-
-void Driver::WriteMode1(unsigned axes, std::uint16_t word) { write_mode(axes, 1, word); }
-void Driver::WriteMode2(unsigned axes, std::uint16_t word) { write_mode(axes, 2, word); }
-void Driver::WriteMode3(unsigned axes, std::uint16_t word) { write_mode(axes, 3, word); }
+// ---- positions --------------------------------------------------------------------------------------------------------
 
 Result<void> Driver::LPS(unsigned axes, std::int64_t value) {
-    return checked(axes, cmd::LP, value, least_32, greatest_32, "The logical position LP");
+    MOTIONRACK_CHECK(write(axes, param::LP, value));
+    for (int i = 0; i < 4; ++i)
+        if (axes >> i & 1) kept(i).from_known = false;
+    return {};
 }
-Result<void> Driver::EPS(unsigned axes, std::int64_t value) {
-    return checked(axes, cmd::EP, value, least_32, greatest_32, "The real position EP");
-}
-Result<void> Driver::SetCompP(unsigned axes, std::int64_t value) {
-    return checked(axes, cmd::COMP_PLUS, value, least_32, greatest_32, "The comparison value COMP+");
-}
-Result<void> Driver::SetCompM(unsigned axes, std::int64_t value) {
-    return checked(axes, cmd::COMP_MINUS, value, least_32, greatest_32, "The comparison value COMP-");
-}
+Result<void> Driver::EPS(unsigned axes, std::int64_t value) { return write(axes, param::EP, value); }
+Result<void> Driver::SetCompP(unsigned axes, std::int64_t value) { return write(axes, param::COMP_PLUS, value); }
+Result<void> Driver::SetCompM(unsigned axes, std::int64_t value) { return write(axes, param::COMP_MINUS, value); }
 
 std::int32_t Driver::ReadLPS(int axis) { return static_cast<std::int32_t>(read_data(axis, cmd::READ_LP)); }
 std::int32_t Driver::ReadEPS(int axis) { return static_cast<std::int32_t>(read_data(axis, cmd::READ_EP)); }
-std::int32_t Driver::ReadCV(int axis) { return static_cast<std::int32_t>(read_data(axis, cmd::READ_CV)); }
-std::int32_t Driver::ReadCA(int axis) { return static_cast<std::int32_t>(read_data(axis, cmd::READ_CA)); }
-
-MainStatus Driver::status() { return {port_.read(reg::RR0)}; }
-
-AxisStatus Driver::axis_status(int axis) {
-    command(1u << axis, cmd::NOP);
-    AxisStatus status;
-    status.rr1 = port_.read(reg::RR1);
-    status.rr2 = port_.read(reg::RR2);
-    return status;
-}
-
-std::uint16_t Driver::read_interrupts(int axis) {
-    command(1u << axis, cmd::NOP);
-    return port_.read(reg::RR3);
-}
-
-Result<void> Driver::wait_until_stopped(unsigned axes, Duration timeout) {
-    const Instant end = interrupt_.now() + timeout;
-    bool stopped = false;
-    while (status().driving(axes)) {
-        if (!stopped && interrupt_.stop_requested()) {
-            SlowStop(axes);
-            stopped = true;
-        }
-        if (interrupt_.now() >= end)
-            return fail(Trouble::machine, fmt::format("{} still moves after {:.3f} s; nothing was stopped. Wait longer, or stop the axes.",
-                                                      axes_text(axes), to_seconds(timeout)));
-        // The drive-end interrupt, where enabled, wakes at once; otherwise the status is looked at every 100 us.
-        if (interrupt_.wait(microseconds(100)))
-            for (int i = 0; i < 4; ++i)
-                if (axes >> i & 1) read_interrupts(i);
-    }
-    if (stopped) return fail(Trouble::stopped, fmt::format("Stopped on request; {} stands still.", axes_text(axes)));
-    return {};
-}
+// CV and CA are 16-bit: the chip fetches them to RR6, and what RR7 shows then is not documented.
+std::int32_t Driver::ReadCV(int axis) { return static_cast<std::int32_t>(read_data(axis, cmd::READ_CV) & 0xFFFFu); }
+std::int32_t Driver::ReadCA(int axis) { return static_cast<std::int32_t>(read_data(axis, cmd::READ_CA) & 0xFFFFu); }
 
 }  // namespace motionrack::mcx314

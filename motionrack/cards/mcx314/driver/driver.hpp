@@ -1,73 +1,78 @@
-// The MCX314 function library: the source's functions over a register port, with every argument's range checked before anything is
-// written. It knows the chip only by its registers, so it cannot tell a virtual chip from a real one.
+// The MCX314 function library: the source's functions over a register port, with every argument's range checked before
+// anything is written. It knows the chip only by its registers, so it cannot tell a virtual chip from a real one.
 //
-// Axis masks: X 1, Y 2, Z 4, U 8, and their sums.
+// Functions with the source's names (CamelCase) take register units; see units.hpp for millimetres and curves.hpp for
+// plans. Axis masks: X 1, Y 2, Z 4, U 8 and their sums. What is refused (Trouble::refused) wrote nothing.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <motionrack/base/port.hpp>
 #include <motionrack/base/result.hpp>
+#include <motionrack/cards/mcx314/arithmetic.hpp>
+#include <motionrack/cards/mcx314/driver/curves.hpp>
+#include <motionrack/cards/mcx314/driver/parameters.hpp>
+#include <motionrack/cards/mcx314/driver/status.hpp>
+#include <motionrack/cards/mcx314/driver/types.hpp>
+#include <optional>
 #include <string>
 
 namespace motionrack::mcx314 {
-
-/// Main status RR0, decoded.
-struct MainStatus {
-    std::uint16_t word = 0;
-    bool driving(unsigned mask) const { return (word & mask & 0xFu) != 0; }
-    bool error(unsigned mask) const { return (word >> 4 & mask & 0xFu) != 0; }
-    bool interpolating() const { return (word & 0x0100u) != 0; }
-    bool can_queue() const { return (word & 0x0200u) != 0; }
-    int octant() const { return word >> 10 & 7; }
-};
-
-/// Status of one axis: RR1 and RR2, decoded.
-struct AxisStatus {
-    std::uint16_t rr1 = 0;
-    std::uint16_t rr2 = 0;
-    /// Why the last drive ended, as a sentence part ("the + limit switch is active"); empty if it ended as commanded.
-    std::string why_stopped() const;
-};
-
-/// An interpolation command's end, in pulses relative to its start.
-struct Finish {
-    int axis = 0;  ///< channel 0..3
-    std::int32_t pulses = 0;
-    std::int32_t centre = 0;  ///< arcs only
-};
 
 class Driver {
   public:
     Driver(RegisterPort& port, Interrupt& interrupt) : port_(port), interrupt_(interrupt) {}
 
-    // ---- initial ------------------------------------------------------------------------------------------------------------
+    // ---- initial --------------------------------------------------------------------------------------------------
     /// Software reset of the chip; waits its 875 ns.
     void RESET();
+    /// RESET, then every mode register, AO, LP and EP written 0, whatever the chip's own defaults are.
+    void initialise();
     /// Pulse output: `mode` 0 two pulse trains, 1 pulse and direction (WR2 PLSMD).
     Result<void> SetPulseMode(unsigned axes, int mode);
-    /// R, 16,000 .. 8,000,000: pulses a second = V * 8,000,000 / R. (The second and third axis of constant vector speed: to 13,856,000.)
+    /// Levels of the pulse outputs: `negative` pulses; `direction_high` direction output High in + direction.
+    Result<void> SetPulseLevels(unsigned axes, bool negative, bool direction_high);
+    /// The multiple M, 1 .. 500: pulses a second = V * M. Writes R = 8,000,000 / M. Not while driving.
+    Result<void> SetMultiple(unsigned axes, std::int64_t multiple);
+    /// R, 16,000 .. 8,000,000: pulses a second = V * 8,000,000 / R. Not while driving.
     Result<void> SetRange(unsigned axes, std::int64_t range);
+    Result<void> SetRange(std::int64_t range) { return SetRange(xyzu, range); }
+    /// Writes the smallest whole multiple with which V <= 8,000 reaches `pulses_a_second`, 1 .. 4,000,000.
+    Result<void> SetMaxSpeed(unsigned axes, std::int64_t pulses_a_second);
+    Result<void> SetMaxSpeed(std::int64_t pulses_a_second) { return SetMaxSpeed(xyzu, pulses_a_second); }
+    /// R as it is, 16,000 .. 13,856,000: axes two and three of constant vector speed take more than 8,000,000.
+    Result<void> WriteRange(unsigned axes, std::int64_t range);
 
-    // ---- speeds and ramps, register units --------------------------------------------------------------------------------------
+    // ---- speeds and ramps -----------------------------------------------------------------------------------------
     Result<void> SetSV(unsigned axes, std::int64_t value);  ///< initial speed, 1 .. 8,000
     Result<void> SetV(unsigned axes, std::int64_t value);   ///< drive speed, 1 .. 8,000; also while driving
     Result<void> SetA(unsigned axes, std::int64_t value);   ///< acceleration, 1 .. 8,000 (125 * M pulses/s2)
-    Result<void> SetD(unsigned axes, std::int64_t value);   ///< deceleration, 1 .. 8,000
+    Result<void> SetD(unsigned axes, std::int64_t value);   ///< deceleration, 1 .. 8,000; used where SetAsymmetric() is on
     Result<void> SetAA(unsigned axes, std::int64_t value);  ///< K, 1 .. 65,535: jerk 62.5e6 / K * M pulses/s3
     Result<void> SetAO(unsigned axes, std::int64_t value);  ///< pulses kept for the end at SV, 0 .. 65,535
-    /// Output pulses of a fixed drive, 0 .. 268,435,455; the sign is the direction that Drive() takes.
+    /// Output pulses of a fixed drive, -268,435,455 .. 268,435,455; the sign is the direction that DriveFixed() takes.
     Result<void> Pulse(unsigned axes, std::int64_t pulses);
-    Result<void> AutoDec(unsigned axes);
-    /// Decelerates after `point` pulses, 0 .. 268,435,455.
+    /// The chip finds the deceleration itself. Arcs cannot.
+    Result<void> AutoDec(unsigned axes = xyzu);
+    /// Fixed drives decelerate after `point` pulses, 0 .. 268,435,455.
     Result<void> ManualDec(unsigned axes, std::int64_t point);
+    Result<void> ManDec(unsigned axes, std::int64_t point) { return ManualDec(axes, point); }
     /// The point alone, also while driving with manual deceleration.
     Result<void> SetDecPoint(unsigned axes, std::int64_t point);
+    /// Decelerations take D instead of A. Curves with automatic deceleration then get the point that plan_drive() finds.
+    Result<void> SetAsymmetric(unsigned axes, bool on);
     /// S-curve or T-curve for the next drives (WR3 SACC).
     void SetSCurve(unsigned axes, bool on);
 
-    // ---- drives ---------------------------------------------------------------------------------------------------------------
-    /// Starts what Pulse() set, in its direction.
+    // ---- drives ---------------------------------------------------------------------------------------------------
+    // Refused while one of the axes drives, or before its multiple is set.
+    /// Fixed drive with T-curve; the sign of `pulses` is the direction.
+    Result<void> TCurve_F(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t pulses);
+    /// Continuous drive with T-curve, until stopped. `negative`: in - direction (the source knows only +).
+    Result<void> TCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, bool negative = false);
+    Result<void> SCurve_F(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k, std::int64_t pulses);
+    Result<void> SCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k, bool negative = false);
+    /// Starts what Pulse() set, each axis in its direction, all at the same tick.
+    Result<void> DriveFixed(unsigned axes);
+    /// The bare commands 20h..27h.
     void Drive(unsigned axes, bool negative);
     void DriveContinuous(unsigned axes, bool negative);
     void Hold(unsigned axes);
@@ -75,54 +80,265 @@ class Driver {
     void SlowStop(unsigned axes);
     void QuickStop(unsigned axes);
 
-    // ---- interpolation ----------------------------------------------------------------------------------------------------------
-    /// Axes of the next interpolation commands: channels of AX1, AX2 (, AX3); constant vector speed for two axes; interrupt at each
-    /// joint of continuous interpolation.
+    // ---- while driving (flight.cpp) -------------------------------------------------------------------------------
+    /// Stops the axes of the mask, with everything that is interpolated with them. An empty mask is refused, never "all".
+    Result<void> stop(unsigned axes, StopKind kind);
+    void stop_all(StopKind kind);
+    /// Gives driving axes another V, 1 .. 8,000. Refused where it would have no effect: an axis that stands, is in an S
+    /// ramp (the chip takes it only after the ramp) or decelerates to its end.
+    Result<void> change_speed(unsigned axes, std::int64_t v);
+    /// Gives a fixed drive that was started by this library another number of pulses, counted from its start, signed.
+    /// Refused: the other direction; fewer than are made and still needed for the deceleration (with `margin` of time at
+    /// the present speed); in an S ramp; once it decelerates to its end. A refusal says how far the axis is.
+    Result<void> change_pulses(int axis, std::int64_t pulses, Duration margin = milliseconds(1));
+
+    // ---- interpolation (interpolation.cpp) ------------------------------------------------------------------------
+    Result<void> SetCP(unsigned axes, std::int64_t centre);  ///< centre of arcs, relative to the start
+    Result<void> SetC(unsigned axes, std::int64_t centre) { return SetCP(axes, centre); }
+    Result<void> SetFP(unsigned axes, std::int64_t finish);  ///< finish point of lines and arcs, relative to the start
+    Result<void> SetP(unsigned axes, std::int64_t finish) { return SetFP(axes, finish); }
+    /// Lines: C constant speed, T trapezoid, S S-curve. Speeds are those of the longest axis.
+    Result<void> Line2D_C(const LINEDATA& data, unsigned axes);
+    Result<void> Line2D_T(const LINEDATA& data, unsigned axes);
+    Result<void> Line2D_S(const LINEDATA& data, unsigned axes);
+    Result<void> Line3D_C(const LINEDATA& data, unsigned axes);
+    Result<void> Line3D_T(const LINEDATA& data, unsigned axes);
+    Result<void> Line3D_S(const LINEDATA& data, unsigned axes);
+    /// Arcs. Refused where the finish point is off the circle by more than arc_tolerance(). The T-curve takes the point
+    /// of ManualDec() of the first axis if that is in force, else one that is computed from the arc's basic pulses.
+    Result<void> CircleCW_C(const CIRCLEDATA& data, unsigned axes);
+    Result<void> CircleCCW_C(const CIRCLEDATA& data, unsigned axes);
+    Result<void> CircleCW_T(const CIRCLEDATA& data, unsigned axes);
+    Result<void> CircleCCW_T(const CIRCLEDATA& data, unsigned axes);
+    /// Where the chip ends such an arc, and its basic pulses; nothing is written.
+    Result<rules::ArcEnd> arc_end(const CIRCLEDATA& data, unsigned axes, bool clockwise) const;
+    /// Part of the radius that a finish point may be off the circle (at least 3 pulses): 0 .. 1, 0.01 at first.
+    Result<void> set_arc_tolerance(double part);
+    double arc_tolerance() const { return arc_tolerance_; }
+    /// Later lines and arcs keep the speed along the path: two axes stepping together take 1.414 times as long, three
+    /// 1.732 times. 1: off, 2: two axes, 3: three axes.
+    Result<void> SetVectorSpeed(int axes_count);
+    /// Speed of every axis, pulses a second, signed, also in interpolations that this library started.
+    Result<std::array<double, 4>> axis_speeds();
+
+    /// The bare registers: AX1, AX2 (, AX3) channels; constant vector speed of two axes; interrupt at each joint.
     void SetInterpolationAxes(int first, int second, int third, bool constant_vector, bool interrupt_at_joints);
     /// A line of two or three axes: finish points -8,388,608 .. 8,388,607. Starts, or is queued behind the running one.
     Result<void> Line(const Finish* ends, int count);
     Result<void> Arc(const Finish (&ends)[2], bool clockwise);
     void EnableDeceleration(bool on);
     void ClearInterpolationInterrupt();
+    /// Interrupt at each joint of continuous interpolation, and when the pattern stack wants data.
+    void EnableInterpolationInterrupts(bool joints, bool patterns);
 
-    // ---- limits, inputs and interrupts ------------------------------------------------------------------------------------------
+    // ---- continuous interpolation (chain.cpp) ---------------------------------------------------------------------
+    // ContStart, then ContLine and ContArc as often as wanted, then ContEnd. The last segment given is kept back until
+    // the next call, because only the last one decelerates. Each waits until the chip takes it, at most `timeout`.
+    Result<void> ContStart(const CONTDATA& data);
+    /// P of the axes in the mask (two or three). `v`: speed from this segment on, 0: unchanged.
+    Result<void> ContLine(unsigned axes, const FourAxes& finish, std::int64_t v = 0, Duration timeout = whole_seconds(60));
+    Result<void> ContArc(unsigned axes, const FourAxes& finish, const FourAxes& centre, bool clockwise, std::int64_t v = 0,
+                         Duration timeout = whole_seconds(60));
+    /// Gives the last segment and waits for the end.
+    Result<ContOutcome> ContEnd(Duration timeout = whole_seconds(60));
+
+    // ---- bit patterns and steps (patterns.cpp) --------------------------------------------------------------------
+    // BP2D or BP3D, up to three BPStack, BPStart, more BPStack while it runs, BPEnd. The last word holds the end code.
+    Result<void> BP2D(const BPDATA& data, unsigned axes);
+    Result<void> BP3D(const BPDATA& data, unsigned axes);
+    /// Waits for room on the stack, at most `timeout`.
+    Result<void> BPStack(const BPWORD& word, Duration timeout = whole_seconds(60));
+    Result<void> BPStart();
+    /// Gives the registers back and waits for the end of the drive.
+    Result<void> BPEnd(Duration timeout = whole_seconds(60));
+    /// Who makes the steps of the next interpolation.
+    Result<void> SetStep(StepBy by);
+    /// One basic pulse of an interpolation whose steps come by command (3Ah).
+    Result<void> Step();
+
+    // ---- limits and signals (signals.cpp) -------------------------------------------------------------------------
+    Result<void> HLMTP(int n, unsigned axes);    ///< + limit switch acts at: 0 Low, 1 High
+    Result<void> HLMTM(int n, unsigned axes);    ///< - limit switch acts at: 0 Low, 1 High
+    Result<void> HLMTSig(int n, unsigned axes);  ///< limit switches stop: 0 at once, 1 decelerating
+    Result<void> SLMTP(int n, unsigned axes = xyzu);    ///< COMP+ as software limit: 0 off, 1 on
+    Result<void> SLMTM(int n, unsigned axes = xyzu);    ///< COMP- as software limit: 0 off, 1 on
+    Result<void> SLMTSig(int n, unsigned axes = xyzu);  ///< COMP+- are compared with: 0 LP, 1 EP
+    Result<void> EncoderMode(int n, unsigned axes);   ///< encoder input: 0 A/B quadrature, 1 up and down pulses
+    Result<void> EncoderCWCCW(int n, unsigned axes);  ///< A/B edges counted: 0 all, 1 every second, 2 every fourth
+    Result<void> EnableALM(int n, unsigned axes = xyzu);    ///< alarm input: 0 off, 1 on
+    Result<void> EnableInPos(int n, unsigned axes = xyzu);  ///< in-position input: 0 off, 1 on
+    Result<void> ALMSig(int n, unsigned axes);    ///< alarm acts at: 0 Low, 1 High
+    Result<void> InPosSig(int n, unsigned axes);  ///< in-position acts at: 0 Low, 1 High
+    Result<void> SetStopInput(unsigned axes, int input, StopInput mode);  ///< IN0..IN3
+    Result<void> SetExternalDrive(unsigned axes, ExternalDrive mode);     ///< nEXPP, nEXPM
+    /// nOUT0 .. nOUT7; 4..7 while they are not used for the drive's status.
+    Result<void> SetOutput(unsigned axes, int output, bool high);
+    Result<void> ShowDriveStatus(unsigned axes, bool on);  ///< nOUT4..7 show CMP+, CMP-, accelerating, decelerating
+    InputLevels inputs(int axis);
+
+    /// Interrupts (cause::..): enables more, disables some, reads and clears what came since the last call.
+    Result<void> EnableInterrupt(unsigned axes, std::uint16_t causes);
+    Result<void> DisableInterrupt(unsigned axes, std::uint16_t causes = cause::all);
+    std::uint16_t read_interrupts(int axis);
+
     /// WR1, WR2, WR3 as words; the driver keeps what it wrote, per axis.
     void WriteMode1(unsigned axes, std::uint16_t word);
     void WriteMode2(unsigned axes, std::uint16_t word);
     void WriteMode3(unsigned axes, std::uint16_t word);
-    std::uint16_t mode2(int axis) const { return mode_[axis][1]; }
-    std::uint16_t mode3(int axis) const { return mode_[axis][2]; }
+    std::uint16_t mode1(int axis) const { return kept(axis).mode[0]; }
+    std::uint16_t mode2(int axis) const { return kept(axis).mode[1]; }
+    std::uint16_t mode3(int axis) const { return kept(axis).mode[2]; }
 
-    // ---- positions and status -----------------------------------------------------------------------------------------------------
+    // ---- positions and status -------------------------------------------------------------------------------------
     Result<void> LPS(unsigned axes, std::int64_t value);       ///< sets the logical position, 32 bit
     Result<void> EPS(unsigned axes, std::int64_t value);       ///< sets the real (encoder) position
     Result<void> SetCompP(unsigned axes, std::int64_t value);  ///< COMP+, 32 bit
     Result<void> SetCompM(unsigned axes, std::int64_t value);  ///< COMP-
     std::int32_t ReadLPS(int axis);
     std::int32_t ReadEPS(int axis);
-    std::int32_t ReadCV(int axis);
-    std::int32_t ReadCA(int axis);
+    std::int32_t ReadCV(int axis);  ///< present speed, V units; 0 at rest; in interpolation of the first axis only
+    std::int32_t ReadCA(int axis);  ///< present acceleration, A units; at constant speed the last one
     MainStatus status();
     AxisStatus axis_status(int axis);
-    std::uint16_t read_interrupts(int axis);  ///< RR3; reading clears it
+    bool moving(unsigned axes) { return status().driving(axes); }
+    /// Everything a message needs.
+    AxisReport report(int axis);
+    /// The reports of the axes that have an error, or were stopped by an input; "" if none.
+    std::string error_text(unsigned axes = xyzu);
 
-    /// Waits until none of the axes drives. Errors: Trouble::machine after `timeout`; Trouble::stopped where the user asked to stop (the axes are
-    /// then decelerated and standing).
+    /// Waits until none of the axes drives. Errors: Trouble::machine after `timeout`; Trouble::stopped where the user asked to
+    /// stop (the axes are then decelerated and standing).
     Result<void> wait_until_stopped(unsigned axes, Duration timeout);
+    /// The same, and Trouble::machine with the reports if one was stopped by a limit, an alarm or the emergency input.
+    Result<void> wait_until_done(unsigned axes, Duration timeout);
+
+    /// What was last written of a parameter (cmd::R, cmd::V, ..): nothing after a reset.
+    std::optional<std::int64_t> written(int axis, unsigned code) const { return kept(axis).data[code]; }
+    /// Pulses a second of one V unit: 8,000,000 / R; 0 before R was written.
+    double multiple(int axis) const;
 
     RegisterPort& port() { return port_; }
     Interrupt& interrupt() { return interrupt_; }
 
   private:
+    enum class Curve : std::uint8_t { constant, t, s };
+    /// Speeds of one drive; `D` 0: as A.
+    struct Speeds {
+        Curve kind = Curve::constant;
+        std::int64_t SV = 0, V = 0, A = 0, D = 0, K = 0;
+    };
+    /// One axis as the library wrote it.
+    struct Kept {
+        std::array<std::optional<std::int64_t>, 16> data = {};  ///< by command code
+        std::array<std::uint16_t, 3> mode = {};
+        std::int64_t own_range = 0;  ///< R of the axis' own drives; constant vector speed may have written another
+        std::int64_t dec_point = 0;
+        bool manual = false;
+        bool asymmetric = false;
+        bool negative = false;  ///< direction of Pulse(), or of the last drive
+        bool from_known = false;
+        std::int32_t from = 0;                              ///< LP where the present fixed drive began
+        std::optional<std::int64_t> finish = {}, centre = {};  ///< SetFP, SetCP
+        std::uint16_t interrupts = 0;                       ///< read while waiting, not handed out yet
+    };
+    /// A piece of an interpolation. `from`: LP of its axes at its start.
+    struct Piece {
+        unsigned axes = 0;
+        bool arc = false, clockwise = false;
+        FourAxes finish = {}, centre = {}, from = {};
+        int vector_axes = 1;
+    };
+    struct Chain {
+        bool open = false, running = false;
+        int generator = 0;
+        unsigned axes = 0;
+        Speeds speeds = {};
+        std::optional<Piece> kept_back = {};
+        std::int64_t kept_back_v = 0, next_v = 0;  ///< V to be written when a piece begins: the one kept back, the queued one
+        std::int64_t segments = 0;
+        FourAxes at = {};  ///< LP at the end of what was given
+    };
+    struct Pattern {
+        unsigned axes = 0;
+        int count = 0;
+        std::int64_t words = 0;
+        bool running = false;
+    };
+
+    Kept& kept(int axis);
+    const Kept& kept(int axis) const;
+
+    // Traffic.
     void command(unsigned axes, unsigned code);
     void write_data(unsigned axes, unsigned code, std::uint32_t value);
     std::uint32_t read_data(int axis, unsigned code);
-    Result<void> checked(unsigned axes, unsigned code, std::int64_t value, std::int64_t least, std::int64_t greatest, const char* name);
     void write_mode(unsigned axes, int number, std::uint16_t word);
+    /// Sets bits of a mode register, axis by axis, keeping the rest.
+    void set_mode(unsigned axes, int number, Field bits, unsigned value);
+    void put(unsigned axes, const Parameter& parameter, std::int64_t value);
+    void write_outputs(std::uint16_t word);
+    void write_path_mode(std::uint16_t word);
+    bool fetch_interrupts(int axis);
+
+    // Checks: nothing is written.
+    static Result<void> check_axes(unsigned axes, const char* who);
+    static Result<void> check_count(const char* who, unsigned axes, int count);
+    static Result<void> check(unsigned axes, const Parameter& parameter, std::int64_t value);
+    static Result<void> check_switch(const char* who, int n, int greatest, const char* meanings);
+    static Result<void> check_speeds(unsigned axes, const Speeds& speeds);
+    Result<void> check_standing(unsigned axes, const char* who);
+    Result<void> check_no_path(const char* who);
+    Result<void> check_initialised(unsigned axes, const char* who) const;
+    Result<void> check_piece(const char* who, const Piece& piece) const;
+    Result<void> check_chain_speed(int axis, std::int64_t v) const;
+    std::string not_changeable(int axis, MainStatus main);
+
+    // A check and what it is for.
+    Result<void> write(unsigned axes, const Parameter& parameter, std::int64_t value);
+    Result<void> write_switch(const char* who, unsigned axes, int number, Field bits, int n, int greatest, const char* meanings);
+    Result<void> change_interrupts(const char* who, unsigned axes, std::uint16_t causes, bool on);
+
+    // Drives.
+    CurveData curve_of(int axis, const Speeds& speeds, std::int64_t pulses) const;
+    std::uint16_t curve_word(int axis, bool manual, bool asymmetric, bool s_curve) const;
+    void put_speeds(unsigned axes, const Speeds& speeds);
+    void put_deceleration(int axis, std::optional<std::int64_t> point, bool asymmetric, bool s_curve);
+    void own_range_again(unsigned axes);
+    void note_direction(unsigned axes, bool negative);
+    void begin_fixed(unsigned axes);
+    Result<void> start_curve(const char* who, unsigned axes, const Speeds& speeds, std::optional<std::int64_t> pulses, bool negative);
+
+    // Interpolation.
+    static std::int64_t basic_pulses(const Piece& piece);
+    Piece piece_of(unsigned axes, const FourAxes& finish, const FourAxes* centre, bool clockwise) const;
+    void read_start(Piece& piece);
+    void put_piece(const Piece& piece);
+    Result<void> start_piece(const char* who, Piece piece, const Speeds& speeds);
+    Result<void> line(const char* who, const LINEDATA& data, unsigned axes, int count, Curve kind);
+    Result<void> circle(const char* who, const CIRCLEDATA& data, unsigned axes, bool clockwise, Curve kind);
+    Result<void> add_to_chain(const char* who, const Piece& piece, std::int64_t v, Duration timeout);
+    Result<void> give_kept_back(bool last, Duration timeout);
+    void aim_at_end(const Piece& piece);
+    void note_end(const Piece& piece);
+    Result<void> wait_for_joint(Duration timeout, bool may_end = false);
+    Result<void> begin_pattern(const char* who, const BPDATA& data, unsigned axes, int count);
+    void close_pattern();
+    std::array<double, 4> shares(const Piece& piece);
+    double mean_range(const Piece& piece, int generator, const std::array<double, 4>& share) const;
+
+    void doze(unsigned axes, Duration slice);
 
     RegisterPort& port_;
     Interrupt& interrupt_;
-    std::array<std::array<std::uint16_t, 3>, 4> mode_ = {};
+    std::array<Kept, 4> kept_ = {};
+    std::uint16_t outputs_ = 0;    ///< WR4 as written
+    std::uint16_t path_mode_ = 0;  ///< WR5 as written
+    unsigned path_axes_ = 0;       ///< of the last interpolation
+    std::array<Piece, 2> pieces_ = {};  ///< the last two given: the running and the queued one, or the one before and the running
+    Chain chain_;
+    Pattern pattern_;
+    double arc_tolerance_ = 0.01;
+    int vector_axes_ = 1;
 };
 
 }  // namespace motionrack::mcx314

@@ -1,0 +1,302 @@
+// The generator's rule (RULES.md, one axis, nothing from outside) walked from event to event: between two events the
+// speed, the rate and their accumulators grow evenly.
+#include <motionrack/cards/mcx314/driver/curves.hpp>
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <limits>
+#include <motionrack/cards/mcx314/arithmetic.hpp>
+#include <motionrack/cards/mcx314/driver/parameters.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+constexpr std::int64_t far = std::numeric_limits<std::int64_t>::max();
+
+class Walk {
+  public:
+    Walk(const CurveData& data, const std::function<void(const CurveSpan&)>& spans) : d_(data), spans_(spans) {
+        plan_.data = data;
+        jerk_ticks_ = rules::jerk_ticks_per_k * data.K;
+        cv_ = data.V > data.SV ? data.SV : data.V;
+        tick_ = rules::start_ticks;
+        open_ = {tick_, 0, cv_, 0, 0};
+    }
+
+    CurvePlan run() {
+        check_final();
+        // Without pulses a fixed drive ends at its first working tick.
+        if (d_.pulses == 0) ++tick_, ended_ = true;
+        while (!ended_) {
+            const std::int64_t plain = std::min(ticks_to_speed_event(), ticks_to_special_pulse()) - 1;
+            if (plain > 0) skip(plain);
+            step();
+        }
+        flush();
+        plan_.ticks = tick_;
+        plan_.pulses = n_;
+        plan_.reaches_v = plan_.top_v == d_.V;
+        plan_.full_s = d_.s_curve && !straight_middle_;
+        return plan_;
+    }
+
+  private:
+    enum class Phase { rising, constant, falling };
+
+    std::int64_t target() const { return final_ ? std::min(cv_, d_.SV) : d_.V; }
+    std::int64_t limit() const { return ramp_ < 0 && d_.asymmetric ? d_.D : d_.A; }
+
+    std::int64_t ticks_to_speed_event() const {
+        if (final_ != final_seen_ || asked_to_stop_) return 1;
+        if (ramp_ == 0) return cv_ == target() ? (d_.pulses ? far : 1) : 1;
+        const std::int64_t rate = d_.s_curve ? rate_ : limit();
+        const std::int64_t to_step = rate > 0 ? rules::ceil_div(rules::speed_carry - speed_part_, rate) : far;
+        if (!d_.s_curve) return to_step;
+        return std::max<std::int64_t>(1, std::min(to_step, jerk_ticks_ - rate_part_));
+    }
+
+    /// Ticks until the pulse that ends the drive or begins its last deceleration.
+    std::int64_t ticks_to_special_pulse() const {
+        if (!d_.pulses) return far;
+        std::int64_t pulses = *d_.pulses - n_;
+        if (!final_) {
+            if (d_.dec_point) pulses = std::min(pulses, *d_.dec_point - n_);
+            else {
+                const std::int64_t spare = pulses - accel_pulses_ - d_.AO;
+                pulses = std::min(pulses, ramp_ > 0 ? rules::ceil_div(std::max<std::int64_t>(spare, 0), 2) : spare);
+            }
+        }
+        pulses = std::max<std::int64_t>(pulses, 1);
+        return rules::ceil_div(pulses * d_.R - phase_, cv_);
+    }
+
+    CurvePart& part(int direction) {
+        if (direction > 0) return plan_.rise;
+        if (direction < 0) return plan_.fall;
+        return final_ ? plan_.creep : plan_.cruise;
+    }
+
+    void note(int direction, std::int64_t ticks, std::int64_t pulses, std::int64_t rate, std::int64_t from) {
+        CurvePart& at = part(direction);
+        if (at.ticks == 0) at.from_v = from;
+        at.to_v = cv_;
+        at.ticks += ticks;
+        at.pulses += pulses;
+        if (direction != 0) at.peak_rate = std::max(at.peak_rate, rate);
+        plan_.top_v = std::max({plan_.top_v, from, cv_});
+    }
+
+    void skip(std::int64_t ticks) {
+        phase_ += ticks * cv_;
+        const std::int64_t pulses = phase_ / d_.R;
+        phase_ %= d_.R;
+        n_ += pulses;
+        if (ramp_ > 0) accel_pulses_ += pulses;
+        if (ramp_ != 0) {
+            speed_part_ += ticks * (d_.s_curve ? rate_ : limit());
+            rate_part_ += ticks;
+        }
+        tick_ += ticks;
+        note(ramp_, ticks, pulses, d_.s_curve ? rate_ : limit(), cv_);
+    }
+
+    void check_final() {
+        if (!d_.pulses || final_) return;
+        final_ = d_.dec_point ? n_ >= *d_.dec_point : *d_.pulses - n_ <= accel_pulses_ + d_.AO;
+    }
+
+    /// One tick by the rule: pulse, then speed.
+    void step() {
+        ++tick_;
+        const std::int64_t from = cv_;
+        if (asked_to_stop_) asked_to_stop_ = false, final_ = stopping_ = true;
+        phase_ += cv_;
+        std::int64_t pulses = 0;
+        if (phase_ >= d_.R) {
+            phase_ -= d_.R;
+            pulses = 1;
+            ++n_;
+            if (ramp_ > 0) ++accel_pulses_;
+            plan_.end_v = cv_;
+            if (d_.pulses && n_ >= *d_.pulses) {
+                ended_ = true;
+                return note(ramp_, 1, 1, d_.s_curve ? rate_ : limit(), from);
+            }
+            check_final();
+        }
+        direction_ = 0;
+        if (!(stopping_ && cv_ <= d_.SV)) {
+            if (d_.s_curve) s_curve();
+            else t_curve();
+            final_seen_ = final_;
+        }
+        note(direction_, 1, pulses, rate_, from);
+        if (cv_ != from) flush();
+        if (stopping_ && cv_ <= d_.SV) ended_ = true;
+        // A continuous drive is planned with a slow stop as soon as it has its speed.
+        if (!d_.pulses && !final_ && ramp_ == 0 && cv_ == d_.V) asked_to_stop_ = true;
+    }
+
+    void t_curve() {
+        const std::int64_t to = target();
+        const int want = to > cv_ ? 1 : to < cv_ ? -1 : 0;
+        if (want != ramp_) {
+            ramp_ = want;
+            speed_part_ = 0;
+        }
+        if (ramp_ == 0) return;
+        direction_ = ramp_;
+        rate_ = limit();
+        speed_part_ += rate_;
+        if (speed_part_ >= rules::speed_carry) {
+            speed_part_ -= rules::speed_carry;
+            cv_ += ramp_;
+        }
+        if (cv_ == target()) {
+            ramp_ = 0;
+            speed_part_ = 0;
+        }
+    }
+
+    void s_curve() {
+        if (final_ && !final_seen_ && ramp_ > 0) {  // the rising ramp is dropped
+            ramp_ = 0;
+            speed_part_ = rate_part_ = 0;
+        }
+        const std::int64_t to = target();
+        if (ramp_ == 0 && cv_ != to) {
+            ramp_ = to > cv_ ? 1 : -1;
+            aim_ = to;
+            shape_ = Phase::rising;
+            rate_ = speed_part_ = rate_part_ = speed_steps_ = 0;
+        }
+        if (ramp_ == 0) return;
+        direction_ = ramp_;
+        if (++rate_part_ >= jerk_ticks_) {
+            rate_part_ = 0;
+            if (shape_ == Phase::rising) {
+                if (++rate_ >= limit()) shape_ = Phase::constant, straight_middle_ = true;
+            } else if (shape_ == Phase::falling && rate_ > 1) {
+                --rate_;
+            }
+        }
+        speed_part_ += rate_;
+        if (speed_part_ < rules::speed_carry) return;
+        speed_part_ -= rules::speed_carry;
+        cv_ += ramp_;
+        if (shape_ == Phase::rising) ++speed_steps_;
+        if (cv_ == aim_) {
+            ramp_ = 0;
+            speed_part_ = rate_part_ = 0;
+        } else if (shape_ != Phase::falling && rules::magnitude(aim_ - cv_) <= speed_steps_) {
+            rate_part_ = jerk_ticks_ - rate_part_;
+            shape_ = Phase::falling;
+        }
+    }
+
+    /// Ends a span where the speed has changed.
+    void flush() {
+        open_.ticks = tick_ - open_.tick;
+        open_.ramp = direction_;
+        if (spans_ && open_.ticks > 0) spans_(open_);
+        open_ = {tick_, 0, cv_, phase_, 0};
+    }
+
+    const CurveData& d_;
+    const std::function<void(const CurveSpan&)>& spans_;
+    CurvePlan plan_;
+    CurveSpan open_;
+    std::int64_t jerk_ticks_ = 0, tick_ = 0, phase_ = 0, cv_ = 0, n_ = 0, accel_pulses_ = 0;
+    std::int64_t speed_part_ = 0, rate_part_ = 0, rate_ = 0, speed_steps_ = 0, aim_ = 0;
+    int ramp_ = 0, direction_ = 0;
+    Phase shape_ = Phase::rising;
+    bool final_ = false, final_seen_ = false, stopping_ = false, asked_to_stop_ = false, ended_ = false, straight_middle_ = false;
+};
+
+Result<void> check(const CurveData& data) {
+    struct Item {
+        const Parameter& parameter;
+        std::int64_t value;
+        bool used;
+    };
+    const Item items[] = {{param::vector_range, data.R, true},        {param::SV, data.SV, true},
+                          {param::V, data.V, true},                   {param::A, data.A, true},
+                          {param::D, data.D, data.asymmetric},        {param::K, data.K, data.s_curve},
+                          {param::AO, data.AO, true},                 {param::DP, data.dec_point.value_or(0), true},
+                          {param::pulses, data.pulses.value_or(0), true}};
+    for (const Item& item : items) {
+        const std::int64_t least = item.parameter.code == cmd::P ? 0 : item.parameter.least;
+        if (item.used && (item.value < least || item.value > item.parameter.greatest))
+            return fail(Trouble::refused, fmt::format("{} of the plan is {}, but the chip takes {} to {}. Nothing was planned.",
+                                                      item.parameter.name, item.value, least, item.parameter.greatest));
+    }
+    return {};
+}
+
+std::int64_t fall_rate(const CurveData& data) {
+    return data.asymmetric ? data.D : data.A;
+}
+
+/// Ticks after which a straight ramp has made its step number `n`.
+std::int64_t step_tick(std::int64_t n, std::int64_t rate) {
+    return rules::ceil_div(n * rules::speed_carry, rate);
+}
+
+}  // namespace
+
+Result<CurvePlan> plan_drive(const CurveData& data, const std::function<void(const CurveSpan&)>& spans) {
+    MOTIONRACK_CHECK(check(data));
+    return Walk(data, spans).run();
+}
+
+Result<std::int64_t> best_dec_point(const CurveData& data) {
+    MOTIONRACK_CHECK(check(data));
+    if (!data.pulses)
+        return fail(Trouble::refused, "A continuous drive has no deceleration point. Nothing was planned. Give the number of pulses.");
+    CurveData tried = data;
+    const std::function<void(const CurveSpan&)> nobody;
+    auto ends_slow = [&](std::int64_t point) {
+        tried.dec_point = point;
+        return Walk(tried, nobody).run().ends_slow();
+    };
+    // Where the top speed is reached the fall from it is nearly all; else the answer lies below that.
+    const std::int64_t guess = *data.pulses - (data.V > data.SV ? fall_pulses(data, data.V) : 0);
+    std::int64_t low = 0, high = *data.pulses + 1;  // slow at low (or nowhere), not at high
+    if (guess - 2 > low && ends_slow(guess - 2)) low = guess - 2;
+    if (guess + 2 < high && guess + 2 > low && !ends_slow(guess + 2)) high = guess + 2;
+    while (high - low > 1) {
+        const std::int64_t middle = low + (high - low) / 2;
+        (ends_slow(middle) ? low : high) = middle;
+    }
+    return low;
+}
+
+std::int64_t fall_pulses(const CurveData& data, std::int64_t v) {
+    if (v <= data.SV) return 0;
+    const std::int64_t rate = fall_rate(data);
+    if (data.s_curve) return rules::ceil_div(rules::s_ramp(v, data.SV, rate, data.K).phase, data.R);
+    std::int64_t phase = 0, before = 0;
+    for (std::int64_t n = 1; n <= v - data.SV; ++n) {
+        const std::int64_t at = step_tick(n, rate);
+        phase += (at - before) * (v - n + 1);
+        before = at;
+    }
+    return rules::ceil_div(phase, data.R);
+}
+
+std::int64_t speed_after_fall(const CurveData& data, std::int64_t v, std::int64_t pulses) {
+    MOTIONRACK_ASSERT(!data.s_curve);
+    const std::int64_t rate = fall_rate(data);
+    std::int64_t phase = 0, before = 0;
+    for (std::int64_t n = 1; v > data.SV; ++n, --v) {
+        const std::int64_t at = step_tick(n, rate);
+        phase += (at - before) * v;
+        before = at;
+        if (phase >= pulses * data.R) break;
+    }
+    return v;
+}
+
+}  // namespace motionrack::mcx314

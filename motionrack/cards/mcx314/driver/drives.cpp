@@ -1,0 +1,172 @@
+// Fixed and continuous drives: everything is checked, then the parameters are written, then the command.
+#include <motionrack/cards/mcx314/driver/curves.hpp>
+#include <motionrack/cards/mcx314/driver/driver.hpp>
+
+#include <fmt/format.h>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+constexpr Field manual_bit = field("WR3", "MANLD");
+constexpr Field own_decel_bit = field("WR3", "DSNDE");
+constexpr Field s_bit = field("WR3", "SACC");
+
+}  // namespace
+
+std::uint16_t Driver::curve_word(int axis, bool manual, bool asymmetric, bool s_curve) const {
+    return s_bit.set(own_decel_bit.set(manual_bit.set(mode3(axis), manual), asymmetric), s_curve);
+}
+
+Result<void> Driver::check_speeds(unsigned axes, const Speeds& speeds) {
+    MOTIONRACK_CHECK(check(axes, param::V, speeds.V));
+    if (speeds.kind == Curve::constant) return {};
+    MOTIONRACK_CHECK(check(axes, param::SV, speeds.SV));
+    MOTIONRACK_CHECK(check(axes, param::A, speeds.A));
+    if (speeds.D != 0) MOTIONRACK_CHECK(check(axes, param::D, speeds.D));
+    if (speeds.kind == Curve::s) MOTIONRACK_CHECK(check(axes, param::K, speeds.K));
+    return {};
+}
+
+/// A constant speed is a start speed of V: the chip then has no ramp.
+void Driver::put_speeds(unsigned axes, const Speeds& speeds) {
+    put(axes, param::SV, speeds.kind == Curve::constant ? speeds.V : speeds.SV);
+    put(axes, param::V, speeds.V);
+    if (speeds.kind == Curve::constant) return;
+    put(axes, param::A, speeds.A);
+    if (speeds.D != 0) put(axes, param::D, speeds.D);
+    if (speeds.kind == Curve::s) put(axes, param::K, speeds.K);
+}
+
+CurveData Driver::curve_of(int axis, const Speeds& speeds, std::int64_t pulses) const {
+    CurveData curve;
+    curve.R = kept(axis).own_range;
+    curve.SV = speeds.kind == Curve::constant ? speeds.V : speeds.SV;
+    curve.V = speeds.V;
+    curve.A = speeds.kind == Curve::constant ? 1 : speeds.A;
+    curve.D = speeds.D != 0 ? speeds.D : curve.A;
+    if (speeds.kind == Curve::s) curve.K = speeds.K;
+    curve.s_curve = speeds.kind == Curve::s;
+    curve.asymmetric = speeds.D != 0 && speeds.D != speeds.A;
+    curve.AO = written(axis, cmd::AO).value_or(0);
+    curve.pulses = pulses;
+    return curve;
+}
+
+/// Constant vector speed of an interpolation may have left another R in the chip.
+void Driver::own_range_again(unsigned axes) {
+    for (int i = 0; i < 4; ++i)
+        if ((axes >> i & 1) && kept(i).data[cmd::R] != kept(i).own_range) put(1u << i, param::vector_range, kept(i).own_range);
+}
+
+Result<void> Driver::start_curve(const char* who, unsigned axes, const Speeds& speeds, std::optional<std::int64_t> pulses, bool negative) {
+    MOTIONRACK_CHECK(check_axes(axes, who));
+    MOTIONRACK_CHECK(check_speeds(axes, speeds));
+    if (pulses) MOTIONRACK_CHECK(check(axes, param::pulses, *pulses));
+    MOTIONRACK_CHECK(check_initialised(axes, who));
+    std::array<std::optional<std::int64_t>, 4> points;
+    for (int i = 0; i < 4; ++i) {
+        if (!(axes >> i & 1) || !kept(i).asymmetric) continue;
+        const std::optional<std::int64_t> decel = written(i, cmd::D);
+        if (!decel)
+            return fail(Trouble::refused, fmt::format("{}: {} decelerates with D of its own, which is not set. Nothing was written. Call "
+                                                      "SetD first, or SetAsymmetric(.., false).", who, axes_text(1u << i)));
+        if (!pulses || kept(i).manual) continue;
+        Speeds own = speeds;
+        own.D = *decel;
+        MOTIONRACK_TRY(points[static_cast<std::size_t>(i)], best_dec_point(curve_of(i, own, rules::magnitude(*pulses))));
+    }
+    MOTIONRACK_CHECK(check_standing(axes, who));
+    own_range_again(axes);
+    put_speeds(axes, speeds);
+    if (pulses) MOTIONRACK_CHECK(Pulse(axes, *pulses));
+    for (int i = 0; i < 4; ++i) {
+        if (!(axes >> i & 1)) continue;
+        const std::optional<std::int64_t>& point = points[static_cast<std::size_t>(i)];
+        put_deceleration(i, point ? point : kept(i).manual ? std::optional(kept(i).dec_point) : std::nullopt, kept(i).asymmetric,
+                         speeds.kind == Curve::s);
+    }
+    if (pulses)
+        begin_fixed(axes);
+    else
+        DriveContinuous(axes, negative);
+    return {};
+}
+
+/// WR3 and DP of the next drive.
+void Driver::put_deceleration(int axis, std::optional<std::int64_t> point, bool asymmetric, bool s_curve) {
+    if (point && written(axis, cmd::DP) != point) put(1u << axis, param::DP, *point);
+    const std::uint16_t word = curve_word(axis, point.has_value(), asymmetric, s_curve);
+    if (word != mode3(axis)) write_mode(1u << axis, 3, word);
+}
+
+/// Remembers where each axis begins, then starts all at one tick: those of one direction with one command; where there
+/// are two directions both commands are held until 25h.
+void Driver::begin_fixed(unsigned axes) {
+    unsigned minus = 0;
+    for (int i = 0; i < 4; ++i) {
+        if (!(axes >> i & 1)) continue;
+        if (kept(i).negative) minus |= 1u << i;
+        kept(i).from = ReadLPS(i);
+        kept(i).from_known = true;
+    }
+    const unsigned plus = axes & ~minus;
+    if (plus == 0 || minus == 0) return Drive(axes, plus == 0);
+    Hold(axes);
+    command(plus, cmd::FIXED_PLUS);
+    command(minus, cmd::FIXED_MINUS);
+    Start(axes);
+}
+
+Result<void> Driver::TCurve_F(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t pulses) {
+    return start_curve("TCurve_F", axes, {Curve::t, sv, v, a, 0, 0}, pulses, false);
+}
+Result<void> Driver::TCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, bool negative) {
+    return start_curve("TCurve_C", axes, {Curve::t, sv, v, a, 0, 0}, {}, negative);
+}
+Result<void> Driver::SCurve_F(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k, std::int64_t pulses) {
+    return start_curve("SCurve_F", axes, {Curve::s, sv, v, a, 0, k}, pulses, false);
+}
+Result<void> Driver::SCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k, bool negative) {
+    return start_curve("SCurve_C", axes, {Curve::s, sv, v, a, 0, k}, {}, negative);
+}
+
+Result<void> Driver::DriveFixed(unsigned axes) {
+    MOTIONRACK_CHECK(check_axes(axes, "DriveFixed"));
+    MOTIONRACK_CHECK(check_initialised(axes, "DriveFixed"));
+    for (int i = 0; i < 4; ++i)
+        for (const Parameter& needed : {param::SV, param::V, param::A, param::pulses})
+            if ((axes >> i & 1) && !written(i, needed.code))
+                return fail(Trouble::refused, fmt::format("DriveFixed: {} of {} is not set. Nothing was written. Set it first.",
+                                                          needed.name, axes_text(1u << i)));
+    MOTIONRACK_CHECK(check_standing(axes, "DriveFixed"));
+    own_range_again(axes);
+    begin_fixed(axes);
+    return {};
+}
+
+// ---- bare commands ----------------------------------------------------------------------------------------------------
+
+void Driver::Drive(unsigned axes, bool negative) {
+    note_direction(axes, negative);
+    command(axes, negative ? cmd::FIXED_MINUS : cmd::FIXED_PLUS);
+}
+
+void Driver::DriveContinuous(unsigned axes, bool negative) {
+    note_direction(axes, negative);
+    for (int i = 0; i < 4; ++i)
+        if (axes >> i & 1) kept(i).from_known = false;
+    command(axes, negative ? cmd::CONTINUOUS_MINUS : cmd::CONTINUOUS_PLUS);
+}
+
+void Driver::note_direction(unsigned axes, bool negative) {
+    for (int i = 0; i < 4; ++i)
+        if (axes >> i & 1) kept(i).negative = negative;
+}
+
+void Driver::Hold(unsigned axes) { command(axes, cmd::HOLD); }
+void Driver::Start(unsigned axes) { command(axes, cmd::START); }
+void Driver::SlowStop(unsigned axes) { command(axes, cmd::SLOW_STOP); }
+void Driver::QuickStop(unsigned axes) { command(axes, cmd::QUICK_STOP); }
+
+}  // namespace motionrack::mcx314

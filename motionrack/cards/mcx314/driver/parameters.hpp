@@ -1,0 +1,44 @@
+// The numbers that data commands take, with the range that the function library lets through and the name its messages use.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/cards/mcx314/map.hpp>
+
+namespace motionrack::mcx314 {
+
+struct Parameter {
+    unsigned code = 0;
+    std::int64_t least = 0;
+    std::int64_t greatest = 0;
+    const char* name = "";
+};
+
+/// A parameter with the range that the map documents.
+consteval Parameter documented(std::string_view command, const char* name) {
+    const CommandInfo& info = command_named(map::commands, command);
+    return {info.code, info.least, info.greatest, name};
+}
+
+namespace param {
+inline constexpr Parameter R = documented("R", "The range R");
+inline constexpr Parameter K = documented("K", "The acceleration's rate K");
+inline constexpr Parameter A = documented("A", "The acceleration A");
+inline constexpr Parameter D = documented("D", "The deceleration D");
+inline constexpr Parameter SV = documented("SV", "The initial speed SV");
+inline constexpr Parameter V = documented("V", "The drive speed V");
+inline constexpr Parameter DP = documented("DP", "The manual deceleration point DP");
+inline constexpr Parameter C = documented("C", "The centre C");
+inline constexpr Parameter LP = documented("LP", "The logical position LP");
+inline constexpr Parameter EP = documented("EP", "The real position EP");
+inline constexpr Parameter COMP_PLUS = documented("COMP_PLUS", "The comparison value COMP+");
+inline constexpr Parameter COMP_MINUS = documented("COMP_MINUS", "The comparison value COMP-");
+inline constexpr Parameter AO = documented("AO", "The acceleration counter offset AO");
+/// Pulses of a fixed drive: their sign chooses the command, the register takes the number.
+inline constexpr Parameter pulses{cmd::P, -map::most_pulses, map::most_pulses, "The number of output pulses P"};
+/// Finish point of an interpolation: the same register as 24-bit number with sign.
+inline constexpr Parameter finish{cmd::P, map::least_24, map::greatest_24, "The finish point P"};
+/// R of the axes that give the second and third speed of constant vector speed: up to 8,000,000 * 1.732.
+inline constexpr Parameter vector_range{cmd::R, R.least, 13'856'407, "The range R"};
+}  // namespace param
+
+}  // namespace motionrack::mcx314

@@ -1,0 +1,85 @@
+// The chip's status words, decoded: what each bit is called, what it means and what to do next.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/cards/mcx314/map.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace motionrack::mcx314 {
+
+/// Main status RR0, decoded.
+struct MainStatus {
+    std::uint16_t word = 0;
+    bool driving(unsigned axes) const { return (field("RR0", "DRV").get(word) & axes) != 0; }
+    bool error(unsigned axes) const { return (field("RR0", "ERR").get(word) & axes) != 0; }
+    bool interpolating() const { return field("RR0", "IDRV").test(word); }
+    bool can_queue() const { return field("RR0", "CNEXT").test(word); }
+    int octant() const { return static_cast<int>(field("RR0", "ZONE").get(word)); }
+    int patterns_stacked() const { return static_cast<int>(field("RR0", "BPSC").get(word)); }
+};
+
+/// Status of one axis: RR1 and RR2, decoded.
+struct AxisStatus {
+    std::uint16_t rr1 = 0;
+    std::uint16_t rr2 = 0;
+    bool accelerating() const { return field("RR1", "ASND").test(rr1); }
+    bool constant() const { return field("RR1", "CNST").test(rr1); }
+    bool decelerating() const { return field("RR1", "DSND").test(rr1); }
+    /// In a ramp of an S-curve.
+    bool in_s_ramp() const {
+        return field("RR1", "AASND").test(rr1) || field("RR1", "ACNST").test(rr1) || field("RR1", "ADSND").test(rr1);
+    }
+    /// Stands on, or was stopped by, the limit switch; live or latched.
+    bool at_plus_limit() const { return field("RR2", "HLMTP").test(rr2) || field("RR1", "LMTP").test(rr1); }
+    bool at_minus_limit() const { return field("RR2", "HLMTM").test(rr2) || field("RR1", "LMTM").test(rr1); }
+    bool at_software_limit() const { return field("RR2", "SLMTP").test(rr2) || field("RR2", "SLMTM").test(rr2); }
+    bool at_limit() const { return at_plus_limit() || at_minus_limit() || at_software_limit(); }
+    bool alarm() const { return field("RR2", "ALARM").test(rr2) || field("RR1", "ALARM").test(rr1); }
+    bool emergency() const { return field("RR2", "EMG").test(rr2) || field("RR1", "EMG").test(rr1); }
+    /// Stopped by input n, 0..3.
+    bool stopped_by_input(int n) const { return (field("RR1", "IN0").mask << n & rr1) != 0; }
+    /// Why the last drive ended, as a sentence part ("the + limit switch was reached"); empty if it ended as commanded.
+    std::string why_stopped() const;
+    /// What to do about it, as a sentence; empty if nothing.
+    std::string what_next() const;
+};
+
+/// One axis at one moment, for messages and screens.
+struct AxisReport {
+    int axis = 0;
+    bool driving = false;
+    std::int32_t lp = 0;
+    std::int32_t ep = 0;
+    std::int32_t cv = 0;
+    AxisStatus status = {};
+    /// "X stands at LP 1200, EP 1200: the + limit switch was reached (RR1 1000h, RR2 0004h). Move it off ..."
+    std::string text() const;
+};
+
+/// A bit of RR0..RR3 for people. Names and meanings are those of the map.
+struct StatusBit {
+    std::string_view reg;
+    std::string_view name;
+    std::uint16_t mask = 0;
+    std::string_view meaning;
+    std::string_view next;  ///< what to do; "": nothing
+};
+
+/// Every field of RR0, RR1, RR2, RR3.
+std::span<const StatusBit> status_bits();
+/// The fields that are not 0 in a word of `reg`, a line each: "LMTP: stopped by nLMTP. Move ..".
+std::string explain(std::string_view reg, std::uint16_t word);
+
+/// Levels of an axis' inputs (RR4, RR5), 1 High.
+struct InputLevels {
+    std::array<bool, 4> in = {};
+    bool expp = false;
+    bool expm = false;
+    bool in_position = false;
+    bool alarm = false;
+};
+
+}  // namespace motionrack::mcx314

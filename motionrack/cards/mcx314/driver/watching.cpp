@@ -1,0 +1,150 @@
+// Looking at the axes and waiting for them; every wait has a time-out.
+#include <motionrack/cards/mcx314/driver/driver.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+constexpr Duration look_every = microseconds(100);
+
+}  // namespace
+
+MainStatus Driver::status() { return {port_.read(reg::RR0)}; }
+
+AxisStatus Driver::axis_status(int axis) {
+    MOTIONRACK_ASSERT(axis >= 0 && axis < 4);
+    command(1u << axis, cmd::NOP);
+    AxisStatus status;
+    status.rr1 = port_.read(reg::RR1);
+    status.rr2 = port_.read(reg::RR2);
+    return status;
+}
+
+AxisReport Driver::report(int axis) {
+    AxisReport report;
+    report.axis = axis;
+    report.driving = moving(1u << axis);
+    report.lp = ReadLPS(axis);
+    report.ep = ReadEPS(axis);
+    report.cv = ReadCV(axis);
+    report.status = axis_status(axis);
+    return report;
+}
+
+std::string Driver::error_text(unsigned axes) {
+    std::string out;
+    for (int i = 0; i < 4; ++i) {
+        if (!(axes >> i & 1) || axis_status(i).why_stopped().empty()) continue;
+        if (!out.empty()) out += ' ';
+        out += report(i).text();
+    }
+    return out;
+}
+
+// ---- waiting ----------------------------------------------------------------------------------------------------------
+
+/// Sleeps until the interrupt line or for `slice`. The interrupts of `axes` are fetched, so that the line can rest; time
+/// passes also where the line is active for somebody else.
+void Driver::doze(unsigned axes, Duration slice) {
+    const Instant before = interrupt_.now();
+    const bool woken = interrupt_.wait(slice);
+    bool ours = false;
+    if (woken)
+        for (int i = 0; i < 4; ++i)
+            if (axes >> i & 1) ours = fetch_interrupts(i) || ours;
+    if (!ours && (woken || interrupt_.now() == before)) interrupt_.pass(slice);
+}
+
+Result<void> Driver::wait_until_stopped(unsigned axes, Duration timeout) {
+    const Instant end = interrupt_.now() + timeout;
+    bool stopped = false;
+    while (status().driving(axes)) {
+        if (!stopped && interrupt_.stop_requested()) {
+            SlowStop(axes);
+            stopped = true;
+        }
+        if (interrupt_.now() >= end)
+            return fail(Trouble::machine, fmt::format("{} still moves after {:.3f} s; {}. Wait longer, or stop the axes.", axes_text(axes),
+                                                      to_seconds(timeout), stopped ? "it was told to stop" : "nothing was stopped"));
+        // The drive-end interrupt, where enabled, wakes at once; otherwise the status is looked at now and then.
+        doze(axes, look_every);
+    }
+    if (stopped) return fail(Trouble::stopped, fmt::format("Stopped on request; {} stands still.", axes_text(axes)));
+    return {};
+}
+
+Result<void> Driver::wait_until_done(unsigned axes, Duration timeout) {
+    MOTIONRACK_CHECK(check_axes(axes, "wait_until_done"));
+    MOTIONRACK_CHECK(wait_until_stopped(axes, timeout));
+    const std::string why = error_text(axes);
+    if (why.empty()) return {};
+    return fail(Trouble::machine, why);
+}
+
+// ---- speeds -----------------------------------------------------------------------------------------------------------
+
+/// Part of the basic pulses that step each axis of a piece, signed, at the place where the axes are.
+std::array<double, 4> Driver::shares(const Piece& piece) {
+    std::array<double, 4> out = {};
+    const ChannelList list = channels_of(piece.axes);
+    if (!piece.arc) {
+        const auto longest = static_cast<double>(std::max<std::int64_t>(1, basic_pulses(piece)));
+        for (std::size_t i = 0; i < 4; ++i)
+            if (piece.axes >> i & 1) out[i] = static_cast<double>(piece.finish[i]) / longest;
+        return out;
+    }
+    // On a circle the axes' speeds are as the other's distance from the centre; the axis nearer to it steps every time.
+    const auto h = static_cast<std::size_t>(list.channel[0]), v = static_cast<std::size_t>(list.channel[1]);
+    auto from_centre = [&](std::size_t i) {
+        const std::int64_t moved = static_cast<std::int32_t>(static_cast<std::uint32_t>(ReadLPS(static_cast<int>(i))) -
+                                                             static_cast<std::uint32_t>(piece.from[i]));
+        return static_cast<double>(moved - piece.centre[i]);
+    };
+    const double x = from_centre(h), y = from_centre(v);
+    const double most = std::max({std::fabs(x), std::fabs(y), 1.0}), turn = piece.clockwise ? -1 : 1;
+    out[h] = -turn * y / most;
+    out[v] = turn * x / most;
+    return out;
+}
+
+Result<std::array<double, 4>> Driver::axis_speeds() {
+    const MainStatus main = status();
+    std::array<double, 4> out = {};
+    const unsigned path = main.interpolating() ? path_axes_ : 0;
+    if (path != 0) {
+        const Piece& piece = main.can_queue() ? pieces_[1] : pieces_[0];
+        if (piece.axes == 0)
+            return fail(Trouble::refused, "axis_speeds: the interpolation was started by bare commands, so its axes' shares are not known.");
+        const int generator = chain_.running ? chain_.generator : channels_of(piece.axes).channel[0];
+        const std::int64_t basic = ReadCV(generator);
+        const std::array<double, 4> share = shares(piece);
+        const double rate = static_cast<double>(basic) * static_cast<double>(rules::sclk_hz) / mean_range(piece, generator, share);
+        for (std::size_t i = 0; i < 4; ++i) out[i] = share[i] * rate;
+    }
+    for (int i = 0; i < 4; ++i) {
+        if ((path >> i & 1) || !main.driving(1u << i)) continue;
+        out[static_cast<std::size_t>(i)] = ReadCV(i) * multiple(i) * (kept(i).negative ? -1 : 1);
+    }
+    return out;
+}
+
+/// R over many basic pulses: with constant vector speed it is longer for those that step more than one axis.
+double Driver::mean_range(const Piece& piece, int generator, const std::array<double, 4>& share) const {
+    const ChannelList list = channels_of(piece.axes);
+    const auto own = static_cast<double>(kept(generator).own_range);
+    const int vector_axes = std::min(piece.vector_axes, list.count);
+    if (vector_axes < 2) return own;
+    std::array<double, 3> parts = {};
+    for (int n = 0; n < list.count; ++n)
+        parts[static_cast<std::size_t>(n)] = std::fabs(share[static_cast<std::size_t>(list.channel[static_cast<std::size_t>(n)])]);
+    std::sort(parts.begin(), parts.end(), std::greater<>());
+    const auto two = static_cast<double>(written(list.channel[1], cmd::R).value_or(0));
+    const auto three = vector_axes == 3 ? static_cast<double>(written(list.channel[2], cmd::R).value_or(0)) : two;
+    return own * (1 - parts[1]) + two * (parts[1] - parts[2]) + three * parts[2];
+}
+
+}  // namespace motionrack::mcx314
