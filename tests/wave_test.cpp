@@ -97,8 +97,8 @@ TEST(Waves, EachScopeIsOpenedOnceAndNoneIsEmpty) {
             std::istringstream words(line);
             std::string kind, type, name;
             words >> kind >> type >> name;
-            if (kind == "$scope") EXPECT_TRUE(scopes.insert(name).second) << name << " is opened twice";
-            if (kind == "$upscope") EXPECT_EQ(last, "$var") << "a scope with nothing in it";
+            EXPECT_TRUE(kind != "$scope" || scopes.insert(name).second) << name << " is opened twice";
+            EXPECT_TRUE(kind != "$upscope" || last == "$var") << "a scope with nothing in it";
             if (kind == "$var") {
                 words >> name >> name;
                 EXPECT_TRUE(names.insert(name).second) << name;

@@ -21,7 +21,16 @@ class Mcx314Card final : public Card {
 
     const std::string& name() const override { return name_; }
     sim::DeviceId device() const override { return chip_.id(); }
+    const CardMap& map() const override { return mcx314::card_map(); }
     sim::RegisterDevice* registers() override { return &chip_; }
+    std::span<const int> bus_widths() const override {
+        static constexpr int widths[] = {16};
+        return widths;
+    }
+    std::uint32_t bus_read(int, std::uint32_t address) override { return port_.read(address); }
+    void bus_write(int, std::uint32_t address, std::uint32_t value) override {
+        port_.write(address, static_cast<std::uint16_t>(value));
+    }
     int channel_count() const override { return mcx314::channel_count; }
     std::string channel_name(int channel) const override { return std::string(1, "xyzu"[channel]); }
     int channel_number(std::string_view channel) const override { return static_cast<int>(std::string_view("xyzu").find(channel)); }

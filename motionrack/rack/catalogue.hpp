@@ -23,8 +23,14 @@ class Card {
     virtual ~Card() = default;
     virtual const std::string& name() const = 0;
     virtual sim::DeviceId device() const = 0;
+    virtual const CardMap& map() const = 0;
     /// Registers as the host sees them; nullptr if the card has none.
     virtual sim::RegisterDevice* registers() = 0;
+    /// Widths in bits (8, 16, 32) of the accesses that the card's bus makes.
+    virtual std::span<const int> bus_widths() const = 0;
+    /// One access of the host, of one of these widths and at an address that the map declares; it takes the bus its time.
+    virtual std::uint32_t bus_read(int bits, std::uint32_t address) = 0;
+    virtual void bus_write(int bits, std::uint32_t address, std::uint32_t value) = 0;
     virtual int channel_count() const = 0;
     virtual std::string channel_name(int channel) const = 0;
     /// Number of a channel by its name in the rack file.

@@ -38,6 +38,7 @@ class Rack {
 
     const RackConfig& config() const { return config_; }
     sim::Kernel& kernel() { return kernel_; }
+    const sim::Kernel& kernel() const { return kernel_; }
     const std::vector<std::unique_ptr<Card>>& cards() const { return cards_; }
     Card* card(std::string_view name);
     std::vector<RunningAxis>& axes() { return axes_; }

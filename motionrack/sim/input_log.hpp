@@ -22,11 +22,16 @@ struct Input {
 /// Grows between runs only, never inside one.
 class InputLog {
   public:
-    void add(const Input& input) { inputs_.push_back(input); }
+    void add(const Input& input) {
+        if (keeps_) inputs_.push_back(input);
+    }
+    /// Nothing more is kept: for worlds that run for ever and are never replayed.
+    void keep_no_more() { keeps_ = false; }
     const std::vector<Input>& inputs() const { return inputs_; }
 
   private:
     std::vector<Input> inputs_;
+    bool keeps_ = true;
 };
 
 class Kernel;

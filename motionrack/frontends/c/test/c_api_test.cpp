@@ -1,0 +1,123 @@
+// motionrack/c.h from outside: bad calls give codes and sentences, never a crash; the library shows nothing else.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <motionrack/c.h>
+
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <thread>
+
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A rack that is closed at the end.
+class Open {
+  public:
+    explicit Open(const char* text = "card.c1 = \"mcx314\"") { code = mr_rack_open(text, &rack); }
+    ~Open() { mr_rack_close(rack); }
+    Open(const Open&) = delete;
+    Open& operator=(const Open&) = delete;
+    operator mr_rack*() const { return rack; }
+    mr_rack* rack = nullptr;
+    int code = -1;
+};
+
+TEST(CApi, NullPointersAreBadCalls) {
+    Open r;
+    ASSERT_EQ(r.code, MR_OK) << mr_last_error();
+    std::uint16_t word = 5;
+    mr_rack* out = nullptr;
+    EXPECT_EQ(mr_rack_open(nullptr, &out), MR_BAD_CALL);
+    EXPECT_EQ(mr_rack_open("card.c1 = \"mcx314\"", nullptr), MR_BAD_CALL);
+    EXPECT_EQ(mr_advance_ns(nullptr, 1), MR_BAD_CALL);
+    EXPECT_THAT(mr_last_error(), HasSubstr("mr_rack_open"));
+    EXPECT_EQ(mr_now_ns(nullptr), 0u);
+    EXPECT_EQ(mr_read16(nullptr, "c1", 0, &word), MR_BAD_CALL);
+    EXPECT_EQ(mr_read16(r, nullptr, 0, &word), MR_BAD_CALL);
+    EXPECT_EQ(mr_read16(r, "c1", 0, nullptr), MR_BAD_CALL);
+    EXPECT_EQ(mr_write16(nullptr, "c1", 0, 0), MR_BAD_CALL);
+    EXPECT_EQ(mr_write16(r, nullptr, 0, 0), MR_BAD_CALL);
+    mr_rack_close(nullptr);
+    EXPECT_EQ(mr_now_ns(r), 0u) << "nothing of it took time";
+}
+
+TEST(CApi, RackFilesWithMistakesGiveALineForEach) {
+    mr_rack* rack = nullptr;
+    EXPECT_EQ(mr_rack_open("[card.m]\ntype = \"mcx31\"\n[crad]\n", &rack), MR_BAD_INPUT);
+    EXPECT_EQ(rack, nullptr);
+    EXPECT_THAT(mr_last_error(), HasSubstr("2:8: "));
+    EXPECT_THAT(mr_last_error(), HasSubstr("\n3:2: "));
+    EXPECT_EQ(mr_rack_open("no/such/rack.toml", &rack), MR_IO);
+    EXPECT_THAT(mr_last_error(), HasSubstr("no/such/rack.toml"));
+    EXPECT_EQ(mr_rack_open("", &rack), MR_BAD_INPUT);
+}
+
+TEST(CApi, AccessesThatTheBusDoesNotHaveAreRefused) {
+    Open r;
+    std::uint8_t byte = 1;
+    std::uint16_t word = 2;
+    std::uint32_t twice = 3;
+    EXPECT_EQ(mr_read8(r, "c1", 0, &byte), MR_REFUSED);
+    EXPECT_THAT(mr_last_error(), HasSubstr("accesses of 16 bits, not of 8"));
+    EXPECT_EQ(mr_write8(r, "c1", 0, 0), MR_REFUSED);
+    EXPECT_EQ(mr_read32(r, "c1", 0, &twice), MR_REFUSED);
+    EXPECT_EQ(mr_write32(r, "c1", 0, 0), MR_REFUSED);
+    for (const std::uint32_t offset : {1u, 0x10u, 0x11u, 0xFFFF'FFFFu}) {
+        EXPECT_EQ(mr_read16(r, "c1", offset, &word), MR_REFUSED) << offset;
+        EXPECT_EQ(mr_write16(r, "c1", offset, 0), MR_REFUSED) << offset;
+    }
+    EXPECT_THAT(mr_last_error(), HasSubstr("0xffffffff"));
+    EXPECT_EQ(mr_read16(r, "c2", 0, &word), MR_BAD_CALL);
+    EXPECT_THAT(mr_last_error(), HasSubstr("no card 'c2'"));
+    EXPECT_THAT(mr_last_error(), HasSubstr("c1"));
+    EXPECT_EQ(byte, 1);
+    EXPECT_EQ(word, 2);
+    EXPECT_EQ(twice, 3u);
+    EXPECT_EQ(mr_now_ns(r), 0u);
+}
+
+TEST(CApi, TimeHasLimits) {
+    Open r;
+    EXPECT_EQ(mr_advance_ns(r, 0), MR_OK);
+    EXPECT_EQ(mr_advance_ns(r, std::numeric_limits<std::uint64_t>::max()), MR_REFUSED);
+    EXPECT_EQ(mr_advance_ns(r, 1'000'000'000'000'001), MR_REFUSED);
+    EXPECT_EQ(mr_now_ns(r), 0u);
+    std::uint64_t calls = 0;
+    while (mr_advance_ns(r, 1'000'000'000'000'000) == MR_OK && calls < 1000) ++calls;
+    EXPECT_EQ(calls, 461u) << "14 years";
+    EXPECT_THAT(mr_last_error(), HasSubstr("ends at"));
+    EXPECT_EQ(mr_now_ns(r), calls * 1'000'000'000'000'000);
+    EXPECT_EQ(mr_advance_ns(r, 1), MR_OK);
+}
+
+TEST(CApi, EachThreadHasItsOwnLastError) {
+    EXPECT_EQ(mr_advance_ns(nullptr, 1), MR_BAD_CALL);
+    const std::string here = mr_last_error();
+    std::string there = "?";
+    std::thread other([&there] {
+        there = mr_last_error();
+        Open r("[card.m]\n");
+    });
+    other.join();
+    EXPECT_EQ(there, "");
+    EXPECT_EQ(mr_last_error(), here);
+}
+
+/// What nm says: the names that the library shows.
+TEST(CApi, TheLibraryShowsNothingButItsFunctions) {
+    std::FILE* pipe = ::popen("nm -D --defined-only --format=just-symbols '" MOTIONRACK_C_LIBRARY "'", "r");
+    ASSERT_NE(pipe, nullptr);
+    std::array<char, 512> line{};
+    int names = 0;
+    while (std::fgets(line.data(), static_cast<int>(line.size()), pipe) != nullptr) {
+        EXPECT_EQ(std::string(line.data()).rfind("mr_", 0), 0u) << line.data();
+        ++names;
+    }
+    EXPECT_EQ(::pclose(pipe), 0);
+    EXPECT_GE(names, 11);
+}
+
+}  // namespace
