@@ -1,0 +1,57 @@
+// The how-to pages of the function library: what they show is what their programs do.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <string>
+#include <tests/text_of.hpp>
+
+namespace motionrack {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = MOTIONRACK_SOURCE_DIR;
+
+std::string printed_by(const std::string& command) {
+    std::string out;
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    if (!pipe) return out;
+    std::array<char, 4096> buffer{};
+    for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) out.append(buffer.data(), got);
+    ::pclose(pipe);
+    return out;
+}
+
+/// Every line of `text` that is not empty, with `indent` before it.
+std::string indented(const std::string& text, const std::string& indent) {
+    std::string out;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) out += line.empty() ? "\n" : indent + line + "\n";
+    return out;
+}
+
+std::string code_of(const std::string& page) {
+    const std::size_t begin = page.find("```cpp\n") + 7;
+    return page.substr(begin, page.find("```", begin) - begin);
+}
+
+class HowTo : public testing::TestWithParam<const char*> {};
+
+TEST_P(HowTo, ShowsTheProgramItsOutputAndItsPicture) {
+    const std::string name = GetParam(), page = text_of(root / "docs/howto/mcx314" / (name + ".md"));
+    ASSERT_FALSE(page.empty());
+    const fs::path picture = fs::temp_directory_path() / ("motionrack_howto_" + name + ".svg");
+    const std::string printed = printed_by(MOTIONRACK_MCX314_EXAMPLE " " + name + " '" + picture.string() + "'");
+    EXPECT_NE(page.find("\nIt prints\n\n" + indented(printed, "    ") + "\n"), std::string::npos) << printed;
+    EXPECT_NE(text_of(root / "examples/mcx314" / (name + ".cpp")).find(indented(code_of(page), "    ")), std::string::npos)
+        << "the page's program is not that of examples/mcx314/" << name << ".cpp";
+    EXPECT_EQ(text_of(root / "docs/pictures" / ("mcx314_" + name + ".svg")), text_of(picture))
+        << "make it anew: example_mcx314 " << name << " docs/pictures/mcx314_" << name << ".svg";
+    fs::remove(picture);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pages, HowTo,
+                         testing::Values("trapezoid", "s_curve", "asymmetric", "line", "arc", "contour"));
+
+}  // namespace
+}  // namespace motionrack
