@@ -1,12 +1,13 @@
-// Continuous interpolation: one segment runs, one is queued, one is kept back here until it is known whether it is the last.
+// Continuous interpolation: one segment runs, one is queued, one is kept back here until it is known whether it is the
+// last.
 //
 //   chip   |== 1 ==|== 2 ==|== 3 ==|            3Ch before 1: nothing decelerates at a joint
 //   given  1  2    3       End                  3Bh once 3 is queued: only the last one does, at its DP
-#include <motionrack/cards/mcx314/driver/curves.hpp>
-#include <motionrack/cards/mcx314/driver/driver.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <fmt/format.h>
+#include <motionrack/cards/mcx314/driver/curves.hpp>
+#include <motionrack/cards/mcx314/driver/driver.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -20,15 +21,19 @@ constexpr Duration look_every = microseconds(20);
 Result<void> Driver::check_chain_speed(int axis, std::int64_t v) const {
     const double rate = static_cast<double>(v) * multiple(axis);
     if (rate <= most_chain_rate) return {};
-    return fail(Trouble::refused, fmt::format("V = {} of {} is {:.0f} pulses/s, but continuous interpolation makes at most {:.0f}. Nothing "
-                                              "was written.", v, axes_text(1u << axis), rate, most_chain_rate));
+    return fail(
+        Trouble::refused,
+        fmt::format("V = {} of {} is {:.0f} pulses/s, but continuous interpolation makes at most {:.0f}. Nothing "
+                    "was written.",
+                    v, axes_text(1u << axis), rate, most_chain_rate));
 }
 
 Result<void> Driver::ContStart(const CONTDATA& data) {
     const Speeds speeds{data.A == 0 ? Curve::constant : Curve::t, data.SV, data.V, data.A, data.D, 0};
     MOTIONRACK_CHECK(check_speeds(axis_x, speeds));
     if (chain_.open && chain_.running && status().interpolating())
-        return fail(Trouble::refused, "ContStart: the chain before runs still. Nothing was written. Call ContEnd or stop it first.");
+        return fail(Trouble::refused,
+                    "ContStart: the chain before runs still. Nothing was written. Call ContEnd or stop it first.");
     chain_ = {};
     chain_.open = true;
     chain_.speeds = speeds;
@@ -42,23 +47,27 @@ Result<void> Driver::ContLine(unsigned axes, const FourAxes& finish, std::int64_
     return add_to_chain("ContLine", Piece{axes, false, false, finish, {}, {}, vector_axes_}, v, timeout);
 }
 
-Result<void> Driver::ContArc(unsigned axes, const FourAxes& finish, const FourAxes& centre, bool clockwise, std::int64_t v,
-                             Duration timeout) {
+Result<void> Driver::ContArc(unsigned axes, const FourAxes& finish, const FourAxes& centre, bool clockwise,
+                             std::int64_t v, Duration timeout) {
     MOTIONRACK_CHECK(check_count("ContArc", axes, 2));
     return add_to_chain("ContArc", Piece{axes, true, clockwise, finish, centre, {}, vector_axes_}, v, timeout);
 }
 
 Result<void> Driver::add_to_chain(const char* who, const Piece& piece, std::int64_t v, Duration timeout) {
     if (!chain_.open)
-        return fail(Trouble::refused, fmt::format("{}: no chain is open. Nothing was written. Call ContStart first.", who));
+        return fail(Trouble::refused,
+                    fmt::format("{}: no chain is open. Nothing was written. Call ContStart first.", who));
     const int generator = chain_.kept_back ? chain_.generator : channels_of(piece.axes).channel[0];
     MOTIONRACK_CHECK(check_piece(who, piece));
     MOTIONRACK_CHECK(check_initialised(1u << generator | 1u << channels_of(piece.axes).channel[0], who));
     if (v != 0) {
         MOTIONRACK_CHECK(check(1u << generator, param::V, v));
         if (chain_.speeds.kind == Curve::constant)
-            return fail(Trouble::refused, fmt::format("{}: a chain of constant speed cannot change it. Nothing was written. Give ContStart an "
-                                                      "acceleration.", who));
+            return fail(
+                Trouble::refused,
+                fmt::format("{}: a chain of constant speed cannot change it. Nothing was written. Give ContStart an "
+                            "acceleration.",
+                            who));
     }
     MOTIONRACK_CHECK(check_chain_speed(generator, v != 0 ? v : chain_.speeds.V));
     if (chain_.kept_back) {
@@ -120,7 +129,8 @@ void Driver::note_end(const Piece& piece) {
     const auto h = static_cast<std::size_t>(list.channel[0]), v = static_cast<std::size_t>(list.channel[1]);
     FourAxes moved = piece.finish;
     if (piece.arc) {
-        const rules::ArcEnd end = rules::end_of_arc(piece.centre[h], piece.centre[v], piece.finish[h], piece.finish[v], piece.clockwise);
+        const rules::ArcEnd end =
+            rules::end_of_arc(piece.centre[h], piece.centre[v], piece.finish[h], piece.finish[v], piece.clockwise);
         moved[h] = end.first;
         moved[v] = end.second;
     }
@@ -136,7 +146,8 @@ void Driver::aim_at_end(const Piece& piece) {
     const CurveData curve = curve_of(chain_.generator, chain_.speeds, length);
     auto fits = [&](std::int64_t v) { return fall_pulses(curve, v) < length; };
     if (!fits(chain_.speeds.V)) {
-        std::int64_t low = std::min(curve.SV, chain_.speeds.V), high = chain_.speeds.V;  // the greatest that fits: [low, high)
+        std::int64_t low = std::min(curve.SV, chain_.speeds.V),
+                     high = chain_.speeds.V;  // the greatest that fits: [low, high)
         while (high - low > 1) {
             const std::int64_t middle = (low + high) / 2;
             (fits(middle) ? low : high) = middle;
@@ -159,8 +170,11 @@ Result<void> Driver::wait_for_joint(Duration timeout, bool may_end) {
             if (may_end && why.empty()) return {};
             chain_.open = chain_.running = false;
             if (!why.empty()) return fail(Trouble::machine, "The chain was stopped. " + why);
-            return fail(Trouble::machine, fmt::format("Segment {} of the chain came too late: the axes stand at its start. Lower the speed, or "
-                                                      "give longer segments.", chain_.segments + 1));
+            return fail(
+                Trouble::machine,
+                fmt::format("Segment {} of the chain came too late: the axes stand at its start. Lower the speed, or "
+                            "give longer segments.",
+                            chain_.segments + 1));
         }
         if (interrupt_.stop_requested()) {
             SlowStop(path_axes_);
@@ -169,15 +183,20 @@ Result<void> Driver::wait_for_joint(Duration timeout, bool may_end) {
             return fail(Trouble::stopped, "The chain was stopped on request.");
         }
         if (interrupt_.now() >= end)
-            return fail(Trouble::machine, fmt::format("The running segment of the chain did not end within {:.3f} s; it was not stopped. Wait "
-                                                      "longer, or stop the axes.", to_seconds(timeout)));
+            return fail(
+                Trouble::machine,
+                fmt::format("The running segment of the chain did not end within {:.3f} s; it was not stopped. Wait "
+                            "longer, or stop the axes.",
+                            to_seconds(timeout)));
         doze(0, look_every);
     }
 }
 
 Result<ContOutcome> Driver::ContEnd(Duration timeout) {
     if (!chain_.open || !chain_.kept_back)
-        return fail(Trouble::refused, "ContEnd: no chain with a segment is open. Nothing was written. Call ContStart and ContLine first.");
+        return fail(
+            Trouble::refused,
+            "ContEnd: no chain with a segment is open. Nothing was written. Call ContStart and ContLine first.");
     const bool first = !chain_.running;
     const std::int64_t length = basic_pulses(*chain_.kept_back);
     MOTIONRACK_CHECK(give_kept_back(true, timeout));

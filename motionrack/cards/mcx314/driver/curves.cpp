@@ -1,12 +1,12 @@
 // The generator's rule (RULES.md, one axis, nothing from outside) walked from event to event: between two events the
 // speed, the rate and their accumulators grow evenly.
-#include <motionrack/cards/mcx314/driver/curves.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <limits>
 #include <motionrack/cards/mcx314/arithmetic.hpp>
+#include <motionrack/cards/mcx314/driver/curves.hpp>
 #include <motionrack/cards/mcx314/driver/parameters.hpp>
 
 namespace motionrack::mcx314 {
@@ -62,7 +62,8 @@ class Walk {
         if (!d_.pulses) return far;
         std::int64_t pulses = *d_.pulses - n_;
         if (!final_) {
-            if (d_.dec_point) pulses = std::min(pulses, *d_.dec_point - n_);
+            if (d_.dec_point)
+                pulses = std::min(pulses, *d_.dec_point - n_);
             else {
                 const std::int64_t spare = pulses - accel_pulses_ - d_.AO;
                 pulses = std::min(pulses, ramp_ > 0 ? rules::ceil_div(std::max<std::int64_t>(spare, 0), 2) : spare);
@@ -78,12 +79,11 @@ class Walk {
         return final_ ? plan_.creep : plan_.cruise;
     }
 
-    void note(int direction, std::int64_t ticks, std::int64_t pulses, std::int64_t rate, std::int64_t from) {
+    void note(int direction, std::int64_t ticks, std::int64_t rate, std::int64_t from) {
         CurvePart& at = part(direction);
         if (at.ticks == 0) at.from_v = from;
         at.to_v = cv_;
         at.ticks += ticks;
-        at.pulses += pulses;
         if (direction != 0) at.peak_rate = std::max(at.peak_rate, rate);
         plan_.top_v = std::max({plan_.top_v, from, cv_});
     }
@@ -99,7 +99,8 @@ class Walk {
             rate_part_ += ticks;
         }
         tick_ += ticks;
-        note(ramp_, ticks, pulses, d_.s_curve ? rate_ : limit(), cv_);
+        part(ramp_).pulses += pulses;
+        note(ramp_, ticks, d_.s_curve ? rate_ : limit(), cv_);
     }
 
     void check_final() {
@@ -113,26 +114,27 @@ class Walk {
         const std::int64_t from = cv_;
         if (asked_to_stop_) asked_to_stop_ = false, final_ = stopping_ = true;
         phase_ += cv_;
-        std::int64_t pulses = 0;
         if (phase_ >= d_.R) {
             phase_ -= d_.R;
-            pulses = 1;
             ++n_;
+            ++part(ramp_).pulses;  // a pulse that begins the fall is the last one before it
             if (ramp_ > 0) ++accel_pulses_;
             plan_.end_v = cv_;
             if (d_.pulses && n_ >= *d_.pulses) {
                 ended_ = true;
-                return note(ramp_, 1, 1, d_.s_curve ? rate_ : limit(), from);
+                return note(ramp_, 1, d_.s_curve ? rate_ : limit(), from);
             }
             check_final();
         }
         direction_ = 0;
         if (!(stopping_ && cv_ <= d_.SV)) {
-            if (d_.s_curve) s_curve();
-            else t_curve();
+            if (d_.s_curve)
+                s_curve();
+            else
+                t_curve();
             final_seen_ = final_;
         }
-        note(direction_, 1, pulses, rate_, from);
+        note(direction_, 1, rate_, from);
         if (cv_ != from) flush();
         if (stopping_ && cv_ <= d_.SV) ended_ = true;
         // A continuous drive is planned with a slow stop as soon as it has its speed.
@@ -212,7 +214,8 @@ class Walk {
     std::int64_t speed_part_ = 0, rate_part_ = 0, rate_ = 0, speed_steps_ = 0, aim_ = 0;
     int ramp_ = 0, direction_ = 0;
     Phase shape_ = Phase::rising;
-    bool final_ = false, final_seen_ = false, stopping_ = false, asked_to_stop_ = false, ended_ = false, straight_middle_ = false;
+    bool final_ = false, final_seen_ = false, stopping_ = false, asked_to_stop_ = false, ended_ = false,
+         straight_middle_ = false;
 };
 
 Result<void> check(const CurveData& data) {
@@ -221,16 +224,21 @@ Result<void> check(const CurveData& data) {
         std::int64_t value;
         bool used;
     };
-    const Item items[] = {{param::vector_range, data.R, true},        {param::SV, data.SV, true},
-                          {param::V, data.V, true},                   {param::A, data.A, true},
-                          {param::D, data.D, data.asymmetric},        {param::K, data.K, data.s_curve},
-                          {param::AO, data.AO, true},                 {param::DP, data.dec_point.value_or(0), true},
+    const Item items[] = {{param::vector_range, data.R, true},
+                          {param::SV, data.SV, true},
+                          {param::V, data.V, true},
+                          {param::A, data.A, true},
+                          {param::D, data.D, data.asymmetric},
+                          {param::K, data.K, data.s_curve},
+                          {param::AO, data.AO, true},
+                          {param::DP, data.dec_point.value_or(0), true},
                           {param::pulses, data.pulses.value_or(0), true}};
     for (const Item& item : items) {
         const std::int64_t least = item.parameter.code == cmd::P ? 0 : item.parameter.least;
         if (item.used && (item.value < least || item.value > item.parameter.greatest))
-            return fail(Trouble::refused, fmt::format("{} of the plan is {}, but the chip takes {} to {}. Nothing was planned.",
-                                                      item.parameter.name, item.value, least, item.parameter.greatest));
+            return fail(Trouble::refused,
+                        fmt::format("{} of the plan is {}, but the chip takes {} to {}. Nothing was planned.",
+                                    item.parameter.name, item.value, least, item.parameter.greatest));
     }
     return {};
 }
@@ -254,7 +262,8 @@ Result<CurvePlan> plan_drive(const CurveData& data, const std::function<void(con
 Result<std::int64_t> best_dec_point(const CurveData& data) {
     MOTIONRACK_CHECK(check(data));
     if (!data.pulses)
-        return fail(Trouble::refused, "A continuous drive has no deceleration point. Nothing was planned. Give the number of pulses.");
+        return fail(Trouble::refused,
+                    "A continuous drive has no deceleration point. Nothing was planned. Give the number of pulses.");
     CurveData tried = data;
     const std::function<void(const CurveSpan&)> nobody;
     auto ends_slow = [&](std::int64_t point) {
@@ -271,6 +280,30 @@ Result<std::int64_t> best_dec_point(const CurveData& data) {
         (ends_slow(middle) ? low : high) = middle;
     }
     return low;
+}
+
+Result<std::int64_t> best_offset(const CurveData& data) {
+    MOTIONRACK_CHECK(check(data));
+    if (!data.pulses)
+        return fail(Trouble::refused,
+                    "A continuous drive needs no offset. Nothing was planned. Give the number of pulses.");
+    CurveData tried = data;
+    tried.dec_point.reset();
+    const std::function<void(const CurveSpan&)> nobody;
+    auto ends_slow = [&](std::int64_t offset) {
+        tried.AO = offset;
+        return Walk(tried, nobody).run().ends_slow();
+    };
+    std::int64_t low = -1, high = 0;  // too fast at low, slow at high
+    while (high < param::AO.greatest && !ends_slow(high)) {
+        low = high;
+        high = std::min(param::AO.greatest, 2 * high + 1);
+    }
+    while (high - low > 1) {
+        const std::int64_t middle = low + (high - low) / 2;
+        (ends_slow(middle) ? high : low) = middle;
+    }
+    return high;
 }
 
 std::int64_t fall_pulses(const CurveData& data, std::int64_t v) {

@@ -24,9 +24,9 @@ struct CurveData {
     std::int64_t SV = 1;
     std::int64_t V = 1;
     std::int64_t A = 1;
-    std::int64_t D = 1;      ///< used where asymmetric
-    std::int64_t K = 65'535; ///< used where s_curve
-    std::int64_t AO = 0;     ///< used with automatic deceleration
+    std::int64_t D = 1;       ///< used where asymmetric
+    std::int64_t K = 65'535;  ///< used where s_curve
+    std::int64_t AO = 0;      ///< used with automatic deceleration
     bool s_curve = false;
     bool asymmetric = false;
     std::optional<std::int64_t> dec_point = {};  ///< manual deceleration; nothing: automatic
@@ -37,7 +37,7 @@ struct CurveData {
 
 /// A part of a drive.
 struct CurvePart {
-    std::int64_t ticks = 0;   ///< of 125 ns
+    std::int64_t ticks = 0;  ///< of 125 ns
     std::int64_t pulses = 0;
     std::int64_t from_v = 0, to_v = 0;  ///< V units at its ends
     std::int64_t peak_rate = 0;         ///< greatest acceleration, A units
@@ -47,12 +47,12 @@ struct CurvePart {
 struct CurvePlan {
     CurveData data;
     CurvePart rise, cruise, fall, creep;
-    std::int64_t ticks = 0;        ///< from the command's tick to the last pulse
+    std::int64_t ticks = 0;  ///< from the command's tick to the last pulse
     std::int64_t pulses = 0;
-    std::int64_t top_v = 0;        ///< greatest speed reached, V units
-    std::int64_t end_v = 0;        ///< speed at the last pulse; above SV where the deceleration began too late
-    bool reaches_v = false;        ///< false: a triangle
-    bool full_s = false;           ///< S-curve whose acceleration stayed below its limit (no straight middle)
+    std::int64_t top_v = 0;  ///< greatest speed reached, V units
+    std::int64_t end_v = 0;  ///< speed at the last pulse; above SV where the deceleration began too late
+    bool reaches_v = false;  ///< false: a triangle
+    bool full_s = false;     ///< S-curve whose acceleration stayed below its limit (no straight middle)
     Duration time() const { return nanoseconds(125 * ticks); }
     /// Ends at SV, or at V where that is not above it.
     bool ends_slow() const { return end_v <= std::min(data.SV, data.V); }
@@ -68,11 +68,11 @@ struct CurvePlan {
 /// Ticks between two changes of the speed, with the speed that is kept meanwhile: pulses fall at the ticks at which the
 /// accumulator, `at` before the span, passes a multiple of R. Ticks count from the command.
 struct CurveSpan {
-    std::int64_t tick = 0;   ///< last tick before the span
+    std::int64_t tick = 0;  ///< last tick before the span
     std::int64_t ticks = 0;
     std::int64_t v = 0;
-    std::int64_t at = 0;     ///< accumulator before the span's first tick
-    int ramp = 0;            ///< -1, 0, +1 in the span's last tick, before its speed step
+    std::int64_t at = 0;  ///< accumulator before the span's first tick
+    int ramp = 0;         ///< -1, 0, +1 in the span's last tick, before its speed step
 };
 
 /// Plans a drive. Errors: Trouble::refused with the range of the value that is out of it. `spans`, if given, is called
@@ -82,6 +82,10 @@ Result<CurvePlan> plan_drive(const CurveData& data, const std::function<void(con
 /// The latest manual deceleration point with which the drive still reaches SV at its last pulse, 0 if none does.
 /// Exact by trying: every later point ends faster.
 Result<std::int64_t> best_dec_point(const CurveData& data);
+
+/// The least AO, 0 .. 65,535, with which the automatic deceleration reaches SV by the last pulse: falling takes a little
+/// more pulses than rising did, most of all in S-curves. 65,535 if none does.
+Result<std::int64_t> best_offset(const CurveData& data);
 
 /// Pulses that the fall from `v` to SV takes, rounded up.
 std::int64_t fall_pulses(const CurveData& data, std::int64_t v);

@@ -1,7 +1,7 @@
 // Register traffic of the function library: range check, then WR7, WR6, WR0; and the parameters.
-#include <motionrack/cards/mcx314/driver/driver.hpp>
-
 #include <fmt/format.h>
+
+#include <motionrack/cards/mcx314/driver/driver.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -24,7 +24,8 @@ std::string axes_text(unsigned axes) {
     return out;
 }
 
-// ---- traffic ----------------------------------------------------------------------------------------------------------
+// ---- traffic
+// ----------------------------------------------------------------------------------------------------------
 
 void Driver::command(unsigned axes, unsigned code) {
     port_.write(reg::WR0, static_cast<std::uint16_t>((axes & xyzu) << 8 | code));
@@ -53,7 +54,8 @@ void Driver::write_mode(unsigned axes, int number, std::uint16_t word) {
 
 void Driver::set_mode(unsigned axes, int number, Field bits, unsigned value) {
     for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) write_mode(1u << i, number, bits.set(kept(i).mode[static_cast<std::size_t>(number - 1)], value));
+        if (axes >> i & 1)
+            write_mode(1u << i, number, bits.set(kept(i).mode[static_cast<std::size_t>(number - 1)], value));
 }
 
 void Driver::put(unsigned axes, const Parameter& parameter, std::int64_t value) {
@@ -72,31 +74,37 @@ const Driver::Kept& Driver::kept(int axis) const {
     return kept_[static_cast<std::size_t>(axis)];
 }
 
-// ---- checks -----------------------------------------------------------------------------------------------------------
+// ---- checks
+// -----------------------------------------------------------------------------------------------------------
 
 Result<void> Driver::check_axes(unsigned axes, const char* who) {
     if (axes >= 1 && axes <= xyzu) return {};
-    return fail(Trouble::refused, fmt::format("{}: the axis mask {} names no axes; X is 1, Y 2, Z 4, U 8, and sums of these up "
-                                              "to 15. Nothing was written.", who, axes));
+    return fail(Trouble::refused,
+                fmt::format("{}: the axis mask {} names no axes; X is 1, Y 2, Z 4, U 8, and sums of these up "
+                            "to 15. Nothing was written.",
+                            who, axes));
 }
 
 Result<void> Driver::check(unsigned axes, const Parameter& parameter, std::int64_t value) {
     MOTIONRACK_CHECK(check_axes(axes, parameter.name));
     if (value >= parameter.least && value <= parameter.greatest) return {};
-    return fail(Trouble::refused, fmt::format("{} of {} is {}, but the chip takes {} to {}. Nothing was written.", parameter.name,
-                                              axes_text(axes), value, parameter.least, parameter.greatest));
+    return fail(Trouble::refused,
+                fmt::format("{} of {} is {}, but the chip takes {} to {}. Nothing was written.", parameter.name,
+                            axes_text(axes), value, parameter.least, parameter.greatest));
 }
 
 Result<void> Driver::check_switch(const char* who, int n, int greatest, const char* meanings) {
     if (n >= 0 && n <= greatest) return {};
-    return fail(Trouble::refused, fmt::format("{}: n is {}, but it is 0 to {} ({}). Nothing was written.", who, n, greatest, meanings));
+    return fail(Trouble::refused,
+                fmt::format("{}: n is {}, but it is 0 to {} ({}). Nothing was written.", who, n, greatest, meanings));
 }
 
 Result<void> Driver::check_standing(unsigned axes, const char* who) {
     const unsigned busy = field("RR0", "DRV").get(status().word) & axes;
     if (busy == 0) return {};
-    return fail(Trouble::refused, fmt::format("{}: {} {} driving. Nothing was written. Wait for the end of the drive, or stop it first.",
-                                              who, axes_text(busy), (busy & (busy - 1)) == 0 ? "is" : "are"));
+    return fail(Trouble::refused,
+                fmt::format("{}: {} {} driving. Nothing was written. Wait for the end of the drive, or stop it first.",
+                            who, axes_text(busy), (busy & (busy - 1)) == 0 ? "is" : "are"));
 }
 
 Result<void> Driver::check_initialised(unsigned axes, const char* who) const {
@@ -104,8 +112,10 @@ Result<void> Driver::check_initialised(unsigned axes, const char* who) const {
     for (int i = 0; i < 4; ++i)
         if ((axes >> i & 1) && !kept(i).data[cmd::R]) without |= 1u << i;
     if (without == 0) return {};
-    return fail(Trouble::refused, fmt::format("{}: the multiple of {} is not set. Nothing was written. Call SetMultiple, SetRange or "
-                                              "SetMaxSpeed first.", who, axes_text(without)));
+    return fail(Trouble::refused,
+                fmt::format("{}: the multiple of {} is not set. Nothing was written. Call SetMultiple, SetRange or "
+                            "SetMaxSpeed first.",
+                            who, axes_text(without)));
 }
 
 Result<void> Driver::write(unsigned axes, const Parameter& parameter, std::int64_t value) {
@@ -114,14 +124,16 @@ Result<void> Driver::write(unsigned axes, const Parameter& parameter, std::int64
     return {};
 }
 
-Result<void> Driver::write_switch(const char* who, unsigned axes, int number, Field bits, int n, int greatest, const char* meanings) {
+Result<void> Driver::write_switch(const char* who, unsigned axes, int number, Field bits, int n, int greatest,
+                                  const char* meanings) {
     MOTIONRACK_CHECK(check_axes(axes, who));
     MOTIONRACK_CHECK(check_switch(who, n, greatest, meanings));
     set_mode(axes, number, bits, static_cast<unsigned>(n));
     return {};
 }
 
-// ---- initial ----------------------------------------------------------------------------------------------------------
+// ---- initial
+// ----------------------------------------------------------------------------------------------------------
 
 void Driver::RESET() {
     port_.write(reg::WR0, reset_word);
@@ -164,8 +176,9 @@ Result<void> Driver::SetPulseLevels(unsigned axes, bool negative, bool direction
 
 Result<void> Driver::SetMultiple(unsigned axes, std::int64_t multiple) {
     if (multiple < 1 || multiple > most_multiple)
-        return fail(Trouble::refused, fmt::format("SetMultiple: the multiple is {}, but the chip takes 1 to {}. Nothing was written.",
-                                                  multiple, most_multiple));
+        return fail(Trouble::refused,
+                    fmt::format("SetMultiple: the multiple is {}, but the chip takes 1 to {}. Nothing was written.",
+                                multiple, most_multiple));
     MOTIONRACK_CHECK(check_axes(axes, "SetMultiple"));
     MOTIONRACK_CHECK(check_standing(axes, "SetMultiple"));
     return WriteRange(axes, range_of_multiple(multiple));
@@ -179,8 +192,10 @@ Result<void> Driver::SetRange(unsigned axes, std::int64_t range) {
 
 Result<void> Driver::SetMaxSpeed(unsigned axes, std::int64_t pulses_a_second) {
     if (pulses_a_second < 1 || pulses_a_second > most_pulse_rate)
-        return fail(Trouble::refused, fmt::format("SetMaxSpeed: the speed is {} pulses/s, but the chip makes 1 to {}. Nothing was "
-                                                  "written.", pulses_a_second, most_pulse_rate));
+        return fail(Trouble::refused,
+                    fmt::format("SetMaxSpeed: the speed is {} pulses/s, but the chip makes 1 to {}. Nothing was "
+                                "written.",
+                                pulses_a_second, most_pulse_rate));
     return SetMultiple(axes, rules::ceil_div(pulses_a_second, param::V.greatest));
 }
 
@@ -196,14 +211,27 @@ double Driver::multiple(int axis) const {
     return range == 0 ? 0 : static_cast<double>(rules::sclk_hz) / static_cast<double>(range);
 }
 
-// ---- speeds and ramps -------------------------------------------------------------------------------------------------
+// ---- speeds and ramps
+// -------------------------------------------------------------------------------------------------
 
-Result<void> Driver::SetSV(unsigned axes, std::int64_t value) { return write(axes, param::SV, value); }
-Result<void> Driver::SetV(unsigned axes, std::int64_t value) { return write(axes, param::V, value); }
-Result<void> Driver::SetA(unsigned axes, std::int64_t value) { return write(axes, param::A, value); }
-Result<void> Driver::SetD(unsigned axes, std::int64_t value) { return write(axes, param::D, value); }
-Result<void> Driver::SetAA(unsigned axes, std::int64_t value) { return write(axes, param::K, value); }
-Result<void> Driver::SetAO(unsigned axes, std::int64_t value) { return write(axes, param::AO, value); }
+Result<void> Driver::SetSV(unsigned axes, std::int64_t value) {
+    return write(axes, param::SV, value);
+}
+Result<void> Driver::SetV(unsigned axes, std::int64_t value) {
+    return write(axes, param::V, value);
+}
+Result<void> Driver::SetA(unsigned axes, std::int64_t value) {
+    return write(axes, param::A, value);
+}
+Result<void> Driver::SetD(unsigned axes, std::int64_t value) {
+    return write(axes, param::D, value);
+}
+Result<void> Driver::SetAA(unsigned axes, std::int64_t value) {
+    return write(axes, param::K, value);
+}
+Result<void> Driver::SetAO(unsigned axes, std::int64_t value) {
+    return write(axes, param::AO, value);
+}
 
 Result<void> Driver::Pulse(unsigned axes, std::int64_t pulses) {
     MOTIONRACK_CHECK(check(axes, param::pulses, pulses));
@@ -244,9 +272,12 @@ Result<void> Driver::SetAsymmetric(unsigned axes, bool on) {
     return {};
 }
 
-void Driver::SetSCurve(unsigned axes, bool on) { set_mode(axes, 3, field("WR3", "SACC"), on); }
+void Driver::SetSCurve(unsigned axes, bool on) {
+    set_mode(axes, 3, field("WR3", "SACC"), on);
+}
 
-// ---- positions --------------------------------------------------------------------------------------------------------
+// ---- positions
+// --------------------------------------------------------------------------------------------------------
 
 Result<void> Driver::LPS(unsigned axes, std::int64_t value) {
     MOTIONRACK_CHECK(write(axes, param::LP, value));
@@ -254,14 +285,28 @@ Result<void> Driver::LPS(unsigned axes, std::int64_t value) {
         if (axes >> i & 1) kept(i).from_known = false;
     return {};
 }
-Result<void> Driver::EPS(unsigned axes, std::int64_t value) { return write(axes, param::EP, value); }
-Result<void> Driver::SetCompP(unsigned axes, std::int64_t value) { return write(axes, param::COMP_PLUS, value); }
-Result<void> Driver::SetCompM(unsigned axes, std::int64_t value) { return write(axes, param::COMP_MINUS, value); }
+Result<void> Driver::EPS(unsigned axes, std::int64_t value) {
+    return write(axes, param::EP, value);
+}
+Result<void> Driver::SetCompP(unsigned axes, std::int64_t value) {
+    return write(axes, param::COMP_PLUS, value);
+}
+Result<void> Driver::SetCompM(unsigned axes, std::int64_t value) {
+    return write(axes, param::COMP_MINUS, value);
+}
 
-std::int32_t Driver::ReadLPS(int axis) { return static_cast<std::int32_t>(read_data(axis, cmd::READ_LP)); }
-std::int32_t Driver::ReadEPS(int axis) { return static_cast<std::int32_t>(read_data(axis, cmd::READ_EP)); }
+std::int32_t Driver::ReadLPS(int axis) {
+    return static_cast<std::int32_t>(read_data(axis, cmd::READ_LP));
+}
+std::int32_t Driver::ReadEPS(int axis) {
+    return static_cast<std::int32_t>(read_data(axis, cmd::READ_EP));
+}
 // CV and CA are 16-bit: the chip fetches them to RR6, and what RR7 shows then is not documented.
-std::int32_t Driver::ReadCV(int axis) { return static_cast<std::int32_t>(read_data(axis, cmd::READ_CV) & 0xFFFFu); }
-std::int32_t Driver::ReadCA(int axis) { return static_cast<std::int32_t>(read_data(axis, cmd::READ_CA) & 0xFFFFu); }
+std::int32_t Driver::ReadCV(int axis) {
+    return static_cast<std::int32_t>(read_data(axis, cmd::READ_CV) & 0xFFFFu);
+}
+std::int32_t Driver::ReadCA(int axis) {
+    return static_cast<std::int32_t>(read_data(axis, cmd::READ_CA) & 0xFFFFu);
+}
 
 }  // namespace motionrack::mcx314

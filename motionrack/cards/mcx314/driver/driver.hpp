@@ -45,7 +45,8 @@ class Driver {
     Result<void> SetSV(unsigned axes, std::int64_t value);  ///< initial speed, 1 .. 8,000
     Result<void> SetV(unsigned axes, std::int64_t value);   ///< drive speed, 1 .. 8,000; also while driving
     Result<void> SetA(unsigned axes, std::int64_t value);   ///< acceleration, 1 .. 8,000 (125 * M pulses/s2)
-    Result<void> SetD(unsigned axes, std::int64_t value);   ///< deceleration, 1 .. 8,000; used where SetAsymmetric() is on
+    Result<void> SetD(unsigned axes,
+                      std::int64_t value);  ///< deceleration, 1 .. 8,000; used where SetAsymmetric() is on
     Result<void> SetAA(unsigned axes, std::int64_t value);  ///< K, 1 .. 65,535: jerk 62.5e6 / K * M pulses/s3
     Result<void> SetAO(unsigned axes, std::int64_t value);  ///< pulses kept for the end at SV, 0 .. 65,535
     /// Output pulses of a fixed drive, -268,435,455 .. 268,435,455; the sign is the direction that DriveFixed() takes.
@@ -57,7 +58,8 @@ class Driver {
     Result<void> ManDec(unsigned axes, std::int64_t point) { return ManualDec(axes, point); }
     /// The point alone, also while driving with manual deceleration.
     Result<void> SetDecPoint(unsigned axes, std::int64_t point);
-    /// Decelerations take D instead of A. Curves with automatic deceleration then get the point that plan_drive() finds.
+    /// Decelerations take D instead of A. Curves with automatic deceleration then get the point that plan_drive()
+    /// finds.
     Result<void> SetAsymmetric(unsigned axes, bool on);
     /// S-curve or T-curve for the next drives (WR3 SACC).
     void SetSCurve(unsigned axes, bool on);
@@ -68,8 +70,10 @@ class Driver {
     Result<void> TCurve_F(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t pulses);
     /// Continuous drive with T-curve, until stopped. `negative`: in - direction (the source knows only +).
     Result<void> TCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, bool negative = false);
-    Result<void> SCurve_F(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k, std::int64_t pulses);
-    Result<void> SCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k, bool negative = false);
+    Result<void> SCurve_F(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k,
+                          std::int64_t pulses);
+    Result<void> SCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k,
+                          bool negative = false);
     /// Starts what Pulse() set, each axis in its direction, all at the same tick.
     Result<void> DriveFixed(unsigned axes);
     /// The bare commands 20h..27h.
@@ -81,15 +85,16 @@ class Driver {
     void QuickStop(unsigned axes);
 
     // ---- while driving (flight.cpp) -------------------------------------------------------------------------------
-    /// Stops the axes of the mask, with everything that is interpolated with them. An empty mask is refused, never "all".
+    /// Stops the axes of the mask, with everything that is interpolated with them. An empty mask is refused, never
+    /// "all".
     Result<void> stop(unsigned axes, StopKind kind);
     void stop_all(StopKind kind);
     /// Gives driving axes another V, 1 .. 8,000. Refused where it would have no effect: an axis that stands, is in an S
     /// ramp (the chip takes it only after the ramp) or decelerates to its end.
     Result<void> change_speed(unsigned axes, std::int64_t v);
     /// Gives a fixed drive that was started by this library another number of pulses, counted from its start, signed.
-    /// Refused: the other direction; fewer than are made and still needed for the deceleration (with `margin` of time at
-    /// the present speed); in an S ramp; once it decelerates to its end. A refusal says how far the axis is.
+    /// Refused: the other direction; fewer than are made and still needed for the deceleration (with `margin` of time
+    /// at the present speed); in an S ramp; once it decelerates to its end. A refusal says how far the axis is.
     Result<void> change_pulses(int axis, std::int64_t pulses, Duration margin = milliseconds(1));
 
     // ---- interpolation (interpolation.cpp) ------------------------------------------------------------------------
@@ -136,9 +141,10 @@ class Driver {
     // the next call, because only the last one decelerates. Each waits until the chip takes it, at most `timeout`.
     Result<void> ContStart(const CONTDATA& data);
     /// P of the axes in the mask (two or three). `v`: speed from this segment on, 0: unchanged.
-    Result<void> ContLine(unsigned axes, const FourAxes& finish, std::int64_t v = 0, Duration timeout = whole_seconds(60));
-    Result<void> ContArc(unsigned axes, const FourAxes& finish, const FourAxes& centre, bool clockwise, std::int64_t v = 0,
-                         Duration timeout = whole_seconds(60));
+    Result<void> ContLine(unsigned axes, const FourAxes& finish, std::int64_t v = 0,
+                          Duration timeout = whole_seconds(60));
+    Result<void> ContArc(unsigned axes, const FourAxes& finish, const FourAxes& centre, bool clockwise,
+                         std::int64_t v = 0, Duration timeout = whole_seconds(60));
     /// Gives the last segment and waits for the end.
     Result<ContOutcome> ContEnd(Duration timeout = whole_seconds(60));
 
@@ -157,18 +163,18 @@ class Driver {
     Result<void> Step();
 
     // ---- limits and signals (signals.cpp) -------------------------------------------------------------------------
-    Result<void> HLMTP(int n, unsigned axes);    ///< + limit switch acts at: 0 Low, 1 High
-    Result<void> HLMTM(int n, unsigned axes);    ///< - limit switch acts at: 0 Low, 1 High
-    Result<void> HLMTSig(int n, unsigned axes);  ///< limit switches stop: 0 at once, 1 decelerating
-    Result<void> SLMTP(int n, unsigned axes = xyzu);    ///< COMP+ as software limit: 0 off, 1 on
-    Result<void> SLMTM(int n, unsigned axes = xyzu);    ///< COMP- as software limit: 0 off, 1 on
-    Result<void> SLMTSig(int n, unsigned axes = xyzu);  ///< COMP+- are compared with: 0 LP, 1 EP
-    Result<void> EncoderMode(int n, unsigned axes);   ///< encoder input: 0 A/B quadrature, 1 up and down pulses
-    Result<void> EncoderCWCCW(int n, unsigned axes);  ///< A/B edges counted: 0 all, 1 every second, 2 every fourth
-    Result<void> EnableALM(int n, unsigned axes = xyzu);    ///< alarm input: 0 off, 1 on
-    Result<void> EnableInPos(int n, unsigned axes = xyzu);  ///< in-position input: 0 off, 1 on
-    Result<void> ALMSig(int n, unsigned axes);    ///< alarm acts at: 0 Low, 1 High
-    Result<void> InPosSig(int n, unsigned axes);  ///< in-position acts at: 0 Low, 1 High
+    Result<void> HLMTP(int n, unsigned axes);             ///< + limit switch acts at: 0 Low, 1 High
+    Result<void> HLMTM(int n, unsigned axes);             ///< - limit switch acts at: 0 Low, 1 High
+    Result<void> HLMTSig(int n, unsigned axes);           ///< limit switches stop: 0 at once, 1 decelerating
+    Result<void> SLMTP(int n, unsigned axes = xyzu);      ///< COMP+ as software limit: 0 off, 1 on
+    Result<void> SLMTM(int n, unsigned axes = xyzu);      ///< COMP- as software limit: 0 off, 1 on
+    Result<void> SLMTSig(int n, unsigned axes = xyzu);    ///< COMP+- are compared with: 0 LP, 1 EP
+    Result<void> EncoderMode(int n, unsigned axes);       ///< encoder input: 0 A/B quadrature, 1 up and down pulses
+    Result<void> EncoderCWCCW(int n, unsigned axes);      ///< A/B edges counted: 0 all, 1 every second, 2 every fourth
+    Result<void> EnableALM(int n, unsigned axes = xyzu);  ///< alarm input: 0 off, 1 on
+    Result<void> EnableInPos(int n, unsigned axes = xyzu);                ///< in-position input: 0 off, 1 on
+    Result<void> ALMSig(int n, unsigned axes);                            ///< alarm acts at: 0 Low, 1 High
+    Result<void> InPosSig(int n, unsigned axes);                          ///< in-position acts at: 0 Low, 1 High
     Result<void> SetStopInput(unsigned axes, int input, StopInput mode);  ///< IN0..IN3
     Result<void> SetExternalDrive(unsigned axes, ExternalDrive mode);     ///< nEXPP, nEXPM
     /// nOUT0 .. nOUT7; 4..7 while they are not used for the drive's status.
@@ -206,8 +212,8 @@ class Driver {
     /// The reports of the axes that have an error, or were stopped by an input; "" if none.
     std::string error_text(unsigned axes = xyzu);
 
-    /// Waits until none of the axes drives. Errors: Trouble::machine after `timeout`; Trouble::stopped where the user asked to
-    /// stop (the axes are then decelerated and standing).
+    /// Waits until none of the axes drives. Errors: Trouble::machine after `timeout`; Trouble::stopped where the user
+    /// asked to stop (the axes are then decelerated and standing).
     Result<void> wait_until_stopped(unsigned axes, Duration timeout);
     /// The same, and Trouble::machine with the reports if one was stopped by a limit, an alarm or the emergency input.
     Result<void> wait_until_done(unsigned axes, Duration timeout);
@@ -237,9 +243,9 @@ class Driver {
         bool asymmetric = false;
         bool negative = false;  ///< direction of Pulse(), or of the last drive
         bool from_known = false;
-        std::int32_t from = 0;                              ///< LP where the present fixed drive began
+        std::int32_t from = 0;                                 ///< LP where the present fixed drive began
         std::optional<std::int64_t> finish = {}, centre = {};  ///< SetFP, SetCP
-        std::uint16_t interrupts = 0;                       ///< read while waiting, not handed out yet
+        std::uint16_t interrupts = 0;                          ///< read while waiting, not handed out yet
     };
     /// A piece of an interpolation. `from`: LP of its axes at its start.
     struct Piece {
@@ -254,7 +260,8 @@ class Driver {
         unsigned axes = 0;
         Speeds speeds = {};
         std::optional<Piece> kept_back = {};
-        std::int64_t kept_back_v = 0, next_v = 0;  ///< V to be written when a piece begins: the one kept back, the queued one
+        std::int64_t kept_back_v = 0,
+                     next_v = 0;  ///< V to be written when a piece begins: the one kept back, the queued one
         std::int64_t segments = 0;
         FourAxes at = {};  ///< LP at the end of what was given
     };
@@ -295,7 +302,8 @@ class Driver {
 
     // A check and what it is for.
     Result<void> write(unsigned axes, const Parameter& parameter, std::int64_t value);
-    Result<void> write_switch(const char* who, unsigned axes, int number, Field bits, int n, int greatest, const char* meanings);
+    Result<void> write_switch(const char* who, unsigned axes, int number, Field bits, int n, int greatest,
+                              const char* meanings);
     Result<void> change_interrupts(const char* who, unsigned axes, std::uint16_t causes, bool on);
 
     // Drives.
@@ -306,7 +314,8 @@ class Driver {
     void own_range_again(unsigned axes);
     void note_direction(unsigned axes, bool negative);
     void begin_fixed(unsigned axes);
-    Result<void> start_curve(const char* who, unsigned axes, const Speeds& speeds, std::optional<std::int64_t> pulses, bool negative);
+    Result<void> start_curve(const char* who, unsigned axes, const Speeds& speeds, std::optional<std::int64_t> pulses,
+                             bool negative);
 
     // Interpolation.
     static std::int64_t basic_pulses(const Piece& piece);
@@ -334,7 +343,8 @@ class Driver {
     std::uint16_t outputs_ = 0;    ///< WR4 as written
     std::uint16_t path_mode_ = 0;  ///< WR5 as written
     unsigned path_axes_ = 0;       ///< of the last interpolation
-    std::array<Piece, 2> pieces_ = {};  ///< the last two given: the running and the queued one, or the one before and the running
+    std::array<Piece, 2> pieces_ =
+        {};  ///< the last two given: the running and the queued one, or the one before and the running
     Chain chain_;
     Pattern pattern_;
     double arc_tolerance_ = 0.01;

@@ -1,8 +1,8 @@
 // Fixed and continuous drives: everything is checked, then the parameters are written, then the command.
+#include <fmt/format.h>
+
 #include <motionrack/cards/mcx314/driver/curves.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
-
-#include <fmt/format.h>
 
 namespace motionrack::mcx314 {
 
@@ -56,10 +56,12 @@ CurveData Driver::curve_of(int axis, const Speeds& speeds, std::int64_t pulses) 
 /// Constant vector speed of an interpolation may have left another R in the chip.
 void Driver::own_range_again(unsigned axes) {
     for (int i = 0; i < 4; ++i)
-        if ((axes >> i & 1) && kept(i).data[cmd::R] != kept(i).own_range) put(1u << i, param::vector_range, kept(i).own_range);
+        if ((axes >> i & 1) && kept(i).data[cmd::R] != kept(i).own_range)
+            put(1u << i, param::vector_range, kept(i).own_range);
 }
 
-Result<void> Driver::start_curve(const char* who, unsigned axes, const Speeds& speeds, std::optional<std::int64_t> pulses, bool negative) {
+Result<void> Driver::start_curve(const char* who, unsigned axes, const Speeds& speeds,
+                                 std::optional<std::int64_t> pulses, bool negative) {
     MOTIONRACK_CHECK(check_axes(axes, who));
     MOTIONRACK_CHECK(check_speeds(axes, speeds));
     if (pulses) MOTIONRACK_CHECK(check(axes, param::pulses, *pulses));
@@ -69,12 +71,15 @@ Result<void> Driver::start_curve(const char* who, unsigned axes, const Speeds& s
         if (!(axes >> i & 1) || !kept(i).asymmetric) continue;
         const std::optional<std::int64_t> decel = written(i, cmd::D);
         if (!decel)
-            return fail(Trouble::refused, fmt::format("{}: {} decelerates with D of its own, which is not set. Nothing was written. Call "
-                                                      "SetD first, or SetAsymmetric(.., false).", who, axes_text(1u << i)));
+            return fail(Trouble::refused,
+                        fmt::format("{}: {} decelerates with D of its own, which is not set. Nothing was written. Call "
+                                    "SetD first, or SetAsymmetric(.., false).",
+                                    who, axes_text(1u << i)));
         if (!pulses || kept(i).manual) continue;
         Speeds own = speeds;
         own.D = *decel;
-        MOTIONRACK_TRY(points[static_cast<std::size_t>(i)], best_dec_point(curve_of(i, own, rules::magnitude(*pulses))));
+        MOTIONRACK_TRY(points[static_cast<std::size_t>(i)],
+                       best_dec_point(curve_of(i, own, rules::magnitude(*pulses))));
     }
     MOTIONRACK_CHECK(check_standing(axes, who));
     own_range_again(axes);
@@ -83,8 +88,11 @@ Result<void> Driver::start_curve(const char* who, unsigned axes, const Speeds& s
     for (int i = 0; i < 4; ++i) {
         if (!(axes >> i & 1)) continue;
         const std::optional<std::int64_t>& point = points[static_cast<std::size_t>(i)];
-        put_deceleration(i, point ? point : kept(i).manual ? std::optional(kept(i).dec_point) : std::nullopt, kept(i).asymmetric,
-                         speeds.kind == Curve::s);
+        put_deceleration(i,
+                         point            ? point
+                         : kept(i).manual ? std::optional(kept(i).dec_point)
+                                          : std::nullopt,
+                         kept(i).asymmetric, speeds.kind == Curve::s);
     }
     if (pulses)
         begin_fixed(axes);
@@ -124,10 +132,12 @@ Result<void> Driver::TCurve_F(unsigned axes, std::int64_t sv, std::int64_t v, st
 Result<void> Driver::TCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, bool negative) {
     return start_curve("TCurve_C", axes, {Curve::t, sv, v, a, 0, 0}, {}, negative);
 }
-Result<void> Driver::SCurve_F(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k, std::int64_t pulses) {
+Result<void> Driver::SCurve_F(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k,
+                              std::int64_t pulses) {
     return start_curve("SCurve_F", axes, {Curve::s, sv, v, a, 0, k}, pulses, false);
 }
-Result<void> Driver::SCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k, bool negative) {
+Result<void> Driver::SCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, std::int64_t a, std::int64_t k,
+                              bool negative) {
     return start_curve("SCurve_C", axes, {Curve::s, sv, v, a, 0, k}, {}, negative);
 }
 
@@ -137,15 +147,17 @@ Result<void> Driver::DriveFixed(unsigned axes) {
     for (int i = 0; i < 4; ++i)
         for (const Parameter& needed : {param::SV, param::V, param::A, param::pulses})
             if ((axes >> i & 1) && !written(i, needed.code))
-                return fail(Trouble::refused, fmt::format("DriveFixed: {} of {} is not set. Nothing was written. Set it first.",
-                                                          needed.name, axes_text(1u << i)));
+                return fail(Trouble::refused,
+                            fmt::format("DriveFixed: {} of {} is not set. Nothing was written. Set it first.",
+                                        needed.name, axes_text(1u << i)));
     MOTIONRACK_CHECK(check_standing(axes, "DriveFixed"));
     own_range_again(axes);
     begin_fixed(axes);
     return {};
 }
 
-// ---- bare commands ----------------------------------------------------------------------------------------------------
+// ---- bare commands
+// ----------------------------------------------------------------------------------------------------
 
 void Driver::Drive(unsigned axes, bool negative) {
     note_direction(axes, negative);
@@ -164,9 +176,17 @@ void Driver::note_direction(unsigned axes, bool negative) {
         if (axes >> i & 1) kept(i).negative = negative;
 }
 
-void Driver::Hold(unsigned axes) { command(axes, cmd::HOLD); }
-void Driver::Start(unsigned axes) { command(axes, cmd::START); }
-void Driver::SlowStop(unsigned axes) { command(axes, cmd::SLOW_STOP); }
-void Driver::QuickStop(unsigned axes) { command(axes, cmd::QUICK_STOP); }
+void Driver::Hold(unsigned axes) {
+    command(axes, cmd::HOLD);
+}
+void Driver::Start(unsigned axes) {
+    command(axes, cmd::START);
+}
+void Driver::SlowStop(unsigned axes) {
+    command(axes, cmd::SLOW_STOP);
+}
+void Driver::QuickStop(unsigned axes) {
+    command(axes, cmd::QUICK_STOP);
+}
 
 }  // namespace motionrack::mcx314

@@ -1,8 +1,8 @@
 // What may be changed while axes drive, and stopping them.
+#include <fmt/format.h>
+
 #include <motionrack/cards/mcx314/driver/curves.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
-
-#include <fmt/format.h>
 
 namespace motionrack::mcx314 {
 
@@ -12,7 +12,9 @@ Result<void> Driver::stop(unsigned axes, StopKind kind) {
     return {};
 }
 
-void Driver::stop_all(StopKind kind) { command(xyzu, kind == StopKind::slow ? cmd::SLOW_STOP : cmd::QUICK_STOP); }
+void Driver::stop_all(StopKind kind) {
+    command(xyzu, kind == StopKind::slow ? cmd::SLOW_STOP : cmd::QUICK_STOP);
+}
 
 /// Why a change of a driving axis would have no effect; "" if it has one.
 std::string Driver::not_changeable(int axis, MainStatus main) {
@@ -20,10 +22,12 @@ std::string Driver::not_changeable(int axis, MainStatus main) {
     if (!main.driving(1u << axis)) return name + " stands";
     const int generator = static_cast<int>(field("WR5", "AX1").get(path_mode_));
     if (main.interpolating() && (path_axes_ >> axis & 1) && axis != (chain_.running ? chain_.generator : generator))
-        return fmt::format("{} is led by {} in an interpolation", name, axes_text(1u << (chain_.running ? chain_.generator : generator)));
+        return fmt::format("{} is led by {} in an interpolation", name,
+                           axes_text(1u << (chain_.running ? chain_.generator : generator)));
     const AxisStatus state = axis_status(axis);
     if (state.in_s_ramp()) return name + " is in a ramp of an S-curve, and the chip takes changes only after it";
-    const std::int64_t speed = ReadCV(axis), wanted = written(axis, cmd::V).value_or(0), low = written(axis, cmd::SV).value_or(0);
+    const std::int64_t speed = ReadCV(axis), wanted = written(axis, cmd::V).value_or(0),
+                       low = written(axis, cmd::SV).value_or(0);
     const bool creeps = state.constant() && speed <= low && speed < wanted;
     if ((state.decelerating() && speed <= wanted) || creeps) return name + " decelerates to its end already";
     return {};
@@ -36,8 +40,10 @@ Result<void> Driver::change_speed(unsigned axes, std::int64_t v) {
         if (!(axes >> i & 1)) continue;
         const std::string why = not_changeable(i, main);
         if (!why.empty())
-            return fail(Trouble::refused, fmt::format("change_speed: {}. The speed was not changed; SetV gives the speed of the next "
-                                                      "drive.", why));
+            return fail(Trouble::refused,
+                        fmt::format("change_speed: {}. The speed was not changed; SetV gives the speed of the next "
+                                    "drive.",
+                                    why));
     }
     put(axes, param::V, v);
     return {};
@@ -57,22 +63,29 @@ Result<void> Driver::change_pulses(int axis, std::int64_t pulses, Duration margi
     if ((main.interpolating() && (path_axes_ & mask)) || !own.from_known)
         return refused(name + " is not in a fixed drive of which this library knows the start");
     if ((pulses < 0) != own.negative)
-        return refused(fmt::format("{} drives in {} direction, and the chip cannot turn back; stop it and start the other way", name,
-                                   own.negative ? "-" : "+"));
+        return refused(
+            fmt::format("{} drives in {} direction, and the chip cannot turn back; stop it and start the other way",
+                        name, own.negative ? "-" : "+"));
     const std::int64_t v = ReadCV(axis);
-    const std::int64_t at = static_cast<std::int32_t>(static_cast<std::uint32_t>(ReadLPS(axis)) - static_cast<std::uint32_t>(own.from));
+    const std::int64_t at =
+        static_cast<std::int32_t>(static_cast<std::uint32_t>(ReadLPS(axis)) - static_cast<std::uint32_t>(own.from));
     const std::int64_t made = rules::magnitude(at), wanted = rules::magnitude(pulses);
     const bool s_curve = field("WR3", "SACC").test(own.mode[2]), manual = field("WR3", "MANLD").test(own.mode[2]);
-    Speeds speeds{s_curve ? Curve::s : Curve::t, written(axis, cmd::SV).value_or(1), written(axis, cmd::V).value_or(1),
-                  written(axis, cmd::A).value_or(1), 0, written(axis, cmd::K).value_or(param::K.greatest)};
+    Speeds speeds{s_curve ? Curve::s : Curve::t,
+                  written(axis, cmd::SV).value_or(1),
+                  written(axis, cmd::V).value_or(1),
+                  written(axis, cmd::A).value_or(1),
+                  0,
+                  written(axis, cmd::K).value_or(param::K.greatest)};
     if (own.asymmetric) speeds.D = written(axis, cmd::D).value_or(speeds.A);
     const std::int64_t before = written(axis, cmd::P).value_or(0), point = written(axis, cmd::DP).value_or(0);
     const std::int64_t fall = manual ? std::max<std::int64_t>(0, before - point)
                                      : fall_pulses(curve_of(axis, speeds, 0), v) + written(axis, cmd::AO).value_or(0);
     const auto rest = static_cast<std::int64_t>(static_cast<double>(v) * multiple(axis) * to_seconds(margin)) + 1;
     if (wanted < made + fall + rest)
-        return refused(fmt::format("{} has made {} pulses and needs {} more to decelerate, so {} is too near; the least possible is {}",
-                                   name, made, fall, wanted, made + fall + rest));
+        return refused(fmt::format(
+            "{} has made {} pulses and needs {} more to decelerate, so {} is too near; the least possible is {}", name,
+            made, fall, wanted, made + fall + rest));
     if (manual) put(mask, param::DP, wanted - fall);
     put(mask, param::pulses, wanted);
     return {};

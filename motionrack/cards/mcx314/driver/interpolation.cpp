@@ -1,11 +1,11 @@
-// Lines and arcs: everything is checked, then speeds of the first axis, finish points, centres and WR5 are written, then
-// the command.
-#include <motionrack/cards/mcx314/driver/curves.hpp>
-#include <motionrack/cards/mcx314/driver/driver.hpp>
+// Lines and arcs: everything is checked, then speeds of the first axis, finish points, centres and WR5 are written,
+// then the command.
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
+#include <motionrack/cards/mcx314/driver/curves.hpp>
+#include <motionrack/cards/mcx314/driver/driver.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -34,7 +34,8 @@ ChannelList channels_of(unsigned axes) {
     return out;
 }
 
-// ---- the bare registers -------------------------------------------------------------------------------------------------
+// ---- the bare registers
+// -------------------------------------------------------------------------------------------------
 
 void Driver::write_path_mode(std::uint16_t word) {
     port_.write(reg::WR5, word);
@@ -72,14 +73,19 @@ Result<void> Driver::Arc(const Finish (&ends)[2], bool clockwise) {
     return {};
 }
 
-void Driver::EnableDeceleration(bool on) { command(0, on ? cmd::DECELERATION_ON : cmd::DECELERATION_OFF); }
-void Driver::ClearInterpolationInterrupt() { command(0, cmd::INTERPOLATION_INTERRUPT_CLEAR); }
+void Driver::EnableDeceleration(bool on) {
+    command(0, on ? cmd::DECELERATION_ON : cmd::DECELERATION_OFF);
+}
+void Driver::ClearInterpolationInterrupt() {
+    command(0, cmd::INTERPOLATION_INTERRUPT_CLEAR);
+}
 
 void Driver::EnableInterpolationInterrupts(bool joints, bool patterns) {
     write_path_mode(field("WR5", "BPINT").set(field("WR5", "CIINT").set(path_mode_, joints), patterns));
 }
 
-// ---- points and settings ----------------------------------------------------------------------------------------------
+// ---- points and settings
+// ----------------------------------------------------------------------------------------------
 
 Result<void> Driver::SetFP(unsigned axes, std::int64_t finish) {
     MOTIONRACK_CHECK(write(axes, param::finish, finish));
@@ -104,19 +110,23 @@ Result<void> Driver::set_arc_tolerance(double part) {
 
 Result<void> Driver::SetVectorSpeed(int axes_count) {
     if (axes_count < 1 || axes_count > 3)
-        return fail(Trouble::refused, fmt::format("SetVectorSpeed: {} axes, but it is 1 (off), 2 or 3. Nothing was changed.", axes_count));
+        return fail(
+            Trouble::refused,
+            fmt::format("SetVectorSpeed: {} axes, but it is 1 (off), 2 or 3. Nothing was changed.", axes_count));
     vector_axes_ = axes_count;
     return {};
 }
 
-// ---- checks -----------------------------------------------------------------------------------------------------------
+// ---- checks
+// -----------------------------------------------------------------------------------------------------------
 
 Result<void> Driver::check_count(const char* who, unsigned axes, int count) {
     MOTIONRACK_CHECK(check_axes(axes, who));
     if (channels_of(axes).count == count) return {};
-    return fail(Trouble::refused, fmt::format("{}: the axis mask {} is {}, but it must name {}. Nothing was written.", who, axes,
-                                              axes_text(axes), count == 2 ? "two axes: xy 3, xz 5, xu 9, yz 6, yu 10, zu 12"
-                                                                          : "three axes: xyz 7, xyu 11, xzu 13, yzu 14"));
+    return fail(Trouble::refused, fmt::format("{}: the axis mask {} is {}, but it must name {}. Nothing was written.",
+                                              who, axes, axes_text(axes),
+                                              count == 2 ? "two axes: xy 3, xz 5, xu 9, yz 6, yu 10, zu 12"
+                                                         : "three axes: xyz 7, xyu 11, xzu 13, yzu 14"));
 }
 
 /// Finish points and centres in range and useful.
@@ -128,8 +138,9 @@ Result<void> Driver::check_piece(const char* who, const Piece& piece) const {
     }
     if (!piece.arc) {
         if (!is_zero(piece.finish, piece.axes)) return {};
-        return fail(Trouble::refused, fmt::format("{}: every finish point of {} is 0. Nothing was written. Give P, or call SetFP first.",
-                                                  who, axes_text(piece.axes)));
+        return fail(Trouble::refused,
+                    fmt::format("{}: every finish point of {} is 0. Nothing was written. Give P, or call SetFP first.",
+                                who, axes_text(piece.axes)));
     }
     const ChannelList list = channels_of(piece.axes);
     const auto h = static_cast<std::size_t>(list.channel[0]), v = static_cast<std::size_t>(list.channel[1]);
@@ -137,15 +148,20 @@ Result<void> Driver::check_piece(const char* who, const Piece& piece) const {
     const double fx = static_cast<double>(piece.finish[h]) - cx, fy = static_cast<double>(piece.finish[v]) - cy;
     const double radius = std::sqrt(cx * cx + cy * cy), reach = std::sqrt(fx * fx + fy * fy);
     if (radius == 0)
-        return fail(Trouble::refused, fmt::format("{}: the centre is the start, so the radius is 0. Nothing was written. Give C, or call "
-                                                  "SetCP first.", who));
+        return fail(Trouble::refused,
+                    fmt::format("{}: the centre is the start, so the radius is 0. Nothing was written. Give C, or call "
+                                "SetCP first.",
+                                who));
     const double allowed = std::max(least_off_circle, arc_tolerance_ * radius);
     if (std::fabs(reach - radius) <= allowed) return {};
-    const rules::ArcEnd end = rules::end_of_arc(piece.centre[h], piece.centre[v], piece.finish[h], piece.finish[v], piece.clockwise);
-    return fail(Trouble::refused,
-                fmt::format("{}: the finish point ({}, {}) is {:.1f} pulses from the centre, but the start is {:.1f}; at most {:.1f} "
-                            "pulses of difference are allowed. Nothing was written. The chip would end at ({}, {}).",
-                            who, piece.finish[h], piece.finish[v], reach, radius, allowed, end.first, end.second));
+    const rules::ArcEnd end =
+        rules::end_of_arc(piece.centre[h], piece.centre[v], piece.finish[h], piece.finish[v], piece.clockwise);
+    return fail(
+        Trouble::refused,
+        fmt::format(
+            "{}: the finish point ({}, {}) is {:.1f} pulses from the centre, but the start is {:.1f}; at most {:.1f} "
+            "pulses of difference are allowed. Nothing was written. The chip would end at ({}, {}).",
+            who, piece.finish[h], piece.finish[v], reach, radius, allowed, end.first, end.second));
 }
 
 /// The points of a call: those in the data, or all those that SetFP and SetCP kept.
@@ -164,7 +180,8 @@ std::int64_t Driver::basic_pulses(const Piece& piece) {
     if (piece.arc) {
         const ChannelList list = channels_of(piece.axes);
         const auto h = static_cast<std::size_t>(list.channel[0]), v = static_cast<std::size_t>(list.channel[1]);
-        return rules::end_of_arc(piece.centre[h], piece.centre[v], piece.finish[h], piece.finish[v], piece.clockwise).basic_pulses;
+        return rules::end_of_arc(piece.centre[h], piece.centre[v], piece.finish[h], piece.finish[v], piece.clockwise)
+            .basic_pulses;
     }
     std::int64_t most = 0;
     for (std::size_t i = 0; i < 4; ++i)
@@ -172,7 +189,8 @@ std::int64_t Driver::basic_pulses(const Piece& piece) {
     return most;
 }
 
-// ---- starting ---------------------------------------------------------------------------------------------------------
+// ---- starting
+// ---------------------------------------------------------------------------------------------------------
 
 /// R of the axes that constant vector speed uses, WR5, points and the command of one piece.
 void Driver::put_piece(const Piece& piece) {
@@ -192,7 +210,8 @@ void Driver::put_piece(const Piece& piece) {
     write_path_mode(field("WR5", "LSPD").set(word, vector_axes == 3 ? 3 : vector_axes == 2 ? 1 : 0));
     pieces_[0] = pieces_[1];
     pieces_[1] = piece;
-    command(0, piece.arc ? (piece.clockwise ? cmd::ARC_CW : cmd::ARC_CCW) : (list.count == 3 ? cmd::LINE3 : cmd::LINE2));
+    command(0,
+            piece.arc ? (piece.clockwise ? cmd::ARC_CW : cmd::ARC_CCW) : (list.count == 3 ? cmd::LINE3 : cmd::LINE2));
 }
 
 /// Where the axes of a piece stand.
@@ -209,7 +228,8 @@ Result<void> Driver::start_piece(const char* who, Piece piece, const Speeds& spe
     MOTIONRACK_CHECK(check_initialised(own, who));
     const CurveData curve = curve_of(first, speeds, basic_pulses(piece));
     std::optional<std::int64_t> point;
-    if (speeds.kind != Curve::constant && kept(first).manual) point = kept(first).dec_point;
+    if (speeds.kind != Curve::constant && kept(first).manual)
+        point = kept(first).dec_point;
     else if (speeds.kind != Curve::constant && (piece.arc || curve.asymmetric)) {
         MOTIONRACK_TRY(point, best_dec_point(curve));
     }
@@ -234,20 +254,36 @@ Result<void> Driver::circle(const char* who, const CIRCLEDATA& data, unsigned ax
     return start_piece(who, piece_of(axes, data.P, &data.C, clockwise), {kind, data.SV, data.V, data.A, data.D, 0});
 }
 
-Result<void> Driver::Line2D_C(const LINEDATA& data, unsigned axes) { return line("Line2D_C", data, axes, 2, Curve::constant); }
-Result<void> Driver::Line2D_T(const LINEDATA& data, unsigned axes) { return line("Line2D_T", data, axes, 2, Curve::t); }
-Result<void> Driver::Line2D_S(const LINEDATA& data, unsigned axes) { return line("Line2D_S", data, axes, 2, Curve::s); }
-Result<void> Driver::Line3D_C(const LINEDATA& data, unsigned axes) { return line("Line3D_C", data, axes, 3, Curve::constant); }
-Result<void> Driver::Line3D_T(const LINEDATA& data, unsigned axes) { return line("Line3D_T", data, axes, 3, Curve::t); }
-Result<void> Driver::Line3D_S(const LINEDATA& data, unsigned axes) { return line("Line3D_S", data, axes, 3, Curve::s); }
+Result<void> Driver::Line2D_C(const LINEDATA& data, unsigned axes) {
+    return line("Line2D_C", data, axes, 2, Curve::constant);
+}
+Result<void> Driver::Line2D_T(const LINEDATA& data, unsigned axes) {
+    return line("Line2D_T", data, axes, 2, Curve::t);
+}
+Result<void> Driver::Line2D_S(const LINEDATA& data, unsigned axes) {
+    return line("Line2D_S", data, axes, 2, Curve::s);
+}
+Result<void> Driver::Line3D_C(const LINEDATA& data, unsigned axes) {
+    return line("Line3D_C", data, axes, 3, Curve::constant);
+}
+Result<void> Driver::Line3D_T(const LINEDATA& data, unsigned axes) {
+    return line("Line3D_T", data, axes, 3, Curve::t);
+}
+Result<void> Driver::Line3D_S(const LINEDATA& data, unsigned axes) {
+    return line("Line3D_S", data, axes, 3, Curve::s);
+}
 Result<void> Driver::CircleCW_C(const CIRCLEDATA& data, unsigned axes) {
     return circle("CircleCW_C", data, axes, true, Curve::constant);
 }
 Result<void> Driver::CircleCCW_C(const CIRCLEDATA& data, unsigned axes) {
     return circle("CircleCCW_C", data, axes, false, Curve::constant);
 }
-Result<void> Driver::CircleCW_T(const CIRCLEDATA& data, unsigned axes) { return circle("CircleCW_T", data, axes, true, Curve::t); }
-Result<void> Driver::CircleCCW_T(const CIRCLEDATA& data, unsigned axes) { return circle("CircleCCW_T", data, axes, false, Curve::t); }
+Result<void> Driver::CircleCW_T(const CIRCLEDATA& data, unsigned axes) {
+    return circle("CircleCW_T", data, axes, true, Curve::t);
+}
+Result<void> Driver::CircleCCW_T(const CIRCLEDATA& data, unsigned axes) {
+    return circle("CircleCCW_T", data, axes, false, Curve::t);
+}
 
 Result<rules::ArcEnd> Driver::arc_end(const CIRCLEDATA& data, unsigned axes, bool clockwise) const {
     MOTIONRACK_CHECK(check_count("arc_end", axes, 2));

@@ -1,4 +1,5 @@
-// The numbers that data commands take, with the range that the function library lets through and the name its messages use.
+// The numbers that data commands take, with the range that the function library lets through and the name its messages
+// use.
 #pragma once
 
 #include <cstdint>

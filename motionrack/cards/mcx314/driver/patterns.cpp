@@ -2,9 +2,9 @@
 //
 //   36h  WR2..WR7 become BP1P BP1M BP2P BP2M BP3P BP3M      38h  stacks them
 //   34h, 35h  start      RR0 BPSC: words on the stack, 3: no room      37h  WR2..WR7 are themselves again
-#include <motionrack/cards/mcx314/driver/driver.hpp>
-
 #include <fmt/format.h>
+
+#include <motionrack/cards/mcx314/driver/driver.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -21,8 +21,12 @@ constexpr std::array<std::uint32_t, 3> minus_registers = {register_named(map::re
 
 }  // namespace
 
-Result<void> Driver::BP2D(const BPDATA& data, unsigned axes) { return begin_pattern("BP2D", data, axes, 2); }
-Result<void> Driver::BP3D(const BPDATA& data, unsigned axes) { return begin_pattern("BP3D", data, axes, 3); }
+Result<void> Driver::BP2D(const BPDATA& data, unsigned axes) {
+    return begin_pattern("BP2D", data, axes, 2);
+}
+Result<void> Driver::BP3D(const BPDATA& data, unsigned axes) {
+    return begin_pattern("BP3D", data, axes, 3);
+}
 
 Result<void> Driver::begin_pattern(const char* who, const BPDATA& data, unsigned axes, int count) {
     MOTIONRACK_CHECK(check_count(who, axes, count));
@@ -51,7 +55,8 @@ Result<void> Driver::begin_pattern(const char* who, const BPDATA& data, unsigned
 }
 
 Result<void> Driver::BPStack(const BPWORD& word, Duration timeout) {
-    if (pattern_.axes == 0) return fail(Trouble::refused, "BPStack: no pattern is open. Nothing was written. Call BP2D or BP3D first.");
+    if (pattern_.axes == 0)
+        return fail(Trouble::refused, "BPStack: no pattern is open. Nothing was written. Call BP2D or BP3D first.");
     const Instant end = interrupt_.now() + timeout;
     while (true) {
         const MainStatus main = status();
@@ -59,22 +64,28 @@ Result<void> Driver::BPStack(const BPWORD& word, Duration timeout) {
             const unsigned axes = pattern_.axes;
             close_pattern();
             const std::string why = error_text(axes);
-            return fail(Trouble::machine, why.empty() ? "The pattern's next word came too late or behind its end code: the drive has ended. "
-                                                        "Lower the speed, or stack words earlier."
-                                                      : "The pattern was stopped. " + why);
+            return fail(Trouble::machine,
+                        why.empty()
+                            ? "The pattern's next word came too late or behind its end code: the drive has ended. "
+                              "Lower the speed, or stack words earlier."
+                            : "The pattern was stopped. " + why);
         }
         if (main.patterns_stacked() < stack_size) break;
         if (!pattern_.running)
-            return fail(Trouble::refused, "BPStack: the stack holds three words and the drive does not run. Nothing was written. Call "
-                                          "BPStart.");
+            return fail(Trouble::refused,
+                        "BPStack: the stack holds three words and the drive does not run. Nothing was written. Call "
+                        "BPStart.");
         if (interrupt_.stop_requested()) {
             SlowStop(pattern_.axes);
             close_pattern();
             return fail(Trouble::stopped, "The pattern was stopped on request.");
         }
         if (interrupt_.now() >= end)
-            return fail(Trouble::machine, fmt::format("The pattern's stack had no room for {:.3f} s; nothing was stopped. Wait longer, or stop "
-                                                      "the axes.", to_seconds(timeout)));
+            return fail(
+                Trouble::machine,
+                fmt::format("The pattern's stack had no room for {:.3f} s; nothing was stopped. Wait longer, or stop "
+                            "the axes.",
+                            to_seconds(timeout)));
         doze(0, look_every);
     }
     for (std::size_t i = 0; i < static_cast<std::size_t>(pattern_.count); ++i) {
@@ -88,7 +99,8 @@ Result<void> Driver::BPStack(const BPWORD& word, Duration timeout) {
 
 Result<void> Driver::BPStart() {
     if (pattern_.axes == 0 || pattern_.words == 0)
-        return fail(Trouble::refused, "BPStart: no pattern with data is open. Nothing was written. Call BP2D or BP3D and BPStack first.");
+        return fail(Trouble::refused,
+                    "BPStart: no pattern with data is open. Nothing was written. Call BP2D or BP3D and BPStack first.");
     if (pattern_.running) return fail(Trouble::refused, "BPStart: the pattern runs already. Nothing was written.");
     command(0, pattern_.count == 3 ? cmd::BP3 : cmd::BP2);
     pattern_.running = true;
@@ -96,7 +108,8 @@ Result<void> Driver::BPStart() {
 }
 
 Result<void> Driver::BPEnd(Duration timeout) {
-    if (pattern_.axes == 0) return fail(Trouble::refused, "BPEnd: no pattern is open. Nothing was written. Call BP2D or BP3D first.");
+    if (pattern_.axes == 0)
+        return fail(Trouble::refused, "BPEnd: no pattern is open. Nothing was written. Call BP2D or BP3D first.");
     const unsigned axes = pattern_.axes;
     close_pattern();
     return wait_until_done(axes, timeout);
@@ -107,7 +120,8 @@ void Driver::close_pattern() {
     pattern_ = {};
 }
 
-// ---- steps ------------------------------------------------------------------------------------------------------------
+// ---- steps
+// ------------------------------------------------------------------------------------------------------------
 
 Result<void> Driver::SetStep(StepBy by) {
     MOTIONRACK_CHECK(check_no_path("SetStep"));
@@ -118,15 +132,19 @@ Result<void> Driver::SetStep(StepBy by) {
 
 Result<void> Driver::Step() {
     if (!field("WR5", "CMPLS").test(path_mode_))
-        return fail(Trouble::refused, "Step: the interpolation does not step by command. Nothing was written. Call SetStep(StepBy::command) "
-                                      "before it starts.");
+        return fail(
+            Trouble::refused,
+            "Step: the interpolation does not step by command. Nothing was written. Call SetStep(StepBy::command) "
+            "before it starts.");
     command(0, cmd::STEP);
     return {};
 }
 
 Result<void> Driver::check_no_path(const char* who) {
     if (!status().interpolating()) return {};
-    return fail(Trouble::refused, fmt::format("{}: an interpolation runs. Nothing was written. Wait for its end, or stop it first.", who));
+    return fail(
+        Trouble::refused,
+        fmt::format("{}: an interpolation runs. Nothing was written. Wait for its end, or stop it first.", who));
 }
 
 }  // namespace motionrack::mcx314

@@ -1,7 +1,7 @@
 // Limits, signals, encoders, interrupts, inputs and outputs: bits of WR1..WR4, RR3..RR5.
-#include <motionrack/cards/mcx314/driver/driver.hpp>
-
 #include <fmt/format.h>
+
+#include <motionrack/cards/mcx314/driver/driver.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -15,13 +15,21 @@ static_assert(field("WR1", "PULSE").mask == field("RR3", "PULSE").mask << cause_
 
 }  // namespace
 
-Result<void> Driver::HLMTP(int n, unsigned axes) { return write_switch("HLMTP", axes, 2, field("WR2", "HLMTP"), n, 1, level); }
-Result<void> Driver::HLMTM(int n, unsigned axes) { return write_switch("HLMTM", axes, 2, field("WR2", "HLMTM"), n, 1, level); }
+Result<void> Driver::HLMTP(int n, unsigned axes) {
+    return write_switch("HLMTP", axes, 2, field("WR2", "HLMTP"), n, 1, level);
+}
+Result<void> Driver::HLMTM(int n, unsigned axes) {
+    return write_switch("HLMTM", axes, 2, field("WR2", "HLMTM"), n, 1, level);
+}
 Result<void> Driver::HLMTSig(int n, unsigned axes) {
     return write_switch("HLMTSig", axes, 2, field("WR2", "LMTMD"), n, 1, "0 stop at once, 1 decelerating");
 }
-Result<void> Driver::SLMTP(int n, unsigned axes) { return write_switch("SLMTP", axes, 2, field("WR2", "SLMTP"), n, 1, on_off); }
-Result<void> Driver::SLMTM(int n, unsigned axes) { return write_switch("SLMTM", axes, 2, field("WR2", "SLMTM"), n, 1, on_off); }
+Result<void> Driver::SLMTP(int n, unsigned axes) {
+    return write_switch("SLMTP", axes, 2, field("WR2", "SLMTP"), n, 1, on_off);
+}
+Result<void> Driver::SLMTM(int n, unsigned axes) {
+    return write_switch("SLMTM", axes, 2, field("WR2", "SLMTM"), n, 1, on_off);
+}
 Result<void> Driver::SLMTSig(int n, unsigned axes) {
     return write_switch("SLMTSig", axes, 2, field("WR2", "CMPSL"), n, 1, "0 logical position LP, 1 real position EP");
 }
@@ -29,14 +37,21 @@ Result<void> Driver::EncoderMode(int n, unsigned axes) {
     return write_switch("EncoderMode", axes, 2, field("WR2", "PINMD"), n, 1, "0 A/B quadrature, 1 up and down pulses");
 }
 Result<void> Driver::EncoderCWCCW(int n, unsigned axes) {
-    return write_switch("EncoderCWCCW", axes, 2, field("WR2", "PIND"), n, 2, "0 every edge, 1 every second, 2 every fourth");
+    return write_switch("EncoderCWCCW", axes, 2, field("WR2", "PIND"), n, 2,
+                        "0 every edge, 1 every second, 2 every fourth");
 }
-Result<void> Driver::EnableALM(int n, unsigned axes) { return write_switch("EnableALM", axes, 2, field("WR2", "ALME"), n, 1, on_off); }
+Result<void> Driver::EnableALM(int n, unsigned axes) {
+    return write_switch("EnableALM", axes, 2, field("WR2", "ALME"), n, 1, on_off);
+}
 Result<void> Driver::EnableInPos(int n, unsigned axes) {
     return write_switch("EnableInPos", axes, 2, field("WR2", "INPE"), n, 1, on_off);
 }
-Result<void> Driver::ALMSig(int n, unsigned axes) { return write_switch("ALMSig", axes, 2, field("WR2", "ALML"), n, 1, level); }
-Result<void> Driver::InPosSig(int n, unsigned axes) { return write_switch("InPosSig", axes, 2, field("WR2", "INPL"), n, 1, level); }
+Result<void> Driver::ALMSig(int n, unsigned axes) {
+    return write_switch("ALMSig", axes, 2, field("WR2", "ALML"), n, 1, level);
+}
+Result<void> Driver::InPosSig(int n, unsigned axes) {
+    return write_switch("InPosSig", axes, 2, field("WR2", "INPL"), n, 1, level);
+}
 
 Result<void> Driver::SetStopInput(unsigned axes, int input, StopInput mode) {
     MOTIONRACK_CHECK(check_axes(axes, "SetStopInput"));
@@ -58,7 +73,8 @@ Result<void> Driver::SetExternalDrive(unsigned axes, ExternalDrive mode) {
     return {};
 }
 
-// ---- outputs and inputs -----------------------------------------------------------------------------------------------
+// ---- outputs and inputs
+// -----------------------------------------------------------------------------------------------
 
 void Driver::write_outputs(std::uint16_t word) {
     port_.write(reg::WR4, word);
@@ -100,9 +116,12 @@ InputLevels Driver::inputs(int axis) {
     return levels;
 }
 
-// ---- interrupts -------------------------------------------------------------------------------------------------------
+// ---- interrupts
+// -------------------------------------------------------------------------------------------------------
 
-Result<void> Driver::EnableInterrupt(unsigned axes, std::uint16_t causes) { return change_interrupts("EnableInterrupt", axes, causes, true); }
+Result<void> Driver::EnableInterrupt(unsigned axes, std::uint16_t causes) {
+    return change_interrupts("EnableInterrupt", axes, causes, true);
+}
 Result<void> Driver::DisableInterrupt(unsigned axes, std::uint16_t causes) {
     return change_interrupts("DisableInterrupt", axes, causes, false);
 }
@@ -110,7 +129,9 @@ Result<void> Driver::DisableInterrupt(unsigned axes, std::uint16_t causes) {
 Result<void> Driver::change_interrupts(const char* who, unsigned axes, std::uint16_t causes, bool on) {
     MOTIONRACK_CHECK(check_axes(axes, who));
     if (causes == 0 || (causes & ~unsigned{cause::all}) != 0)
-        return fail(Trouble::refused, fmt::format("{}: the causes {:04X}h are not bits 0 to 7 of RR3. Nothing was written.", who, causes));
+        return fail(
+            Trouble::refused,
+            fmt::format("{}: the causes {:04X}h are not bits 0 to 7 of RR3. Nothing was written.", who, causes));
     for (int i = 0; i < 4; ++i) {
         if (!(axes >> i & 1)) continue;
         const unsigned bits = unsigned{causes} << cause_shift;
@@ -133,8 +154,12 @@ bool Driver::fetch_interrupts(int axis) {
     return came != 0;
 }
 
-void Driver::WriteMode1(unsigned axes, std::uint16_t word) { write_mode(axes, 1, word); }
-void Driver::WriteMode2(unsigned axes, std::uint16_t word) { write_mode(axes, 2, word); }
+void Driver::WriteMode1(unsigned axes, std::uint16_t word) {
+    write_mode(axes, 1, word);
+}
+void Driver::WriteMode2(unsigned axes, std::uint16_t word) {
+    write_mode(axes, 2, word);
+}
 void Driver::WriteMode3(unsigned axes, std::uint16_t word) {
     write_mode(axes, 3, word);
     for (int i = 0; i < 4; ++i) {

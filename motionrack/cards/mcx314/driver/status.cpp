@@ -1,9 +1,9 @@
 // Status words in words.
-#include <motionrack/cards/mcx314/driver/status.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <iterator>
+#include <motionrack/cards/mcx314/driver/status.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -29,8 +29,10 @@ constexpr Advice advices[] = {
     {"RR1", "EMG", "Release the emergency stop, then home again."},
     {"RR2", "SLMTP", "Drive in - direction, or set a greater COMP+."},
     {"RR2", "SLMTM", "Drive in + direction, or set a smaller COMP-."},
-    {"RR2", "HLMTP", "Drive in - direction, away from the switch; if it is not pressed, look at its wire and at HLMTP."},
-    {"RR2", "HLMTM", "Drive in + direction, away from the switch; if it is not pressed, look at its wire and at HLMTM."},
+    {"RR2", "HLMTP",
+     "Drive in - direction, away from the switch; if it is not pressed, look at its wire and at HLMTP."},
+    {"RR2", "HLMTM",
+     "Drive in + direction, away from the switch; if it is not pressed, look at its wire and at HLMTM."},
     {"RR2", "ALARM", "Clear the alarm at the motor's drive; if there is none, look at its wire and at ALMSig."},
     {"RR2", "EMG", "Release the emergency stop."},
     {"RR2", "HOME", "Move off the encoder's index, then search again."},
@@ -105,7 +107,9 @@ const Cause* cause_of(const AxisStatus& status) {
 
 }  // namespace
 
-std::span<const StatusBit> status_bits() { return bits; }
+std::span<const StatusBit> status_bits() {
+    return bits;
+}
 
 std::string explain(std::string_view reg, std::uint16_t word) {
     std::string out;

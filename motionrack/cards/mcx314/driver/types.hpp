@@ -77,7 +77,8 @@ struct CONTDATA {
 /// How a chain ended.
 struct ContOutcome {
     std::int64_t segments = 0;
-    std::int64_t end_speed = 0;  ///< V units at the last pulse as planned; above SV where the last segment was too short
+    std::int64_t end_speed =
+        0;  ///< V units at the last pulse as planned; above SV where the last segment was too short
 };
 
 enum class StopKind : std::uint8_t {

@@ -1,9 +1,9 @@
 // Looking at the axes and waiting for them; every wait has a time-out.
-#include <motionrack/cards/mcx314/driver/driver.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
+#include <motionrack/cards/mcx314/driver/driver.hpp>
 
 namespace motionrack::mcx314 {
 
@@ -13,7 +13,9 @@ constexpr Duration look_every = microseconds(100);
 
 }  // namespace
 
-MainStatus Driver::status() { return {port_.read(reg::RR0)}; }
+MainStatus Driver::status() {
+    return {port_.read(reg::RR0)};
+}
 
 AxisStatus Driver::axis_status(int axis) {
     MOTIONRACK_ASSERT(axis >= 0 && axis < 4);
@@ -45,10 +47,11 @@ std::string Driver::error_text(unsigned axes) {
     return out;
 }
 
-// ---- waiting ----------------------------------------------------------------------------------------------------------
+// ---- waiting
+// ----------------------------------------------------------------------------------------------------------
 
-/// Sleeps until the interrupt line or for `slice`. The interrupts of `axes` are fetched, so that the line can rest; time
-/// passes also where the line is active for somebody else.
+/// Sleeps until the interrupt line or for `slice`. The interrupts of `axes` are fetched, so that the line can rest;
+/// time passes also where the line is active for somebody else.
 void Driver::doze(unsigned axes, Duration slice) {
     const Instant before = interrupt_.now();
     const bool woken = interrupt_.wait(slice);
@@ -68,8 +71,10 @@ Result<void> Driver::wait_until_stopped(unsigned axes, Duration timeout) {
             stopped = true;
         }
         if (interrupt_.now() >= end)
-            return fail(Trouble::machine, fmt::format("{} still moves after {:.3f} s; {}. Wait longer, or stop the axes.", axes_text(axes),
-                                                      to_seconds(timeout), stopped ? "it was told to stop" : "nothing was stopped"));
+            return fail(
+                Trouble::machine,
+                fmt::format("{} still moves after {:.3f} s; {}. Wait longer, or stop the axes.", axes_text(axes),
+                            to_seconds(timeout), stopped ? "it was told to stop" : "nothing was stopped"));
         // The drive-end interrupt, where enabled, wakes at once; otherwise the status is looked at now and then.
         doze(axes, look_every);
     }
@@ -85,7 +90,8 @@ Result<void> Driver::wait_until_done(unsigned axes, Duration timeout) {
     return fail(Trouble::machine, why);
 }
 
-// ---- speeds -----------------------------------------------------------------------------------------------------------
+// ---- speeds
+// -----------------------------------------------------------------------------------------------------------
 
 /// Part of the basic pulses that step each axis of a piece, signed, at the place where the axes are.
 std::array<double, 4> Driver::shares(const Piece& piece) {
@@ -118,11 +124,14 @@ Result<std::array<double, 4>> Driver::axis_speeds() {
     if (path != 0) {
         const Piece& piece = main.can_queue() ? pieces_[1] : pieces_[0];
         if (piece.axes == 0)
-            return fail(Trouble::refused, "axis_speeds: the interpolation was started by bare commands, so its axes' shares are not known.");
+            return fail(
+                Trouble::refused,
+                "axis_speeds: the interpolation was started by bare commands, so its axes' shares are not known.");
         const int generator = chain_.running ? chain_.generator : channels_of(piece.axes).channel[0];
         const std::int64_t basic = ReadCV(generator);
         const std::array<double, 4> share = shares(piece);
-        const double rate = static_cast<double>(basic) * static_cast<double>(rules::sclk_hz) / mean_range(piece, generator, share);
+        const double rate =
+            static_cast<double>(basic) * static_cast<double>(rules::sclk_hz) / mean_range(piece, generator, share);
         for (std::size_t i = 0; i < 4; ++i) out[i] = share[i] * rate;
     }
     for (int i = 0; i < 4; ++i) {
@@ -140,7 +149,8 @@ double Driver::mean_range(const Piece& piece, int generator, const std::array<do
     if (vector_axes < 2) return own;
     std::array<double, 3> parts = {};
     for (int n = 0; n < list.count; ++n)
-        parts[static_cast<std::size_t>(n)] = std::fabs(share[static_cast<std::size_t>(list.channel[static_cast<std::size_t>(n)])]);
+        parts[static_cast<std::size_t>(n)] =
+            std::fabs(share[static_cast<std::size_t>(list.channel[static_cast<std::size_t>(n)])]);
     std::sort(parts.begin(), parts.end(), std::greater<>());
     const auto two = static_cast<double>(written(list.channel[1], cmd::R).value_or(0));
     const auto three = vector_axes == 3 ? static_cast<double>(written(list.channel[2], cmd::R).value_or(0)) : two;

@@ -1,0 +1,59 @@
+// One axis of the card in mm (degrees) and s.
+//
+//   RealAxis x(driver, 0, {200});                      // 200 pulses a mm
+//   auto set = x.set({100, 2, 500});                   // mm/s, mm/s, mm/s2: what the card makes of it is in *set
+//   auto plan = x.plan(50);                            // how long, how far while accelerating, ..: nothing moves
+//   auto moved = x.move(50);                           // 50 mm; *moved says what was rounded
+#pragma once
+
+#include <motionrack/cards/mcx314/driver/driver.hpp>
+#include <motionrack/cards/mcx314/driver/units.hpp>
+
+namespace motionrack::mcx314 {
+
+class RealAxis {
+  public:
+    /// `axis`: channel 0 X .. 3 U; `encoder`: counts a unit, if there is one. The driver must outlive this.
+    RealAxis(Driver& driver, int axis, Scale scale, Scale encoder = {0})
+        : driver_(driver), axis_(axis), scale_(scale), encoder_(encoder) {}
+
+    /// Chooses R and writes R, SV, V, A, D, K for the next moves. Refused while the axis drives.
+    Result<RealSetting> set(const RealDrive& drive);
+    const RealSetting& setting() const { return setting_; }
+
+    /// What a move would be. Errors: nothing set.
+    Result<RealPlan> plan(double distance) const;
+    /// Starts a move by a distance, or to a position. S-curve if a jerk is set; the point of an asymmetric deceleration
+    /// is computed. Gives what the distance was rounded to.
+    Result<Rounded> move(double distance);
+    Result<Rounded> move_to(double position);
+    /// Drives until stopped.
+    Result<void> run(bool negative);
+    /// Another speed for the drive under way, at most what R reaches; see Driver::change_speed.
+    Result<Rounded> change_speed(double speed);
+    /// Another end for the move under way: a distance from where it began; see Driver::change_pulses.
+    Result<Rounded> change_distance(double distance);
+
+    double position() { return static_cast<double>(driver_.ReadLPS(axis_)) / scale_.pulses_per_unit; }
+    /// By the encoder; 0 without one.
+    double encoder_position() {
+        return encoder_.pulses_per_unit > 0 ? static_cast<double>(driver_.ReadEPS(axis_)) / encoder_.pulses_per_unit
+                                            : 0;
+    }
+    /// The counter LP becomes `position`, to the nearest pulse.
+    Result<Rounded> set_position(double position);
+    /// Units a second, signed; also in an interpolation.
+    Result<double> speed();
+
+  private:
+    Result<void> check_set(const char* who) const;
+    Result<CurveData> curve(std::int64_t pulses) const;
+
+    Driver& driver_;
+    int axis_;
+    Scale scale_, encoder_;
+    RealSetting setting_;
+    bool set_ = false;
+};
+
+}  // namespace motionrack::mcx314
