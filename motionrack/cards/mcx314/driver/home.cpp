@@ -1,0 +1,338 @@
+// The runner of the homing tables.
+#include <algorithm>
+#include <motionrack/cards/mcx314/driver/home.hpp>
+#include <motionrack/cards/mcx314/map.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+constexpr Field drive_end = field("WR1", "DEND");
+constexpr Field software_limits = {static_cast<std::uint16_t>(field("WR2", "SLMTP").mask | field("WR2", "SLMTM").mask)};
+constexpr Field curve_bits = {
+    static_cast<std::uint16_t>(field("WR3", "MANLD").mask | field("WR3", "DSNDE").mask | field("WR3", "SACC").mask)};
+constexpr Field plus_limit_stopped = field("RR1", "LMTP"), minus_limit_stopped = field("RR1", "LMTM");
+constexpr Field plus_limit = field("RR2", "HLMTP"), minus_limit = field("RR2", "HLMTM");
+constexpr Field alarm_stopped = field("RR1", "ALARM"), alarm = field("RR2", "ALARM");
+constexpr Field emergency_stopped = field("RR1", "EMG"), emergency = field("RR2", "EMG");
+constexpr unsigned first_input_stopped = field("RR1", "IN0").mask;
+constexpr std::int64_t greatest_pulses = 268'435'455;
+
+/// Counters wrap: the way from one reading to another.
+std::int64_t way(std::int32_t from, std::int32_t to) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from));
+}
+
+std::int64_t length(std::int64_t pulses) { return pulses < 0 ? -pulses : pulses; }
+
+}  // namespace
+
+// ---- looking -------------------------------------------------------------------------------------------------------
+
+Home::Look Home::look() {
+    Look out;
+    out.driving = driver_.status().driving(mask());
+    out.status = driver_.axis_status(axis_);
+    const unsigned levels = driver_.port().read(axis_ < 2 ? reg::RR4 : reg::RR5) >> (axis_ & 1 ? 8 : 0);
+    out.switch_on = ((levels >> settings_.input & 1) != 0) == settings_.active_high;
+    out.index_on = ((levels >> settings_.index_input & 1) != 0) == settings_.index_high;
+    out.lp = driver_.ReadLPS(axis_);
+    out.cv = out.driving ? driver_.ReadCV(axis_) : 0;
+    return out;
+}
+
+bool Home::limit_in_way(const Look& look, HomeWay w) const {
+    return (settings_.negative == (w == HomeWay::towards) ? minus_limit : plus_limit).test(look.status.rr2);
+}
+
+/// A change of the home input is an edge once a state; contacts that change again are bouncing.
+void Home::note_switch(const Look& look, Instant now) {
+    if (look.switch_on == switch_on_) return;
+    switch_on_ = look.switch_on;
+    steady_since_ = now;
+    if (edge_in_state_)
+        ++report_.bounces;
+    else if (state_->does == HomeDoes::wait_end)
+        add_edge(settings_.input, look.switch_on, look, false, now);
+}
+
+void Home::add_edge(int input, bool active, const Look& look, bool exact, Instant now) {
+    HomeEdge edge{state_->name, input, active, look.lp, driver_.ReadEPS(axis_), exact ? 0 : length(way(last_lp_, look.lp)),
+                  hertz(exact ? speed() : std::max(look.cv, last_cv_)), now};
+    report_.edges.push_back(edge);
+    edge_in_state_ = true;
+    if (input == settings_.input && active) {
+        report_.switch_lp = edge.lp;
+        report_.switch_within = edge.within;
+        report_.switch_speed_hz = edge.speed_hz;
+    }
+}
+
+// ---- beginning -----------------------------------------------------------------------------------------------------
+
+Result<void> Home::start(const HomeSettings& settings, Instant now) {
+    const HomeSettings before = std::exchange(settings_, settings);
+    if (const Result<void> ready = check_ready(); !ready) {
+        settings_ = before;
+        return ready;
+    }
+    if (settings_.back_v == 0) settings_.back_v = settings_.sv;
+    if (settings_.slow_v == 0) settings_.slow_v = (settings_.sv + 1) / 2;
+    settings_.v = std::max(settings_.v, settings_.sv);
+    if (settings_.range != 0) MOTIONRACK_CHECK(driver_.SetRange(mask(), settings_.range));
+    mode_before_[0] = driver_.mode1(axis_);
+    mode_before_[1] = driver_.mode2(axis_);
+    mode_before_[2] = driver_.mode3(axis_);
+    driver_.WriteMode2(mask(), static_cast<std::uint16_t>(mode_before_[1] & ~software_limits.mask));
+    driver_.WriteMode3(mask(), static_cast<std::uint16_t>(mode_before_[2] & ~curve_bits.mask));
+    table_ = &home_table(settings_.type);
+    report_ = HomeReport{};
+    report_.type = settings_.type;
+    report_.axis = axis_;
+    report_.negative = settings_.negative;
+    report_.input = settings_.input;
+    report_.home_position = settings_.home_position;
+    report_.from = now;
+    running_ = true;
+    stop_asked_ = turned_ = again_ = false;
+    failed_in_ = {};
+    const Look first = look();
+    switch_on_ = first.switch_on;
+    last_lp_ = first.lp;
+    state_ = nullptr;
+    enter(table_->states[0].name, first, now);
+    return {};
+}
+
+// ---- the machine ---------------------------------------------------------------------------------------------------
+
+void Home::step(Instant now) {
+    if (!running_) return;
+    const Look seen = look();
+    note_switch(seen, now);
+    // RR1 tells of the last drive: only of ours once there is one.
+    const unsigned ended_by = state_->does == HomeDoes::wait_end ? seen.status.rr1 : 0u;
+    if (state_->does == HomeDoes::wait_stop) {
+        run(seen, now);
+    } else if (emergency.test(seen.status.rr2) || emergency_stopped.test(ended_by)) {
+        fail(HomeFault::emergency, seen, now);
+    } else if (alarm.test(seen.status.rr2) || alarm_stopped.test(ended_by)) {
+        fail(HomeFault::alarm, seen, now);
+    } else if (stop_asked_) {
+        fail(HomeFault::stopped, seen, now);
+    } else {
+        run(seen, now);
+        // START states lead on at once, to a wait at the latest.
+        while (running_ && state_->does != HomeDoes::wait_end && state_->does != HomeDoes::wait_steady &&
+               state_->does != HomeDoes::wait_stop)
+            run(seen, now);
+    }
+    last_lp_ = seen.lp;
+    last_cv_ = seen.cv;
+}
+
+void Home::enter(std::string_view name, const Look& look, Instant now) {
+    if (state_ != nullptr && !report_.stays.empty()) {
+        report_.stays.back().took = now - report_.stays.back().from;
+        report_.stays.back().to_lp = look.lp;
+    }
+    state_ = &table_->state(name);
+    report_.stays.push_back({state_->name, now, {}, look.lp, look.lp});
+    edge_in_state_ = false;
+    if (state_->does == HomeDoes::end) finish(look, now);
+}
+
+bool Home::leave_by(HomeCause cause, const Look& look, Instant now) {
+    for (const HomeExit& exit : state_->exits) {
+        if (exit.to.empty() || exit.cause != cause) continue;
+        enter(exit.to, look, now);
+        return true;
+    }
+    return false;
+}
+
+void Home::run(const Look& look, Instant now) {
+    switch (state_->does) {
+        case HomeDoes::look:
+            if (look.switch_on)
+                leave_by(HomeCause::on, look, now);
+            else if (limit_in_way(look, HomeWay::towards) && !settings_.turn_at_limit)
+                fail(HomeFault::not_found, look, now);
+            else if (limit_in_way(look, HomeWay::towards))
+                turned_ = true, leave_by(HomeCause::limit, look, now);
+            else
+                leave_by(HomeCause::off, look, now);
+            return;
+        case HomeDoes::drive: return drive(look, now);
+        case HomeDoes::wait_end: return wait_end(look, now);
+        case HomeDoes::settle:
+            steady_since_ = now;
+            deadline_ = now + settings_.timeout;
+            leave_by(HomeCause::done, look, now);
+            return;
+        case HomeDoes::wait_steady:
+            if (now - steady_since_ >= settings_.settle)
+                leave_by(look.switch_on ? HomeCause::on : HomeCause::off, look, now);
+            else if (now >= deadline_)
+                fail(HomeFault::time, look, now);
+            return;
+        case HomeDoes::zero: return zero(look, now);
+        case HomeDoes::wait_stop:
+            if (look.driving && now >= deadline_) driver_.QuickStop(mask());
+            if (!look.driving || now >= deadline_) leave_by(HomeCause::done, look, now);
+            return;
+        case HomeDoes::end: return;
+    }
+}
+
+/// WR1 for the present state: the stop input at the level that ends the drive, and an interrupt at its end.
+std::uint16_t Home::stop_inputs() const {
+    const unsigned others = mode_before_[0] & ~0xFFu;
+    const bool index = state_->until == HomeUntil::index;
+    const int input = index ? settings_.index_input : settings_.input;
+    const bool high = index ? settings_.index_high : settings_.active_high == (state_->until == HomeUntil::on);
+    const unsigned stop = state_->until == HomeUntil::distance ? 0u : (high ? 3u : 2u) << 2 * input;
+    return static_cast<std::uint16_t>(others | drive_end.mask | stop);
+}
+
+std::int64_t Home::speed() const {
+    return state_->pace == HomePace::fast ? settings_.v : state_->pace == HomePace::back ? settings_.back_v : settings_.slow_v;
+}
+
+void Home::drive(const Look& look, Instant now) {
+    if (state_->until == HomeUntil::index && look.index_on) return fail(HomeFault::index_at_switch, look, now);
+    if (state_->until == HomeUntil::distance) {
+        planned_ = settings_.clearance;
+        if (settings_.type == 1 || settings_.type == 3) planned_ = std::max(planned_, run_up());
+        planned_ = std::min(planned_, settings_.travel);
+    } else {
+        planned_ = state_->until == HomeUntil::index && settings_.turn > 0 ? settings_.turn : settings_.travel;
+    }
+    driver_.WriteMode1(mask(), stop_inputs());
+    const Result<void> written = [&]() -> Result<void> {
+        MOTIONRACK_CHECK(driver_.SetSV(mask(), settings_.sv));
+        MOTIONRACK_CHECK(driver_.SetV(mask(), speed()));
+        MOTIONRACK_CHECK(driver_.SetA(mask(), settings_.a));
+        return driver_.Pulse(mask(), planned_);
+    }();
+    MOTIONRACK_ASSERT(written.has_value());  // check_ready() has seen the ranges
+    driver_.Drive(mask(), settings_.negative == (state_->way == HomeWay::towards));
+    at_speed_ = false;
+    deadline_ = now + std::min(settings_.timeout, drive_time(planned_, speed()));
+    leave_by(HomeCause::done, look, now);
+}
+
+/// Ends a WAIT state when the drive has ended, by what ended it.
+void Home::wait_end(const Look& look, Instant now) {
+    if (look.driving) {
+        at_speed_ = at_speed_ || (look.cv >= settings_.v && !look.switch_on);
+        if (now >= deadline_) fail(HomeFault::time, look, now);
+        return;
+    }
+    const bool limit = plus_limit_stopped.test(look.status.rr1) || minus_limit_stopped.test(look.status.rr1);
+    if (limit) {
+        const bool again = turned_;
+        if (state_->until == HomeUntil::on && state_->way == HomeWay::towards) turned_ = true;
+        if ((settings_.turn_at_limit && !again) || state_->until == HomeUntil::distance)
+            if (leave_by(HomeCause::limit, look, now)) return;
+    } else if (state_->until == HomeUntil::distance) {
+        if (distance(look) == planned_) return static_cast<void>(leave_by(HomeCause::done, look, now));
+        return fail(HomeFault::foreign_stop, look, now);
+    } else {
+        const int input = state_->until == HomeUntil::index ? settings_.index_input : settings_.input;
+        if ((look.status.rr1 & first_input_stopped << input) != 0) return drive_reached(look, now);
+        if (distance(look) != planned_) return fail(HomeFault::foreign_stop, look, now);
+    }
+    if (state_->until == HomeUntil::index) return fail(HomeFault::no_index, look, now);
+    fail(state_->until == HomeUntil::off ? HomeFault::not_released : HomeFault::not_found, look, now);
+}
+
+/// The input that was waited for ended the drive. Its level now may be a bounce; the chip's own word counts.
+void Home::drive_reached(const Look& look, Instant now) {
+    const bool exact = state_->pace != HomePace::fast;
+    if (state_->until == HomeUntil::index) {
+        add_edge(settings_.index_input, true, look, true, now);
+        report_.index_lp = look.lp;
+    } else if (!edge_in_state_) {
+        add_edge(settings_.input, state_->until == HomeUntil::on, look, exact, now);
+    } else if (exact) {  // seen a moment before the drive's end, which was at the edge
+        report_.edges.pop_back();
+        add_edge(settings_.input, state_->until == HomeUntil::on, look, true, now);
+    }
+    switch_on_ = look.switch_on;
+    if (stopped_early() && leave_by(HomeCause::early, look, now)) {
+        again_ = true;
+        return;
+    }
+    if (state_->pace == HomePace::fast && !at_speed_ && settings_.v > settings_.sv && (settings_.type == 1 || settings_.type == 3))
+        report_.notes.push_back("the switch came before V was reached, with no way for a longer run-up: a start from farther away may end elsewhere");
+    leave_by(HomeCause::done, look, now);
+}
+
+/// Where types 1 and 3 end depends on the speed at the switch: they want it to be V.
+bool Home::stopped_early() const {
+    return state_->pace == HomePace::fast && !at_speed_ && !again_ && settings_.v > settings_.sv;
+}
+
+void Home::zero(const Look& look, Instant now) {
+    report_.zero_lp = look.lp;
+    report_.zero_ep = driver_.ReadEPS(axis_);
+    static_cast<void>(driver_.LPS(mask(), settings_.home_position));  // check_ready() has seen the ranges
+    static_cast<void>(driver_.EPS(mask(), settings_.home_counts));
+    leave_by(HomeCause::done, look, now);
+}
+
+// ---- ending --------------------------------------------------------------------------------------------------------
+
+void Home::stop() {
+    if (!running_ || stop_asked_) return;
+    stop_asked_ = true;
+    driver_.SlowStop(mask());
+}
+
+void Home::fail(HomeFault fault, const Look& look, Instant now) {
+    report_.fault = fault;
+    failed_in_ = state_->name;
+    failed_after_ = distance(look);
+    if (look.driving) driver_.SlowStop(mask());
+    deadline_ = now + std::min(settings_.timeout, drive_time(run_up(), settings_.v));
+    enter("STOPPING_WAIT", look, now);
+    if (!look.driving) leave_by(HomeCause::done, look, now);
+}
+
+void Home::finish(const Look& look, Instant now) {
+    running_ = false;
+    report_.homed = report_.fault == HomeFault::none;
+    report_.took = now - report_.from;
+    driver_.WriteMode1(mask(), mode_before_[0]);
+    driver_.WriteMode3(mask(), mode_before_[2]);
+    if (report_.homed) driver_.WriteMode2(mask(), mode_before_[1]);
+    report_.sentence = why_failed(look);
+}
+
+// ---- arithmetic ----------------------------------------------------------------------------------------------------
+
+/// Pulses of the present drive so far.
+std::int64_t Home::distance(const Look& look) const { return length(way(report_.stays.back().from_lp, look.lp)); }
+
+/// Pulses from SV to V and a hundredth of a second at V, so that a look falls into it.
+std::int64_t Home::run_up() const {
+    const auto v = static_cast<double>(settings_.v), sv = static_cast<double>(settings_.sv);
+    const double m = hertz(1) > 0 ? hertz(1) : 500;
+    const double ramp = m * (v * (v + 1) - sv * (sv + 1)) / (250.0 * static_cast<double>(settings_.a));
+    return std::min(greatest_pulses, static_cast<std::int64_t>(ramp * 1.05 + v * m * 0.01) + 2);
+}
+
+/// Longest time that a drive can take: the way at its speed, two ramps, a second.
+Duration Home::drive_time(std::int64_t pulses, std::int64_t v) const {
+    if (hertz(1) <= 0) return settings_.timeout;
+    const double ramps = 2 * static_cast<double>(settings_.v) / (125.0 * static_cast<double>(settings_.a));
+    const double seconds = 1.1 * static_cast<double>(pulses) / hertz(v) + 1.1 * ramps + 1;
+    return seconds > to_seconds(settings_.timeout) ? settings_.timeout : from_seconds(seconds);
+}
+
+double Home::hertz(std::int64_t v) const {
+    return settings_.range == 0 ? 0 : static_cast<double>(v) * 8e6 / static_cast<double>(settings_.range);
+}
+
+}  // namespace motionrack::mcx314

@@ -1,0 +1,67 @@
+// The ways of homing as tables: START states write a drive and lead on at once, WAIT states look at one status.
+//
+//   CHECK_START ─off─► SEARCH_START ► SEARCH_WAIT ─on─► REST ─on─► BACK_START ► BACK_WAIT ─off─► CLEAR ► SETTLE ─off─► SLOW ...
+//        ├─on────────────────────────────────────────────────────►┘  ▲
+//        └─limit─► RETURN_START ► RETURN_WAIT ─on──────────────────────┘
+#pragma once
+
+#include <array>
+#include <motionrack/base/states.hpp>
+#include <span>
+#include <string_view>
+
+namespace motionrack::mcx314 {
+
+/// What a state of a homing does. All but the three waits and the ends lead on at once.
+enum class HomeDoes : std::uint8_t {
+    look,         ///< looks where the axis stands
+    drive,        ///< writes stop input, speed and pulses, and starts
+    wait_end,     ///< until the drive has ended (RR0), then looks why (RR1)
+    settle,       ///< notes the time
+    wait_steady,  ///< until the home input has not changed for the settling time (RR4, RR5)
+    zero,         ///< writes LP and EP
+    wait_stop,    ///< until the axis stands after a failure
+    end
+};
+enum class HomeWay : std::uint8_t { towards, away };                    ///< the switch, as the direction of the search has it
+enum class HomePace : std::uint8_t { fast, back, slow };                ///< fast has ramps; back and slow are constant speeds
+enum class HomeUntil : std::uint8_t { distance, on, off, index };       ///< distance: the clearance, no stop input
+
+/// What leads from a state to the next one.
+enum class HomeCause : std::uint8_t {
+    done,   ///< it did what it should
+    on,     ///< the home input is active
+    off,    ///< it is not
+    limit,  ///< the limit switch in the way was reached, or is active
+    early   ///< the switch came before the speed V was reached
+};
+
+struct HomeExit {
+    HomeCause cause = HomeCause::done;
+    std::string_view to = {};  ///< "": no exit
+};
+
+struct HomeState {
+    std::string_view name;
+    std::string_view meaning;
+    HomeDoes does = HomeDoes::end;
+    std::array<HomeExit, 3> exits = {};
+    HomeWay way = HomeWay::towards;
+    HomePace pace = HomePace::fast;
+    HomeUntil until = HomeUntil::distance;
+};
+
+/// A way of homing: what runs, and the same as a declared state machine for people, traces and checks.
+struct HomeTable {
+    std::span<const HomeState> states;
+    MachineInfo machine;
+
+    const HomeState& state(std::string_view name) const {
+        return states[static_cast<std::size_t>(state_index(machine, name))];
+    }
+};
+
+/// The table of a type, 1..4.
+const HomeTable& home_table(int type);
+
+}  // namespace motionrack::mcx314

@@ -1,0 +1,169 @@
+// Homing in words: what is refused, and a sentence for every way it can end.
+#include <cmath>
+#include <fmt/format.h>
+#include <motionrack/cards/mcx314/driver/home.hpp>
+#include <motionrack/cards/mcx314/map.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+/// "12,345".
+std::string grouped(std::int64_t value) {
+    std::string digits = std::to_string(value < 0 ? -value : value);
+    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+    return (value < 0 ? "-" : "") + digits;
+}
+
+struct Bound {
+    const char* name;
+    std::int64_t value, least, greatest;
+};
+
+constexpr std::int64_t least_32 = -2'147'483'648LL, greatest_32 = 2'147'483'647LL;
+
+}  // namespace
+
+// ---- the report ----------------------------------------------------------------------------------------------------
+
+std::int64_t HomeReport::relative(std::int32_t lp) const {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(lp) - static_cast<std::uint32_t>(zero_lp)) + home_position;
+}
+
+std::optional<std::int64_t> HomeReport::switch_to_index() const {
+    if (!switch_lp || !index_lp) return {};
+    const std::int64_t way = relative(*index_lp) - relative(*switch_lp);
+    return way < 0 ? -way : way;
+}
+
+Result<void> HomeReport::result() const {
+    if (homed) return {};
+    return motionrack::fail(fault == HomeFault::stopped ? Trouble::stopped : Trouble::machine, sentence);
+}
+
+// ---- what is refused -----------------------------------------------------------------------------------------------
+
+Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, std::int64_t V, std::int64_t A) {
+    HomeSettings out;
+    out.type = type;
+    out.sv = SV;
+    out.v = V;
+    out.a = A;
+    out.input = -1;
+    for (int i = 3; i >= 0; --i)
+        if (i != out.index_input && (WR1Reg >> 2 * i & 2) != 0) out.input = i;
+    if (out.input < 0)
+        return motionrack::fail(Trouble::refused, fmt::format("HomeType{}: WR1Reg is {:04X}h, which enables none of IN0, IN1 and IN3 as home switch "
+                                                  "(bits 1, 3, 7). Nothing was moved; enable one, with its level in the bit below.",
+                                                  type, WR1Reg));
+    out.active_high = (WR1Reg >> 2 * out.input & 1) != 0;
+    out.index_high = (WR1Reg >> 2 * out.index_input & 1) != 0;
+    return out;
+}
+
+Result<void> Home::check_ready() {
+    const HomeSettings& s = settings_;
+    const std::string name = s.name.empty() ? std::string(1, "XYZU"[axis_ & 3]) : s.name;
+    const auto refuse = [&](std::string why) {
+        return motionrack::fail(Trouble::refused, fmt::format("Axis {} was not homed: {}. Nothing was moved.", name, why));
+    };
+    const Bound bounds[] = {
+        {"the type", s.type, 1, 4},
+        {"the home input", s.input, 0, 3},
+        {"the index input", s.index_input, 0, 3},
+        {"the range R", s.range == 0 ? 16'000 : s.range, 16'000, 8'000'000},
+        {"the initial speed SV", s.sv, 1, 8'000},
+        {"the search speed V", s.v, 1, 8'000},
+        {"the acceleration A", s.a, 1, 8'000},
+        {"the speed off the switch (at most SV)", s.back_v == 0 ? 1 : s.back_v, 1, s.sv},
+        {"the slow speed (at most SV)", s.slow_v == 0 ? 1 : s.slow_v, 1, s.sv},
+        {"the travel", s.travel, 1, 268'435'455},
+        {"the pulses of a turn", s.turn, 0, 268'435'455},
+        {"the clearance", s.clearance, 0, s.travel},
+        {"the settling time in ms", s.settle / milliseconds(1), 0, 10'000},
+        {"the time-out in ms", s.timeout / milliseconds(1), 1, 1'000'000'000},
+        {"the home position", s.home_position, least_32, greatest_32},
+        {"the encoder's home position", s.home_counts, least_32, greatest_32},
+    };
+    for (const Bound& bound : bounds)
+        if (bound.value < bound.least || bound.value > bound.greatest)
+            return refuse(fmt::format("{} is {}, but may be {} to {}", bound.name, grouped(bound.value), grouped(bound.least), grouped(bound.greatest)));
+    if (s.type >= 3 && s.input == s.index_input) return refuse(fmt::format("home switch and index are both IN{}", s.input));
+    if (!(s.pulses_per_unit != 0) || !std::isfinite(s.pulses_per_unit)) return refuse("the pulses per unit must be a number other than 0");
+    if (running_) return refuse("it is being homed already; stop that first");
+    if (driver_.status().driving(mask())) return refuse("it moves; stop it and wait until it stands");
+    const AxisStatus status = driver_.axis_status(axis_);
+    if (field("RR2", "EMG").test(status.rr2)) return refuse("the emergency stop is active; release it");
+    if (field("RR2", "ALARM").test(status.rr2)) return refuse("its drive reports an alarm; clear it");
+    if (field("RR2", "HLMTP").test(status.rr2) && field("RR2", "HLMTM").test(status.rr2))
+        return refuse("both limit switches are active, so it can move neither way; look for a broken wire or a wrong level (WR2 HLMTP, HLMTM)");
+    return {};
+}
+
+// ---- sentences -----------------------------------------------------------------------------------------------------
+
+/// A way: "1,200 pulses" or "3.7500 mm".
+std::string Home::text(std::int64_t pulses) const {
+    if (settings_.unit == "pulses") return grouped(pulses) + " pulses";
+    return fmt::format("{:.4f} {}", static_cast<double>(pulses) / std::fabs(settings_.pulses_per_unit), settings_.unit);
+}
+
+std::string Home::place(std::int32_t lp) const {
+    if (settings_.unit == "pulses") return "LP " + grouped(lp);
+    return fmt::format("{:.4f} {} by its counter", lp / settings_.pulses_per_unit, settings_.unit);
+}
+
+std::string Home::switch_text() const {
+    return fmt::format("the home switch (IN{}, active {})", settings_.input, settings_.active_high ? "High" : "Low");
+}
+
+/// What went wrong, how far it came, where it stands, what to do; or where home is.
+std::string Home::why_failed(const Look& look) const {
+    const std::string axis = settings_.name.empty() ? std::string(1, "XYZU"[axis_]) : settings_.name;
+    const bool found = report_.switch_lp.has_value();
+    if (report_.homed)
+        return fmt::format("Axis {} is homed with type {}: the counter was at {} where it is {} since.", axis, settings_.type,
+                           place(report_.zero_lp), settings_.unit == "pulses" ? grouped(settings_.home_position)
+                                                                               : place(static_cast<std::int32_t>(settings_.home_position)));
+    const std::string index = fmt::format("the encoder's index (IN{}, active {})", settings_.index_input, settings_.index_high ? "High" : "Low");
+    const bool at_limit = limit_in_way(look, HomeWay::towards) || limit_in_way(look, HomeWay::away);
+    const std::string how_far = text(failed_after_) + (at_limit ? ", where a limit switch ended the search" : "");
+    std::string what, next;
+    switch (report_.fault) {
+        case HomeFault::none: break;
+        case HomeFault::not_found:
+            what = fmt::format("{} was not {} within {} in {} direction", switch_text(), found ? "found again" : "found", how_far,
+                               settings_.negative == (table_->state(failed_in_).way == HomeWay::towards) ? "-" : "+");
+            next = "Look at its wire and level (RR4, RR5), or search in the other direction or farther";
+            break;
+        case HomeFault::not_released:
+            what = fmt::format("{} is active and was not released within {}", switch_text(), how_far);
+            next = "Look whether it is stuck or has the other level, or move the axis off it by hand";
+            break;
+        case HomeFault::no_index:
+            what = fmt::format("{} was not seen within {} after the switch", index, how_far);
+            next = "Look at the encoder's Z wire and level, or home without it (type 1 or 2)";
+            break;
+        case HomeFault::index_at_switch:
+            what = fmt::format("{} is active where the switch acts, so another start might find another turn", index);
+            next = "Shift the switch by half a motor turn, or look whether the index is stuck";
+            break;
+        case HomeFault::alarm: what = "the drive's alarm became active", next = "Clear the cause in the drive"; break;
+        case HomeFault::emergency: what = "the emergency stop became active", next = "Clear the cause and release it"; break;
+        case HomeFault::time:
+            what = fmt::format("{} lasted {:.3f} s, longer than it may; it had made {}", failed_in_,
+                               to_seconds(report_.stays[report_.stays.size() - 3].took), text(failed_after_));
+            next = "Look whether nINPOS is enabled but never active, or the home input never rests";
+            break;
+        case HomeFault::foreign_stop:
+            what = fmt::format("the drive of {} ended after {} for no reason of its own", failed_in_, text(failed_after_));
+            next = "Let no one else command the axis meanwhile";
+            break;
+        case HomeFault::stopped: what = "it was stopped on request", next = ""; break;
+    }
+    return fmt::format("Axis {} is not homed: {}. It {} {}; its position is not trusted.{}{}", axis, what,
+                       look.driving ? "still moves after a stop command, at" : "was stopped and stands at", place(look.lp),
+                       next.empty() ? " Home it before anything else" : " " + next + ", then home again", ".");
+}
+
+}  // namespace motionrack::mcx314
