@@ -15,7 +15,6 @@ constexpr Field plus_limit_stopped = field("RR1", "LMTP"), minus_limit_stopped =
 constexpr Field plus_limit = field("RR2", "HLMTP"), minus_limit = field("RR2", "HLMTM");
 constexpr Field alarm_stopped = field("RR1", "ALARM"), alarm = field("RR2", "ALARM");
 constexpr Field emergency_stopped = field("RR1", "EMG"), emergency = field("RR2", "EMG");
-constexpr unsigned first_input_stopped = field("RR1", "IN0").mask;
 constexpr std::int64_t greatest_pulses = 268'435'455;
 
 /// Counters wrap: the way from one reading to another.
@@ -33,9 +32,9 @@ Home::Look Home::look() {
     Look out;
     out.driving = driver_.status().driving(mask());
     out.status = driver_.axis_status(axis_);
-    const unsigned levels = driver_.port().read(axis_ < 2 ? reg::RR4 : reg::RR5) >> (axis_ & 1 ? 8 : 0);
-    out.switch_on = ((levels >> settings_.input & 1) != 0) == settings_.active_high;
-    out.index_on = ((levels >> settings_.index_input & 1) != 0) == settings_.index_high;
+    const InputLevels levels = driver_.inputs(axis_);
+    out.switch_on = levels.in[static_cast<std::size_t>(settings_.input)] == settings_.active_high;
+    out.index_on = levels.in[static_cast<std::size_t>(settings_.index_input)] == settings_.index_high;
     out.lp = driver_.ReadLPS(axis_);
     out.cv = out.driving ? driver_.ReadCV(axis_) : 0;
     return out;
@@ -240,7 +239,7 @@ void Home::wait_end(const Look& look, Instant now) {
         return fail(HomeFault::foreign_stop, look, now);
     } else {
         const int input = state_->until == HomeUntil::index ? settings_.index_input : settings_.input;
-        if ((look.status.rr1 & first_input_stopped << input) != 0) return drive_reached(look, now);
+        if (look.status.stopped_by_input(input)) return drive_reached(look, now);
         if (distance(look) != planned_) return fail(HomeFault::foreign_stop, look, now);
     }
     if (state_->until == HomeUntil::index) return fail(HomeFault::no_index, look, now);
@@ -318,7 +317,7 @@ std::int64_t Home::distance(const Look& look) const { return length(way(report_.
 /// Pulses from SV to V and a hundredth of a second at V, so that a look falls into it.
 std::int64_t Home::run_up() const {
     const auto v = static_cast<double>(settings_.v), sv = static_cast<double>(settings_.sv);
-    const double m = hertz(1) > 0 ? hertz(1) : 500;
+    const double m = hertz(1) > 0 ? hertz(1) : 500;  // where nobody wrote R: the longest
     const double ramp = m * (v * (v + 1) - sv * (sv + 1)) / (250.0 * static_cast<double>(settings_.a));
     return std::min(greatest_pulses, static_cast<std::int64_t>(ramp * 1.05 + v * m * 0.01) + 2);
 }
@@ -331,8 +330,6 @@ Duration Home::drive_time(std::int64_t pulses, std::int64_t v) const {
     return seconds > to_seconds(settings_.timeout) ? settings_.timeout : from_seconds(seconds);
 }
 
-double Home::hertz(std::int64_t v) const {
-    return settings_.range == 0 ? 0 : static_cast<double>(v) * 8e6 / static_cast<double>(settings_.range);
-}
+double Home::hertz(std::int64_t v) const { return static_cast<double>(v) * driver_.multiple(axis_); }
 
 }  // namespace motionrack::mcx314

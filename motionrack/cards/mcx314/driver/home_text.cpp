@@ -10,9 +10,10 @@ namespace {
 
 /// "12,345".
 std::string grouped(std::int64_t value) {
-    std::string digits = std::to_string(value < 0 ? -value : value);
-    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
-    return (value < 0 ? "-" : "") + digits;
+    std::string digits = fmt::format("{}", value < 0 ? -value : value);
+    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');
+    if (value < 0) digits.insert(0, 1, '-');
+    return digits;
 }
 
 struct Bound {
@@ -109,7 +110,7 @@ std::string Home::text(std::int64_t pulses) const {
 }
 
 std::string Home::place(std::int32_t lp) const {
-    if (settings_.unit == "pulses") return "LP " + grouped(lp);
+    if (settings_.unit == "pulses") return fmt::format("LP {}", grouped(lp));
     return fmt::format("{:.4f} {} by its counter", lp / settings_.pulses_per_unit, settings_.unit);
 }
 
@@ -132,8 +133,9 @@ std::string Home::why_failed(const Look& look) const {
     switch (report_.fault) {
         case HomeFault::none: break;
         case HomeFault::not_found:
-            what = fmt::format("{} was not {} within {} in {} direction", switch_text(), found ? "found again" : "found", how_far,
-                               settings_.negative == (table_->state(failed_in_).way == HomeWay::towards) ? "-" : "+");
+            what = fmt::format("{} was not {} within {} in {} direction{}", switch_text(), found ? "found again" : "found", how_far,
+                               settings_.negative == (table_->state(failed_in_).way == HomeWay::towards) ? "-" : "+",
+                               turned_ && !found ? ", nor in the other direction up to the limit switch" : "");
             next = "Look at its wire and level (RR4, RR5), or search in the other direction or farther";
             break;
         case HomeFault::not_released:
@@ -161,9 +163,9 @@ std::string Home::why_failed(const Look& look) const {
             break;
         case HomeFault::stopped: what = "it was stopped on request", next = ""; break;
     }
-    return fmt::format("Axis {} is not homed: {}. It {} {}; its position is not trusted.{}{}", axis, what,
+    return fmt::format("Axis {} is not homed: {}. It {} {}; its position is not trusted. {} again.", axis, what,
                        look.driving ? "still moves after a stop command, at" : "was stopped and stands at", place(look.lp),
-                       next.empty() ? " Home it before anything else" : " " + next + ", then home again", ".");
+                       next.empty() ? "Home it" : fmt::format("{}, then home", next));
 }
 
 }  // namespace motionrack::mcx314
