@@ -1,0 +1,180 @@
+// Jog, step, manual home: a small machine around single drive commands.
+#include <array>
+#include <fmt/format.h>
+#include <motionrack/cards/mcx314/driver/manual.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+constexpr StateInfo states[] = {
+    {"standing", "no manual drive"},
+    {"jogging", "a continuous drive that is renewed"},
+    {"turning", "decelerates, to jog on from rest"},
+    {"stepping", "a fixed drive"},
+    {"homing", "a homing that is renewed"},
+    {"stopping", "decelerates"},
+};
+constexpr TransitionInfo transitions[] = {
+    {"standing", "jogging", "jog()"},
+    {"standing", "stepping", "step_jog()"},
+    {"standing", "homing", "home()"},
+    {"jogging", "turning", "jog() the other way"},
+    {"jogging", "stopping", "not renewed, jog(0) or stop()"},
+    {"jogging", "standing", "the chip ended the drive"},
+    {"turning", "jogging", "the axis stands and the jog is renewed"},
+    {"turning", "stopping", "not renewed, jog(0) or stop()"},
+    {"turning", "standing", "the axis stands at a limit of the new direction"},
+    {"stepping", "standing", "the pulses are out, or the chip ended the drive"},
+    {"stepping", "stopping", "stop()"},
+    {"homing", "standing", "the homing has ended"},
+    {"stopping", "turning", "jog()"},
+    {"stopping", "standing", "the axis stands"},
+};
+constexpr MachineInfo machine = {"manual operation", "one axis moved by hand", states, transitions};
+static_assert(declared<machine_flaw(machine)>());
+
+}  // namespace
+
+const MachineInfo& manual_machine() { return machine; }
+
+Result<void> Manual::set(const ManualSettings& settings) {
+    struct Bound {
+        const char* name;
+        std::int64_t value, least, greatest;
+    };
+    const Bound bounds[] = {
+        {"the initial speed SV", settings.sv, 1, 8'000},
+        {"the acceleration A", settings.a, 1, 8'000},
+        {"the greatest speed", settings.most_v, 1, 8'000},
+        {"the time a jog is held, in ms,", settings.hold / milliseconds(1), 1, 10'000},
+    };
+    for (const Bound& bound : bounds)
+        if (bound.value < bound.least || bound.value > bound.greatest)
+            return fail(Trouble::refused, fmt::format("Manual operation of {}: {} is {}, but may be {} to {}. Nothing was changed.", name(), bound.name,
+                                                      bound.value, bound.least, bound.greatest));
+    if (state_ != ManualState::standing)
+        return fail(Trouble::refused, fmt::format("Manual operation of {}: it is {}. Nothing was changed; stop it first.", name(), state_name()));
+    settings_ = settings;
+    return {};
+}
+
+/// Whether a manual drive at `v` may start now, or go on.
+Result<void> Manual::check_ready(const char* what, std::int64_t v) {
+    const auto refuse = [&](const std::string& why) {
+        return fail(Trouble::refused, fmt::format("{} of {}: {}. Nothing was moved.", what, name(), why));
+    };
+    if (v == 0 || v > settings_.most_v || v < -settings_.most_v)
+        return refuse(fmt::format("the speed is {}, but may be 1 to {} in either direction", v, settings_.most_v));
+    if (state_ == ManualState::stepping || state_ == ManualState::homing) return refuse(fmt::format("it is {}; stop that first", state_name()));
+    if (state_ == ManualState::standing && driver_.moving(mask())) return refuse("it moves already, by another command; stop that first");
+    const AxisStatus status = driver_.axis_status(axis_);
+    if (field("RR2", "EMG").test(status.rr2)) return refuse("the emergency stop is active; release it");
+    if (field("RR2", "ALARM").test(status.rr2)) return refuse("its drive reports an alarm; clear it");
+    const bool negative = v < 0;
+    if ((negative ? field("RR2", "HLMTM") : field("RR2", "HLMTP")).test(status.rr2))
+        return refuse(fmt::format("it stands on the {} limit switch; move it in {} direction", negative ? "-" : "+", negative ? "+" : "-"));
+    if ((negative ? field("RR2", "SLMTM") : field("RR2", "SLMTP")).test(status.rr2))
+        return refuse(fmt::format("it is beyond the {} software limit; move it in {} direction", negative ? "-" : "+", negative ? "+" : "-"));
+    return {};
+}
+
+Result<void> Manual::begin_jog() {
+    why_.clear();
+    const bool negative = wanted_ < 0;
+    return driver_.TCurve_C(mask(), settings_.sv, negative ? -wanted_ : wanted_, settings_.a, negative);
+}
+
+Result<void> Manual::jog(std::int64_t v, Instant now) {
+    if (v == 0) {
+        if (state_ == ManualState::jogging || state_ == ManualState::turning) stop();
+        return {};
+    }
+    step(now);  // what has ended meanwhile
+    MOTIONRACK_CHECK(check_ready("Jog", v));
+    const bool turns = (v < 0) != (wanted_ < 0);
+    if (state_ == ManualState::standing) {
+        wanted_ = v;
+        MOTIONRACK_CHECK(begin_jog());
+        state_ = ManualState::jogging;
+    } else if (state_ == ManualState::jogging && !turns) {
+        if (v != wanted_) MOTIONRACK_CHECK(driver_.SetV(mask(), v < 0 ? -v : v));
+    } else if (state_ != ManualState::turning) {
+        driver_.SlowStop(mask());
+        state_ = ManualState::turning;
+    }
+    wanted_ = v;
+    until_ = now + settings_.hold;
+    return {};
+}
+
+Result<void> Manual::step_jog(std::int64_t pulses, std::int64_t v) {
+    if (state_ != ManualState::standing)
+        return fail(Trouble::refused, fmt::format("Step of {}: it is {}. Nothing was moved; stop it first.", name(), state_name()));
+    if (pulses == 0) return fail(Trouble::refused, fmt::format("Step of {}: it has 0 pulses. Nothing was moved.", name()));
+    if (v < 0) return fail(Trouble::refused, fmt::format("Step of {}: the speed is {}, but the sign belongs to the pulses. Nothing was moved.", name(), v));
+    MOTIONRACK_CHECK(check_ready("Step", pulses < 0 ? -v : v));
+    why_.clear();
+    MOTIONRACK_CHECK(driver_.TCurve_F(mask(), settings_.sv, v, settings_.a, pulses));
+    state_ = ManualState::stepping;
+    return {};
+}
+
+Result<void> Manual::home(const HomeSettings& settings, Instant now) {
+    if (state_ != ManualState::homing) {
+        if (state_ != ManualState::standing)
+            return fail(Trouble::refused, fmt::format("Manual home of {}: it is {}. Nothing was moved; stop it first.", name(), state_name()));
+        MOTIONRACK_CHECK(home_.start(settings, now));
+        why_.clear();
+        state_ = ManualState::homing;
+    }
+    until_ = now + settings_.hold;
+    return {};
+}
+
+void Manual::step(Instant now) {
+    if (state_ == ManualState::standing) return;
+    if (state_ == ManualState::homing) {
+        if (now >= until_) home_.stop();
+        home_.step(now);
+        if (home_.running()) return;
+        state_ = ManualState::standing;
+        if (!home_.homed()) why_ = home_.report().sentence;
+        return;
+    }
+    const bool held = now < until_;
+    if ((state_ == ManualState::jogging || state_ == ManualState::turning) && !held) stop();
+    if (driver_.moving(mask())) return;
+    why_ = driver_.axis_status(axis_).why_stopped();
+    if (state_ == ManualState::turning && held) {
+        state_ = ManualState::standing;
+        const Result<void> begun = [&]() -> Result<void> {
+            MOTIONRACK_CHECK(check_ready("Jog", wanted_));
+            return begin_jog();
+        }();
+        if (begun)
+            state_ = ManualState::jogging;
+        else
+            why_ = begun.error().message;
+        return;
+    }
+    state_ = ManualState::standing;
+}
+
+void Manual::stop() {
+    if (state_ == ManualState::homing) {
+        home_.stop();
+        until_ = Instant{0};
+        return;
+    }
+    driver_.SlowStop(mask());
+    if (state_ != ManualState::standing) state_ = ManualState::stopping;
+}
+
+void Manual::stop_now() {
+    if (state_ == ManualState::homing) home_.stop();
+    driver_.QuickStop(mask());
+    if (state_ != ManualState::standing && state_ != ManualState::homing) state_ = ManualState::stopping;
+}
+
+}  // namespace motionrack::mcx314
