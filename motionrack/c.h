@@ -10,13 +10,13 @@
  *         fprintf(stderr, "%s\n", mr_last_error());
  *         return 1;
  *     }
- *     mr_write16(rack, "c1", 0x0e, 0);           WR7: data, high word
- *     mr_write16(rack, "c1", 0x0c, 100);         WR6: data, low word
- *     mr_write16(rack, "c1", 0x00, 0x0106);      WR0: axis X, command 06h: P = 100
- *     mr_write16(rack, "c1", 0x00, 0x0120);      WR0: axis X, command 20h: drive + by P
- *     mr_advance_ns(rack, 1000000000);           a second passes
- *     mr_write16(rack, "c1", 0x00, 0x0110);      WR0: axis X, command 10h: LP to RR6, RR7
- *     mr_read16(rack, "c1", 0x0c, &low);         RR6: 100
+ *     mr_write16(rack, "c1", 0x0e, 0);        // WR7: data, high word
+ *     mr_write16(rack, "c1", 0x0c, 100);      // WR6: data, low word
+ *     mr_write16(rack, "c1", 0x00, 0x0106);   // WR0: axis X, command 06h: P = 100
+ *     mr_write16(rack, "c1", 0x00, 0x0120);   // WR0: axis X, command 20h: drive + by P
+ *     mr_advance_ns(rack, 1000000000);        // a second passes
+ *     mr_write16(rack, "c1", 0x00, 0x0110);   // WR0: axis X, command 10h: LP to RR6, RR7
+ *     mr_read16(rack, "c1", 0x0c, &low);      // RR6: 100
  *     mr_rack_close(rack);
  *
  * Errors. Every function that returns int returns MR_OK (0) or one of the codes below, and mr_last_error() then tells in
@@ -96,6 +96,95 @@ MR_API int mr_read16(mr_rack *rack, const char *card, uint32_t offset, uint16_t 
 MR_API int mr_write16(mr_rack *rack, const char *card, uint32_t offset, uint16_t value);
 MR_API int mr_read32(mr_rack *rack, const char *card, uint32_t offset, uint32_t *value);
 MR_API int mr_write32(mr_rack *rack, const char *card, uint32_t offset, uint32_t value);
+
+/* A register or value of a card by its name, without any effect; it takes no time.
+ *   "RR0"        as the card's reference page names it; one that exists once an axis is that of the axis whose registers
+ *                the bus shows
+ *   "x.RR1"      that of one axis, whatever the bus shows; also what was written: "x.WR2", "x.P", and counters: "x.LP",
+ *                "x.EP", and "x.CV", "x.CA", the present speed and acceleration, in the card's units
+ * Counters and positions are signed: cast *value to int64_t. An unknown name is told the ones that there are.
+ * MR_BAD_CALL. */
+MR_API int mr_peek(mr_rack *rack, const char *card, const char *register_name, uint64_t *value);
+
+/* ---- Wires ---- */
+
+/* Wires are called CARD.PIN ("c1.xlmtp"), NAME.END for the ends of an axis' parts ("X.limit_plus"), or "estop" (low while
+ * the button is pressed); the page of the rack file lists pins and ends. A digital wire is 0 or 1: the line's level, so
+ * that an input which acts at Low reads 0 while it acts. An analog wire is its value in SI units. */
+
+/* The level of a wire. MR_BAD_CALL (null, no such wire). */
+MR_API int mr_wire_get(mr_rack *rack, const char *wire, double *value);
+
+/* Drives a wire from outside, from this instant on: 0 or 1 for a digital one. What drove it before is cut off until the
+ * wire is released: value NAN. Inputs of cards, switches, the index track and estop can be driven. The two inputs of an
+ * encoder (xeca, xecb) are taken over together: the encoder is cut off, the other input keeps the level that it had, and
+ * the card counts what the inputs do until both are released; its counter goes on from where it is.
+ * MR_BAD_CALL (null, no such wire), MR_REFUSED (an output; another value). */
+MR_API int mr_wire_set(mr_rack *rack, const char *wire, double value);
+
+/* ---- The machine ---- */
+
+/* What is true of a part, whatever any counter says: "X.position_mm". The quantities of an axis (mm or deg by its kind):
+ *   position_mm       where the table is
+ *   speed_mm_s        how fast the rotor moves the table, signed
+ *   position_pulses   the rotor in microsteps from where it stood at the start
+ *   position_counts   what its encoder's tracks have counted since the start (with an encoder)
+ *   pulses            pulses that came to the motor, + less -
+ *   lost_pulses       pulses that the rotor did not follow
+ *   in_step           1 while the rotor follows the pulses, else 0
+ *   top_speed_mm_s    the greatest speed so far
+ *   limit_minus       1 while the machine is at that switch, whatever its wire shows (where there is one)
+ *   limit_plus        the same for the switch at the + end
+ *   home              the same for the home switch
+ * An unknown name is told the ones that there are. MR_BAD_CALL. */
+MR_API int mr_part_get(mr_rack *rack, const char *part_dot_quantity, double *value);
+
+/* Pushes a part by hand: position_mm (position_deg) and position_pulses can be set. A motor in step goes to the nearest
+ * place of the same electrical phase, a multiple of four full steps away, as a real one under current does; so read the
+ * quantity to see where it came to.
+ * MR_BAD_CALL; MR_REFUSED (cannot be set; no number; more than 10,000,000 microsteps away). */
+MR_API int mr_part_set(mr_rack *rack, const char *part_dot_quantity, double value);
+
+/* Breaks something on purpose, or mends it: fault "NAME" or "NAME=VALUE" (without a value: 1), target the axis ("X").
+ *   motor.stall              the axle is held fast; 0 lets it go
+ *   motor.lose_steps         the rotor falls back by about VALUE pulses (whole electrical cycles), at most 10,000,000
+ *   motor.push               the rotor is moved by about VALUE microsteps, at most 10,000,000 either way
+ *   encoder.broken_a         track A reads Low; 0 mends it. One fault of the encoder at a time
+ *   encoder.broken_b         track B reads Low
+ *   encoder.swapped          the tracks are crossed over
+ *   limit_minus.stuck_open   the switch never acts; 0 mends it
+ *   limit_minus.stuck_closed the switch always acts
+ *   limit_plus.stuck_open    and so on
+ *   limit_plus.stuck_closed
+ *   home.stuck_open
+ *   home.stuck_closed
+ * MR_BAD_CALL (null, no such fault or target), MR_REFUSED (the axis has no such part; the value). */
+MR_API int mr_fault(mr_rack *rack, const char *fault, const char *target);
+
+/* ---- The whole world ---- */
+
+/* Makes a copy of the whole world, cards, wires, machine, time: a rack of its own that must be closed by itself. The same
+ * calls from here on do the same in both. A recording stays with the first. *copy is set to NULL if it fails.
+ * MR_BAD_CALL, MR_INTERNAL. */
+MR_API int mr_snapshot(mr_rack *rack, mr_rack **copy);
+
+/* Equal worlds have equal hashes: time, cards, wires, parts and the history of the wires. How the time was cut into calls
+ * of mr_advance_ns does not matter. A recording may be seen in it (pins that cards drive on demand are driven for it),
+ * so compare worlds that were recorded alike. 0 for NULL. */
+MR_API uint64_t mr_state_hash(const mr_rack *rack);
+
+/* ---- Recordings ---- */
+
+/* Begins to record signals into a file: *.vcd (for GTKWave, PulseView, sigrok-cli; unit of time 100 ns) or *.csv (time_s,
+ * signal, value: each change a line). `signals`: patterns with * and ?, separated by blanks or commas ("X.* c1.xlmtp");
+ * NULL or "": every wire, the pulses of each axis (X.step, X.dir), its encoder tracks (X.enc_a, X.enc_b) and the card's
+ * counters (c1.xlp, c1.xep), these once a millisecond. Pins that a card drives on demand (c1.xpp) are recorded if a
+ * pattern names them. One recording at a time.
+ * MR_BAD_CALL (null, no signal fits), MR_REFUSED (another ending, .h5 among them; one runs already), MR_IO. */
+MR_API int mr_trace_start(mr_rack *rack, const char *path, const char *signals);
+
+/* Ends the recording and its file. MR_BAD_CALL, MR_REFUSED (none runs), MR_IO (the file could not be written whole). */
+MR_API int mr_trace_stop(mr_rack *rack);
 
 #ifdef __cplusplus
 }

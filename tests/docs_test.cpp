@@ -122,7 +122,7 @@ TEST(Docs, EveryExampleFolderIsInTheIndexAndComplete) {
         if (!entry.is_directory() || name[0] != '0') continue;
         EXPECT_NE(index.find("(" + name + "/README.md)"), std::string::npos) << name;
         EXPECT_TRUE(fs::exists(entry.path() / "README.md")) << name;
-        const bool built = fs::exists(entry.path() / "main.cpp");
+        const bool built = fs::exists(entry.path() / "main.cpp") || fs::exists(entry.path() / "main.c");
         for (const char* file : {"command", "expected.txt", "exit_code"})
             EXPECT_TRUE(built || fs::exists(entry.path() / file)) << name << " " << file;
         ++folders;

@@ -60,6 +60,12 @@ TEST(Examples, TheLibraryExampleEndsWhereItsProgramSays) {
     EXPECT_NE(ran.out.find("Y 15.0000 mm"), std::string::npos) << ran.out;
 }
 
+TEST(Examples, TheCExamplePrintsWhatItsFolderSays) {
+    const Ran ran = run(examples, MOTIONRACK_C_EXAMPLE);
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.out, text_of(examples / "07_c" / "expected.txt"));
+}
+
 TEST(Examples, TheBuiltInExampleIsThePart) {
     const Ran built_in = run(examples, std::string(MOTIONRACK_PROGRAM) + " run --no-report");
     EXPECT_EQ(built_in.code, 0);
@@ -82,6 +88,45 @@ TEST(CommandLine, ExitCodesTellWhatWentWrong) {
     EXPECT_EQ(run(examples, program + " describe mcx315").code, 1);
     EXPECT_TRUE(nlohmann::json::accept(run(examples, program + " describe mcx314 --json").out));
     EXPECT_TRUE(nlohmann::json::accept(run(examples, program + " run --json --no-report").out));
+}
+
+/// What a run with these options prints, errors and warnings included.
+Ran run_with(const std::string& options) {
+    return run(examples, std::string(MOTIONRACK_PROGRAM) + " run 01_first_move/first_move.ngc --no-report -q " + options + " 2>&1");
+}
+
+TEST(CommandLine, FaultsHappenAtTheirInstantAndEventsAreWritten) {
+    const auto events = std::filesystem::temp_directory_path() / "motionrack_events_test.csv";
+    const Ran stopped = run_with("--fault X.limit_plus=0@0.25s --events '" + events.string() + "'");
+    EXPECT_EQ(stopped.code, 4);
+    EXPECT_NE(stopped.out.find("the + limit switch was reached"), std::string::npos) << stopped.out;
+    const std::string written = text_of(events);
+    EXPECT_EQ(written.rfind("time_s,event,line,x_mm,y_mm,z_mm,text\r\n", 0), 0u) << written;
+    EXPECT_NE(written.find(",stop,3,"), std::string::npos) << written;
+    std::filesystem::remove(events);
+
+    const Ran lost = run_with("--fault X.motor.lose_steps=64@100ms --fault X.home=release@99s");
+    EXPECT_EQ(lost.code, 4);
+    EXPECT_NE(lost.out.find("lost 64 pulses"), std::string::npos) << lost.out;
+    EXPECT_NE(lost.out.find("at 0.100000 s"), std::string::npos) << lost.out;
+    EXPECT_NE(lost.out.find("ended before the fault X.home=release@99s"), std::string::npos) << lost.out;
+}
+
+TEST(CommandLine, FaultsThatCannotHappenAreRefusedBeforeAnythingMoves) {
+    struct Case {
+        const char* option;
+        const char* said;
+    };
+    for (const Case& c : {Case{"X.limit_plus=0", "needs its time"}, Case{"X.limit_plus=0@1", "needs its time"}, Case{"@1s", "neither"},
+                          Case{"X.limit_plus=0@-1s", "needs its time"}, Case{"X.limit_plus=nan@1e99s", "needs its time"},
+                          Case{"X.limit_plus=high@1s", "0, 1 or release"}, Case{"X.limit_plus=2@1s", "0 or 1"},
+                          Case{"X.limitplus=0@1s", "did you mean 'X.limit_plus'?"}, Case{"Q.motor.stall@1s", "X, Y, Z, A"},
+                          Case{"X.motor.stal@1s", "motor.stall"}, Case{"motion.xpp=1@1s", "output"}, Case{"A.limit_plus.stuck_open@1s", "Axis A"}}) {
+        const Ran refused = run_with(std::string("--fault '") + c.option + "'");
+        EXPECT_TRUE(refused.code == 2 || refused.code == 3) << c.option << ": " << refused.code;
+        EXPECT_NE(refused.out.find(c.said), std::string::npos) << refused.out;
+        EXPECT_EQ(refused.out.find("pulses  "), std::string::npos) << "no summary";
+    }
 }
 
 TEST(CommandLine, InterruptedItStopsAlongThePathAndKeepsTheReport) {

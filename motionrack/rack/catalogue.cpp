@@ -1,9 +1,13 @@
 // The kinds of card a rack can hold: one line a card.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <motionrack/cards/mcx314/axes/axes.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/rack/catalogue.hpp>
+#include <motionrack/rack/toml_reader.hpp>
 #include <optional>
 
 namespace motionrack::rack {
@@ -31,11 +35,13 @@ class Mcx314Card final : public Card {
     void bus_write(int, std::uint32_t address, std::uint32_t value) override {
         port_.write(address, static_cast<std::uint16_t>(value));
     }
+    Result<std::int64_t> inspect(std::string_view name) const override;
     int channel_count() const override { return mcx314::channel_count; }
     std::string channel_name(int channel) const override { return std::string(1, "xyzu"[channel]); }
     int channel_number(std::string_view channel) const override { return static_cast<int>(std::string_view("xyzu").find(channel)); }
     sim::Motion& pulses(int channel) override { return chip_.pulses(channel); }
     void connect_encoder(int channel, sim::Motion& counts) override { chip_.connect_encoder(channel, counts); }
+    void take_encoder(int channel, bool taken) override { chip_.take_encoder(channel, taken); }
     sim::VirtualPort& port() override { return port_; }
 
     Result<control::PathAxes*> path_axes(const RackConfig& config, const control::Point& position) override {
@@ -72,6 +78,24 @@ class Mcx314Card final : public Card {
     mcx314::Driver driver_;
     std::optional<mcx314::Axes> axes_;
 };
+
+Result<std::int64_t> Mcx314Card::inspect(std::string_view name) const {
+    const auto one_of = [](std::string_view searched, bool per_axis) {
+        const auto names = mcx314::Chip::inspected_names(per_axis);
+        return std::find(names.begin(), names.end(), searched) != names.end();
+    };
+    const std::size_t channel = name.size() > 2 && name[1] == '.' ? std::string_view("xyzu").find(name[0]) : std::string_view::npos;
+    if (channel != std::string_view::npos && one_of(name.substr(2), true))
+        return *chip_.inspect(name.substr(2), static_cast<int>(channel));
+    if (one_of(name, false)) return *chip_.inspect(name, 0);
+    // Without an axis: that of the axis whose registers the bus shows.
+    for (const RegisterInfo& reg : map().registers)
+        if (reg.name == name && reg.access != Access::write) return chip_.peek(reg.offset);
+    return fail(Trouble::bad_input,
+                fmt::format("Card {} has no value {}; it has {}, and with x. y. z. or u. in front {}. Nothing was done.", name_,
+                            in_quotes(name), fmt::join(mcx314::Chip::inspected_names(false), ", "),
+                            fmt::join(mcx314::Chip::inspected_names(true), ", ")));
+}
 
 template <class T>
 std::unique_ptr<Card> make(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log) {

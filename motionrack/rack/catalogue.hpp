@@ -31,6 +31,9 @@ class Card {
     /// One access of the host, of one of these widths and at an address that the map declares; it takes the bus its time.
     virtual std::uint32_t bus_read(int bits, std::uint32_t address) = 0;
     virtual void bus_write(int bits, std::uint32_t address, std::uint32_t value) = 0;
+    /// A value by its name, without effects: a register or value of the card ("RR0"), of one channel with the channel's
+    /// name and a dot in front ("x.RR1", "x.LP"). Counts are signed. Errors: bad_input with the names that there are.
+    virtual Result<std::int64_t> inspect(std::string_view name) const = 0;
     virtual int channel_count() const = 0;
     virtual std::string channel_name(int channel) const = 0;
     /// Number of a channel by its name in the rack file.
@@ -38,6 +41,9 @@ class Card {
     /// Pulses of a channel, as a function of time.
     virtual sim::Motion& pulses(int channel) = 0;
     virtual void connect_encoder(int channel, sim::Motion& counts) = 0;
+    /// Cuts the connected encoder of a channel off and forces its inputs to the levels that it has (`taken`), or releases
+    /// them and puts it back. In between what the inputs are forced to counts.
+    virtual void take_encoder(int channel, bool taken) = 0;
     /// The bus with its interrupt line.
     virtual sim::VirtualPort& port() = 0;
     /// The card's axes as a group that follows paths, set up at `position`; `channel[i]` moves axis i of the rack.

@@ -2,17 +2,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/quantities.hpp>
 #include <motionrack/rack/session.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
 namespace motionrack::rack {
 
-Session::Session(const RackConfig& config) : rack_(config), tap_(std::make_unique<WireTap>(rack_.kernel())) {
+Session::Session(const RackConfig& config)
+    : rack_(config), tap_(std::make_unique<WireTap>(rack_.kernel())), desk_(rack_) {
     rack_.input_log().keep_no_more();
     rack_.start();
 }
 
-Session::~Session() = default;
+Session::~Session() { static_cast<void>(stop_trace()); }
 
 Result<std::unique_ptr<Session>> Session::open(std::string_view path_or_text) {
     const RackReading reading = read_rack(path_or_text);
@@ -46,8 +49,23 @@ Result<void> Session::advance(std::uint64_t ns) {
 }
 
 void Session::run_to(Instant until) {
-    while (rack_.kernel().run_until(until) == sim::RunEnd::broken) {
-    }
+    for (look(); next_look_ < until; look()) run_slice(next_look_);
+    run_slice(until);
+    look();
+}
+
+void Session::run_slice(Instant until) {
+    while (rack_.kernel().run_until(until) == sim::RunEnd::broken)
+        if (recorder_) recorder_->drain();
+}
+
+/// Where a recording is due to look at the registers, it does, and puts what it has on the disk.
+void Session::look() {
+    if (now() < next_look_) return;
+    recorder_->look();
+    recorder_->drain();
+    const Duration period = recorder_->register_period();
+    next_look_ = (now() / period + 1) * period;
 }
 
 // ---- the bus ----------------------------------------------------------------------------------------------------------
@@ -83,14 +101,64 @@ Result<Card*> Session::bus_of(std::string_view name, int bits, std::uint32_t add
 Result<std::uint32_t> Session::read(std::string_view card, int bits, std::uint32_t address) {
     MOTIONRACK_TRY(Card * on, bus_of(card, bits, address, false));
     MOTIONRACK_CHECK(room_for(milliseconds(1)));
-    return on->bus_read(bits, address);
+    const std::uint32_t value = on->bus_read(bits, address);
+    look();
+    return value;
 }
 
 Result<void> Session::write(std::string_view card, int bits, std::uint32_t address, std::uint32_t value) {
     MOTIONRACK_TRY(Card * on, bus_of(card, bits, address, true));
     MOTIONRACK_CHECK(room_for(milliseconds(1)));
     on->bus_write(bits, address, value);
+    look();
     return {};
+}
+
+Result<std::int64_t> Session::peek(std::string_view card, std::string_view name) {
+    MOTIONRACK_TRY(const Card* on, find_card(card));
+    return on->inspect(name);
+}
+
+// ---- parts, copies, recordings ----------------------------------------------------------------------------------------
+
+Result<double> Session::part(std::string_view part_dot_quantity) { return get_quantity(rack_, part_dot_quantity); }
+
+Result<void> Session::set_part(std::string_view part_dot_quantity, double value) {
+    return set_quantity(rack_, part_dot_quantity, value);
+}
+
+Result<void> Session::fault(std::string_view fault, std::string_view target) { return inject_fault(rack_, fault, target); }
+
+std::unique_ptr<Session> Session::copy() {
+    std::unique_ptr<Session> out(new Session(rack_.config()));
+    out->rack_.kernel().restore(rack_.kernel().snapshot());
+    out->desk_.copy_from(desk_);
+    return out;
+}
+
+Result<void> Session::start_trace(const std::string& path, std::string_view signals) {
+    if (recorder_)
+        return fail(Trouble::refused, "A recording runs already; stop it before the next one is started. It goes on.");
+    WaveSettings settings;
+    settings.path = path;
+    MOTIONRACK_TRY(settings.format, wave_format(path));
+    settings.tap = tap_.get();
+    constexpr std::string_view between = " ,\t\n";
+    for (std::size_t at = 0; (at = signals.find_first_not_of(between, at)) != std::string_view::npos;) {
+        const std::size_t end = std::min(signals.find_first_of(between, at), signals.size());
+        settings.signals.emplace_back(signals.substr(at, end - at));
+        at = end;
+    }
+    MOTIONRACK_TRY(recorder_, WaveRecorder::create(rack_, settings));
+    next_look_ = now();
+    return {};
+}
+
+Result<void> Session::stop_trace() {
+    if (!recorder_) return fail(Trouble::refused, "No recording runs; nothing was done.");
+    const std::unique_ptr<WaveRecorder> ended = std::move(recorder_);
+    next_look_ = never;
+    return ended->finish();
 }
 
 }  // namespace motionrack::rack

@@ -1,7 +1,10 @@
 // A running rack as programs outside of it use it: by names and plain numbers, every mistake an error, nothing aborts.
 //
-//   outside ──► Session ──► card's bus, registers by name
-//                      ──► Kernel: time
+//               ┌──► Card: bus accesses, registers by name
+//               ├──► WireDesk: pins, switches
+//   outside ──► Session ──► quantities, faults: the machine
+//               ├──► WaveRecorder: recordings
+//               └──► Kernel: time, copies, hash
 //
 // What the C interface (motionrack/c.h) gives to other languages; one thread at a time.
 #pragma once
@@ -10,6 +13,7 @@
 #include <memory>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/rack/wire_desk.hpp>
 #include <string>
 #include <string_view>
 
@@ -37,6 +41,34 @@ class Session {
     Result<std::uint32_t> read(std::string_view card, int bits, std::uint32_t address);
     Result<void> write(std::string_view card, int bits, std::uint32_t address, std::uint32_t value);
 
+    /// A register or value of a card by its name, without effects: see Card::inspect. Takes no time. Errors: bad_input.
+    Result<std::int64_t> peek(std::string_view card, std::string_view name);
+
+    // ---- wires and parts ----
+    /// See WireDesk.
+    Result<double> wire(std::string_view name) const { return desk_.get(name); }
+    Result<void> set_wire(std::string_view name, double value) { return desk_.set(name, value); }
+    /// See quantities.hpp.
+    Result<double> part(std::string_view part_dot_quantity);
+    Result<void> set_part(std::string_view part_dot_quantity, double value);
+    /// See faults.hpp.
+    Result<void> fault(std::string_view fault, std::string_view target);
+
+    // ---- the whole world ----
+    /// A world of its own in the same state: the same calls from here on do the same in both. A recording stays with
+    /// this one.
+    std::unique_ptr<Session> copy();
+    /// Equal worlds, equal hash: time, cards, wires, parts, conditions told, and the history of the wires.
+    std::uint64_t state_hash() { return rack_.kernel().state_hash(); }
+
+    // ---- recordings ----
+    /// Begins one; its name ends in .vcd or .csv. `signals`: patterns with * and ?, separated by blanks or commas; empty:
+    /// all but the pins that cards drive on demand. Errors: refused (one runs already, the name's ending), bad_input (no
+    /// signal fits), io.
+    Result<void> start_trace(const std::string& path, std::string_view signals);
+    /// Ends it. Errors: refused (none runs), io.
+    Result<void> stop_trace();
+
   private:
     explicit Session(const RackConfig& config);
     Instant now() const { return rack_.kernel().now(); }
@@ -44,9 +76,14 @@ class Session {
     Result<Card*> bus_of(std::string_view card, int bits, std::uint32_t address, bool writing);
     Result<void> room_for(Duration time) const;
     void run_to(Instant until);
+    void run_slice(Instant until);
+    void look();
 
     Rack rack_;
     std::unique_ptr<WireTap> tap_;
+    WireDesk desk_;
+    std::unique_ptr<WaveRecorder> recorder_;
+    Instant next_look_ = never;  // of the recorder at the registers
 };
 
 }  // namespace motionrack::rack

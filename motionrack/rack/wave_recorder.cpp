@@ -195,6 +195,10 @@ void WaveRecorder::begin() {
 }
 
 void WaveRecorder::push(Instant at, std::size_t signal, std::uint64_t value) {
+    if (buffer_.size() == buffer_size) {
+        ++lost_;
+        return;
+    }
     buffer_.push_back({at, signal, value});
     if (buffer_.size() > buffer_size / 2) rack_.kernel().break_run();
 }
@@ -242,7 +246,9 @@ Result<void> WaveRecorder::finish() {
     stop_listening();
     look();
     drain();
-    return sink_->close(std::max(rack_.kernel().now(), last_));
+    const Result<void> closed = sink_->close(std::max(rack_.kernel().now(), last_));
+    if (!closed || lost_ == 0) return closed;
+    return fail(Trouble::io, fmt::format("{} changes came at one instant, more than a recording can hold, and were left out.", lost_));
 }
 
 }  // namespace motionrack::rack

@@ -110,6 +110,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     std::vector<Counter> counters_;
     std::vector<Event> buffer_;
     std::uint64_t changes_ = 0;
+    std::uint64_t lost_ = 0;
     Instant last_{};
 };
 

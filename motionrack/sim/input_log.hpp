@@ -16,6 +16,7 @@ struct Input {
     std::uint16_t target = 0;  ///< device or wire number
     std::uint32_t offset = 0;  ///< register offset, or the fault's number
     std::uint16_t value = 0;
+    double amount = 0;  ///< the fault's parameter
     friend bool operator==(const Input&, const Input&) = default;
 };
 

@@ -80,6 +80,7 @@ class Kernel {
     /// Holds a wire at `level` whatever drives it (a stuck line, a hand on a switch) until release.
     void force(WireId wire, int level);
     void release(WireId wire);
+    bool forced(WireId wire) const { return wire_state_[index(wire)].forced != 0; }
     /// Runs what is due at this very instant (after a port access or a forced wire).
     void settle();
 

@@ -2,9 +2,12 @@
 #include <motionrack/c.h>
 
 #include <exception>
+#include <initializer_list>
 #include <memory>
 #include <motionrack/rack/session.hpp>
+#include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 
 struct mr_rack {
@@ -41,8 +44,15 @@ int code_of(Trouble trouble) {
     return MR_INTERNAL;
 }
 
-int null_pointer(const char* what) noexcept {
-    return failed(MR_BAD_CALL, std::string_view(what));
+/// The sentence for the first of these pointers that is null, or nullptr.
+struct Pointer {
+    const void* pointer;
+    const char* sentence;
+};
+const char* first_null(std::initializer_list<Pointer> pointers) noexcept {
+    for (const Pointer& each : pointers)
+        if (each.pointer == nullptr) return each.sentence;
+    return nullptr;
 }
 
 /// Runs `call`, which gives a Result; whatever it throws becomes an error.
@@ -60,37 +70,54 @@ int guarded(Call call) noexcept {
     }
 }
 
-constexpr const char* no_rack = "The rack is a null pointer; open one with mr_rack_open. Nothing was done.";
-constexpr const char* no_name = "A name is a null pointer. Nothing was done.";
-constexpr const char* no_value = "There is no place for the value: it is a null pointer. Nothing was done.";
+/// The same, after it was made sure that none of these pointers is null.
+template <class Call>
+int guarded(std::initializer_list<Pointer> pointers, Call call) noexcept {
+    if (const char* sentence = first_null(pointers)) return failed(MR_BAD_CALL, sentence);
+    return guarded(call);
+}
 
-template <class Word>
-int read(mr_rack* rack, const char* card, std::uint32_t address, Word* value) {
-    if (rack == nullptr) return null_pointer(no_rack);
-    if (card == nullptr) return null_pointer(no_name);
-    if (value == nullptr) return null_pointer(no_value);
-    return guarded([&]() -> Result<void> {
-        MOTIONRACK_TRY(const std::uint32_t read, rack->session->read(card, 8 * static_cast<int>(sizeof(Word)), address));
-        *value = static_cast<Word>(read);
+/// Where `call` gives a value, it is put there.
+template <class Value, class Call>
+int fetched(std::initializer_list<Pointer> pointers, Value* value, Call call) noexcept {
+    return guarded(pointers, [&]() -> Result<void> {
+        MOTIONRACK_TRY(const auto got, call());
+        *value = static_cast<Value>(got);
         return {};
     });
 }
 
+constexpr const char* no_rack = "The rack is a null pointer; open one with mr_rack_open. Nothing was done.";
+constexpr const char* no_card = "The card's name is a null pointer. Nothing was done.";
+constexpr const char* no_name = "A name is a null pointer. Nothing was done.";
+constexpr const char* no_file = "The file's name is a null pointer. Nothing was done.";
+constexpr const char* no_text = "The rack file is a null pointer. Nothing was done.";
+constexpr const char* no_value = "There is no place for the value: it is a null pointer. Nothing was done.";
+constexpr const char* no_place = "There is no place for the rack: it is a null pointer. Nothing was done.";
+
+template <class Word>
+constexpr int bits_of = 8 * static_cast<int>(sizeof(Word));
+
+template <class Word>
+int read(mr_rack* rack, const char* card, std::uint32_t address, Word* value) {
+    return fetched({{rack, no_rack}, {card, no_card}, {value, no_value}}, value,
+                   [&] { return rack->session->read(card, bits_of<Word>, address); });
+}
+
 template <class Word>
 int write(mr_rack* rack, const char* card, std::uint32_t address, Word value) {
-    if (rack == nullptr) return null_pointer(no_rack);
-    if (card == nullptr) return null_pointer(no_name);
-    return guarded([&] { return rack->session->write(card, 8 * static_cast<int>(sizeof(Word)), address, value); });
+    return guarded({{rack, no_rack}, {card, no_card}},
+                   [&] { return rack->session->write(card, bits_of<Word>, address, value); });
 }
 
 }  // namespace
 
+// ---- racks and time ---------------------------------------------------------------------------------------------------
+
 int mr_rack_open(const char* toml_path_or_text, mr_rack** out) {
-    if (out == nullptr) return null_pointer("There is no place for the rack: it is a null pointer. Nothing was done.");
-    *out = nullptr;
-    if (toml_path_or_text == nullptr) return null_pointer("The rack file is a null pointer. Nothing was done.");
+    if (out != nullptr) *out = nullptr;
     bool wrong_text = false;
-    const int code = guarded([&]() -> Result<void> {
+    const int code = guarded({{toml_path_or_text, no_text}, {out, no_place}}, [&]() -> Result<void> {
         auto session = Session::open(toml_path_or_text);
         if (!session) {
             wrong_text = session.error().trouble == Trouble::bad_input;
@@ -111,15 +138,16 @@ const char* mr_last_error(void) {
 }
 
 int mr_advance_ns(mr_rack* rack, uint64_t ns) {
-    if (rack == nullptr) return null_pointer(no_rack);
-    return guarded([&] { return rack->session->advance(ns); });
+    return guarded({{rack, no_rack}}, [&] { return rack->session->advance(ns); });
 }
 
 uint64_t mr_now_ns(const mr_rack* rack) {
     if (rack != nullptr) return rack->session->now_ns();
-    null_pointer(no_rack);
+    failed(MR_BAD_CALL, no_rack);
     return 0;
 }
+
+// ---- the bus ----------------------------------------------------------------------------------------------------------
 
 int mr_read8(mr_rack* rack, const char* card, uint32_t port, uint8_t* value) { return read(rack, card, port, value); }
 int mr_write8(mr_rack* rack, const char* card, uint32_t port, uint8_t value) { return write(rack, card, port, value); }
@@ -127,3 +155,58 @@ int mr_read16(mr_rack* rack, const char* card, uint32_t offset, uint16_t* value)
 int mr_write16(mr_rack* rack, const char* card, uint32_t offset, uint16_t value) { return write(rack, card, offset, value); }
 int mr_read32(mr_rack* rack, const char* card, uint32_t offset, uint32_t* value) { return read(rack, card, offset, value); }
 int mr_write32(mr_rack* rack, const char* card, uint32_t offset, uint32_t value) { return write(rack, card, offset, value); }
+
+int mr_peek(mr_rack* rack, const char* card, const char* register_name, uint64_t* value) {
+    return fetched({{rack, no_rack}, {card, no_card}, {register_name, no_name}, {value, no_value}}, value,
+                   [&] { return rack->session->peek(card, register_name); });
+}
+
+// ---- wires and parts --------------------------------------------------------------------------------------------------
+
+int mr_wire_get(mr_rack* rack, const char* wire, double* value) {
+    return fetched({{rack, no_rack}, {wire, no_name}, {value, no_value}}, value, [&] { return rack->session->wire(wire); });
+}
+
+int mr_wire_set(mr_rack* rack, const char* wire, double value) {
+    return guarded({{rack, no_rack}, {wire, no_name}}, [&] { return rack->session->set_wire(wire, value); });
+}
+
+int mr_part_get(mr_rack* rack, const char* part_dot_quantity, double* value) {
+    return fetched({{rack, no_rack}, {part_dot_quantity, no_name}, {value, no_value}}, value,
+                   [&] { return rack->session->part(part_dot_quantity); });
+}
+
+int mr_part_set(mr_rack* rack, const char* part_dot_quantity, double value) {
+    return guarded({{rack, no_rack}, {part_dot_quantity, no_name}},
+                   [&] { return rack->session->set_part(part_dot_quantity, value); });
+}
+
+int mr_fault(mr_rack* rack, const char* fault, const char* target) {
+    return guarded({{rack, no_rack}, {fault, no_name}, {target, no_name}},
+                   [&] { return rack->session->fault(fault, target); });
+}
+
+// ---- the whole world --------------------------------------------------------------------------------------------------
+
+int mr_snapshot(mr_rack* rack, mr_rack** copy) {
+    if (copy != nullptr) *copy = nullptr;
+    return guarded({{rack, no_rack}, {copy, no_place}}, [&]() -> Result<void> {
+        *copy = new mr_rack{rack->session->copy()};
+        return {};
+    });
+}
+
+int mr_trace_start(mr_rack* rack, const char* path, const char* signals) {
+    return guarded({{rack, no_rack}, {path, no_file}},
+                   [&] { return rack->session->start_trace(path, signals == nullptr ? "" : signals); });
+}
+
+int mr_trace_stop(mr_rack* rack) {
+    return guarded({{rack, no_rack}}, [&] { return rack->session->stop_trace(); });
+}
+
+uint64_t mr_state_hash(const mr_rack* rack) {
+    if (rack != nullptr) return rack->session->state_hash();
+    failed(MR_BAD_CALL, no_rack);
+    return 0;
+}

@@ -8,6 +8,7 @@
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/rack/fault_plan.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/job_report.hpp>
 #include <motionrack/rack/wave_recorder.hpp>
@@ -25,8 +26,8 @@ std::atomic<bool> stop_asked{false};
 void on_interrupt(int) { stop_asked.store(true); }
 
 struct RunOptions {
-    std::string program, rack, report = "report.html", vcd, csv;
-    std::vector<std::string> signals;
+    std::string program, rack, report = "report.html", vcd, csv, events;
+    std::vector<std::string> signals, faults;
     double timescale_ns = 100;
     bool json = false, quiet = false, no_report = false, block_delete = false, stream = false;
 };
@@ -48,19 +49,17 @@ int write_results(rack::Rack& rack, const rack::Job& job, const rack::JobOutcome
     int code = exit_done;
     std::vector<std::string> written;
     trace::ReportData data;
-    if (!options.no_report || !options.csv.empty()) data = rack::report_of(rack, job, outcome, text, name);
-    if (!options.no_report) {
-        if (const Result<void> done = trace::write_report(data, options.report); !done)
+    if (!options.no_report || !options.csv.empty() || !options.events.empty()) data = rack::report_of(rack, job, outcome, text, name);
+    const auto write = [&](const std::string& path, const auto& writer) {
+        if (path.empty()) return;
+        if (const Result<void> done = writer(data, path); !done)
             code = report(done.error());
         else
-            written.push_back(options.report);
-    }
-    if (!options.csv.empty()) {
-        if (const Result<void> done = trace::write_csv(data, options.csv); !done)
-            code = report(done.error());
-        else
-            written.push_back(options.csv);
-    }
+            written.push_back(path);
+    };
+    write(options.no_report ? std::string() : options.report, trace::write_report);
+    write(options.csv, trace::write_csv);
+    write(options.events, trace::write_events_csv);
     if (!options.vcd.empty()) written.push_back(options.vcd);
     if (!options.json && !written.empty() && !options.quiet) fmt::print("\nwritten: {}\n", fmt::join(written, ", "));
     return code;
@@ -81,6 +80,8 @@ int run(const RunOptions& options) {
     rack::Rack rack(*config);
     std::unique_ptr<rack::WaveRecorder> recorder;
     if (const int bad = prepare_recorder(rack, options, recorder); bad != exit_done) return bad;
+    const auto faults = rack::FaultPlan::create(rack, options.faults);
+    if (!faults) return report(faults.error());
     ProgressLine progress(options.quiet || options.json);
     rack::JobSettings job_settings;
     job_settings.program = text;
@@ -90,10 +91,14 @@ int run(const RunOptions& options) {
     job_settings.progress = [&progress](const rack::JobProgress& p) {
         progress.show(static_cast<double>(p.line) / static_cast<double>(p.lines), fmt::format("line {} of {}, {:.2f} s", p.line, p.lines, p.seconds));
     };
-    if (recorder) job_settings.on_slice = [&recorder] { recorder->drain(); };
+    job_settings.on_slice = [&recorder, &faults] {
+        if (recorder) recorder->drain();
+        (*faults)->apply_due();
+    };
     rack::Job job(rack, job_settings);
     rack.start();
     if (recorder) recorder->begin();
+    (*faults)->begin();
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
     const rack::JobOutcome outcome = job.run();
@@ -107,6 +112,8 @@ int run(const RunOptions& options) {
         for (std::size_t i = 0; i < outcome.warnings.size() && i < warnings_shown; ++i) print_warning(outcome.warnings[i].text);
         if (outcome.warnings.size() > warnings_shown)
             print_warning(fmt::format("{} more are in the report", outcome.warnings.size() - warnings_shown));
+        for (const std::string& fault : (*faults)->not_reached())
+            print_warning(fmt::format("the run ended before the fault {}", fault));
     }
     const int wrote = write_results(rack, job, outcome, options, text, name);
     if (code == exit_done) code = wrote;
@@ -118,6 +125,9 @@ void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
     command->add_option("--signals", options->signals, "signals for the VCD file, patterns with * and ? (default: all): X.step, X.enc_?, motion.*");
     command->add_option("--timescale-ns", options->timescale_ns, "time unit of the VCD file: 0.1, 1, 10, 100 or 1000 ns")->capture_default_str();
     command->add_option("--csv", options->csv, "write the samples (position, speed, deviation every ms) as CSV");
+    command->add_option("--events", options->events, "write what happened (blocks, warnings, the stop) as CSV");
+    command->add_option("--fault", options->faults, "break something on the way, NAME=VALUE@TIME: X.limit_plus=0@0.5s, X.encoder.broken_a@1s")
+        ->allow_extra_args(false);
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
     command->add_flag("--stream", options->stream, "move line by line as it is read, without checking the whole program first");
     command->add_flag("--json", options->json, "print the summary as JSON");
@@ -134,7 +144,8 @@ void add_run(CLI::App& app, Action& chosen) {
     command->add_flag("--no-report", options->no_report, "write no report");
     command->add_option("--vcd", options->vcd, "write the waves as a VCD file");
     add_common(command, options);
-    command->footer("Example: motionrack run part.ngc --rack my.toml --report part.html\nCtrl-C brings the axes to rest along the path and keeps "
+    command->footer("Example: motionrack run part.ngc --rack my.toml --report part.html\n"
+                    "Example: motionrack run part.ngc --fault X.motor.lose_steps=64@1.5s --fault X.limit_plus=0@2s --events events.csv\nCtrl-C brings the axes to rest along the path and keeps "
                     "what was recorded.");
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -16,7 +16,10 @@
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/register_device.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace motionrack::mcx314 {
 
@@ -24,10 +27,7 @@ namespace motionrack::mcx314 {
 enum ChipCondition : std::uint16_t {
     drive_ignored = 1,   ///< a: command, b: axis that is driving
     path_ignored = 2,    ///< a: command; queue full, axis busy or named twice
-    unknown_command = 3,   ///< a: command
-    pattern_full = 4,      ///< 38h with three words stacked
-    pattern_ran_out = 5,   ///< a: basic pulses made; the bit pattern ended without its end code
-    step_ignored = 6       ///< 3Ah without a segment that waits for it
+    unknown_command = 3  ///< a: command
 };
 
 /// The sentence of a condition that a chip reported.
@@ -41,18 +41,25 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     std::uint16_t read(std::uint32_t offset) override;
     void write(std::uint32_t offset, std::uint16_t value) override;
     std::uint16_t peek(std::uint32_t offset) const override;
-    /// The 8-bit bus (see ByteBus): port 2 n is the low byte of WRn and RRn, 2 n + 1 the high one; WR0 is carried out by its low byte.
-    std::uint8_t read_byte(std::uint32_t port);
-    void write_byte(std::uint32_t port, std::uint8_t value);
 
     /// Pulses of an axis (0 X .. 3 U) as a position over time: + and - pulses since the start, whatever LP is set to.
     sim::Motion& pulses(int axis) { return outputs_[static_cast<std::size_t>(axis)]; }
     /// The encoder at xeca/xecb. Before the kernel starts.
     void connect_encoder(int axis, sim::Motion& counts);
+    /// Cuts the connected encoder off and forces xeca, xecb to the levels that it has (`taken`), or releases them and
+    /// puts it back. EP goes on from where it is; in between it counts what the wires are forced to. Between runs.
+    void take_encoder(int axis, bool taken);
     /// Pulses of both directions since the start.
     std::int64_t pulses_made(int axis);
     std::int32_t lp(int axis) const;
     std::int32_t ep(int axis) const;
+
+    /// A value by its name, without effects: a register of the map, or what a data command writes ("P", "LP") or a read
+    /// command reads ("CV"). Counts are signed. `axis` matters for values that exist once an axis. Nothing if there is
+    /// none of that name.
+    std::optional<std::int64_t> inspect(std::string_view name, int axis) const;
+    /// The names that inspect knows; `per_axis`: those that exist once an axis, or the others.
+    static std::vector<std::string_view> inspected_names(bool per_axis);
 
     sim::DeviceId id() const { return id_; }
     sim::WireId interrupt_wire() const { return int_n_; }
@@ -65,8 +72,8 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
   private:
+    struct Inspected;  // inspect.cpp
     static constexpr int emergency_pin = 100;
-    static constexpr int step_pin = 101;
     static constexpr int encoder_pin = 120;  // + 2 * axis + (0 xeca, 1 xecb)
     static constexpr int output_pin = 200;   // + 16 * axis + (0 xpp, 1 xpm, 8 + n: nOUTn)
 
@@ -135,6 +142,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     // encoder.cpp: EP
     void encoder_crossed(int axis, Instant now);
     void encoder_lines(int axis, Instant now);
+    bool encoder_connected(int a) const { return ears_[a].motion && !kernel_.forced(encoder_wires_[a][0]); }
     void watch_encoder(int axis);
     std::int32_t encoder_position(const Axis& axis, int a) const;
     void set_encoder_position(int a, std::int32_t value);
@@ -158,27 +166,6 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void mark_pulse(int a, unsigned stepped, const PulseMoment& at);
     bool path_finished() const;
     int path_direction(int i) const;
-
-    // pattern.cpp: bit patterns
-    void pattern_command(int code);
-    void stack_pattern();
-    void clear_pattern();
-    void next_pattern_word();
-    int step_pattern();
-    void look_ahead_in_pattern();
-    int pattern_counter() const;
-    double pattern_share(int i) const;
-
-    // external.cpp: drives and single steps by wire
-    void set_external(int a, std::uint16_t before);
-    void hear_external(int pin);
-    void hear_step_wire(int wire_level);
-    void sample_external();
-    void sample_external_drive(int a);
-    bool by_steps(int a) const;
-    bool halted(int a) const { return by_steps(a) && !state_.stepping; }
-    bool ask_step(std::uint32_t by);
-    void end_step(int a);
 
     // speed.cpp: the speed step
     bool speed_step(int a);
@@ -217,7 +204,6 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void walk_ahead(int a, std::int64_t phase_limit);
     std::int64_t phase_in(int a, std::int64_t ticks) const;
     PulseMoment last_pulse(int a, std::int64_t pulses, std::int64_t ticks) const;
-    static void rest(Generator& gen);
     void bring_along(int a, std::int64_t to);
 
     // edges.cpp
@@ -235,10 +221,6 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
 
     // registers.cpp
     void reset();
-    void write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t mask);
-    template <class Put>
-    void write_mode(std::uint32_t offset, int a, const Put& put);
-    void clear_flags(std::uint16_t mask);
     void command(std::uint16_t value);
     void data_write(int code, int a);
     void data_read(int code, int a);
@@ -268,12 +250,10 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     std::array<std::array<sim::WireId, 2>, axes_of_chip> pulse_wires_{};
     std::array<std::array<sim::WireId, 2>, axes_of_chip> encoder_wires_{};
     sim::WireId emgn_{};
-    sim::WireId expls_n_{};
     sim::WireId int_n_{};
     unsigned listened_ = 0;    // axes of which somebody listens to motion or edges
     bool stale_ = false;       // the next interesting tick must be looked for again
     unsigned moved_last_ = 0;  // axes that stepped in the basic pulse at hand
-    std::array<int, axes_of_chip> went_{};  // which way each of them did
     unsigned changed_ = 0;     // axes whose law of motion changed in the present event
 };
 

@@ -29,7 +29,7 @@ void Chip::connect_encoder(int a, sim::Motion& counts) {
 }
 
 std::int32_t Chip::encoder_position(const Axis& axis, int a) const {
-    if (!ears_[a].motion) return axis.ep;
+    if (!encoder_connected(a)) return axis.ep;
     return static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.encoder.value(*ears_[a].motion, kernel_.now())));
 }
 
@@ -46,7 +46,7 @@ void Chip::watch_encoder(int a) {
     const Axis& axis = state_.axis[a];
     const EncoderEar& ear = ears_[a];
     if (!ear.motion) return;
-    if (!bit(axis.wr2, 5) || !compares(axis)) {
+    if (!encoder_connected(a) || !bit(axis.wr2, 5) || !compares(axis)) {
         ear.motion->watch(ear.slot, sim::unwatched_below, sim::unwatched_above);
         return;
     }
@@ -66,10 +66,29 @@ void Chip::encoder_crossed(int a, Instant now) {
     settle(now);
 }
 
+void Chip::take_encoder(int a, bool taken) {
+    EncoderEar& ear = ears_[a];
+    if (!ear.motion) return;
+    const Instant now = kernel_.now();
+    catch_up(now);
+    Axis& axis = state_.axis[a];
+    if (taken && encoder_connected(a)) {
+        axis.ep = encoder_position(axis, a);
+        axis.encoder_lines = sim::lines_of(ear.motion->count(now));
+        for (int i = 0; i < 2; ++i) kernel_.force(encoder_wires_[a][i], axis.encoder_lines >> i & 1);
+        watch_encoder(a);
+    } else if (!taken && !encoder_connected(a)) {
+        for (const sim::WireId wire : encoder_wires_[a]) kernel_.release(wire);
+        set_encoder_position(a, axis.ep);
+        watch_encoder(a);
+    }
+    settle(now);
+}
+
 /// The lines of an encoder that nobody connected as a whole: every change is counted by itself.
 void Chip::encoder_lines(int a, Instant now) {
     Axis& axis = state_.axis[a];
-    if (ears_[a].motion) return;
+    if (encoder_connected(a)) return;
     const unsigned lines =
         (kernel_.level(encoder_wires_[a][0]) != 0 ? 1u : 0u) | (kernel_.level(encoder_wires_[a][1]) != 0 ? 2u : 0u);
     const unsigned before = axis.encoder_lines;

@@ -1,4 +1,5 @@
 /* A C99 program that drives a card through motionrack/c.h and checks what comes of it. */
+#include <math.h>
 #include <motionrack/c.h>
 #include <stdio.h>
 #include <string.h>
@@ -57,6 +58,102 @@ static void drives_a_fixed_number_of_pulses(void) {
     mr_rack_close(rack);
 }
 
+static uint64_t peeked(mr_rack *rack, const char *name) {
+    uint64_t value = 0;
+    CHECK(mr_peek(rack, "c1", name, &value) == MR_OK);
+    return value;
+}
+
+static double wire(mr_rack *rack, const char *name) {
+    double value = -1;
+    CHECK(mr_wire_get(rack, name, &value) == MR_OK);
+    return value;
+}
+
+static double part(mr_rack *rack, const char *name) {
+    double value = -1;
+    CHECK(mr_part_get(rack, name, &value) == MR_OK);
+    return value;
+}
+
+/* The example at the head of motionrack/c.h. */
+static void the_headers_example_runs(void) {
+    mr_rack *rack = NULL;
+    uint16_t low = 0;
+    if (mr_rack_open("card.c1 = \"mcx314\"", &rack) != MR_OK) {
+        fprintf(stderr, "%s\n", mr_last_error());
+        ++failures;
+        return;
+    }
+    mr_write16(rack, "c1", 0x0e, 0);
+    mr_write16(rack, "c1", 0x0c, 100);
+    mr_write16(rack, "c1", 0x00, 0x0106);
+    mr_write16(rack, "c1", 0x00, 0x0120);
+    mr_advance_ns(rack, 1000000000);
+    mr_write16(rack, "c1", 0x00, 0x0110);
+    mr_read16(rack, "c1", 0x0c, &low);
+    CHECK(low == 100);
+    mr_rack_close(rack);
+}
+
+/* Registers by name, the machine's truth, a limit switch by hand. */
+static void a_limit_switch_stops_the_drive(void) {
+    mr_rack *rack = NULL;
+    CHECK(mr_rack_open("card.c1 = \"mcx314\"", &rack) == MR_OK);
+    set_up(rack);
+    CHECK(peeked(rack, "x.P") == 20000);
+    CHECK(peeked(rack, "x.V") == 4000);
+    CHECK(mr_write16(rack, "c1", WR0, AXIS_X | FIXED_PLUS) == MR_OK);
+    CHECK(mr_advance_ns(rack, 200000000) == MR_OK);
+    CHECK((peeked(rack, "RR0") & 1) == 1);
+    CHECK(wire(rack, "c1.xlmtp") == 1);
+    CHECK(mr_wire_set(rack, "c1.xlmtp", 0) == MR_OK);
+    CHECK(wire(rack, "c1.xlmtp") == 0);
+    CHECK(mr_advance_ns(rack, 1000000) == MR_OK);
+    CHECK((peeked(rack, "RR0") & 1) == 0);
+    CHECK((peeked(rack, "x.RR1") & 0x1000) != 0); /* stopped by nLMTP */
+    CHECK((int64_t)peeked(rack, "x.LP") == (int64_t)part(rack, "X.position_pulses"));
+    CHECK((int64_t)peeked(rack, "x.EP") == (int64_t)part(rack, "X.position_counts"));
+    CHECK(part(rack, "X.position_mm") > 1 && part(rack, "X.position_mm") < 20);
+    CHECK(mr_wire_set(rack, "c1.xlmtp", NAN) == MR_OK);
+    CHECK(wire(rack, "c1.xlmtp") == 1);
+    mr_rack_close(rack);
+}
+
+/* A copy lives its own life; with the same calls it is the same. */
+static void a_snapshot_is_a_world_of_its_own(void) {
+    mr_rack *rack = NULL, *copy = NULL;
+    CHECK(mr_rack_open("card.c1 = \"mcx314\"", &rack) == MR_OK);
+    set_up(rack);
+    CHECK(mr_write16(rack, "c1", WR0, AXIS_X | FIXED_PLUS) == MR_OK);
+    CHECK(mr_advance_ns(rack, 50000000) == MR_OK);
+    CHECK(mr_snapshot(rack, &copy) == MR_OK);
+    CHECK(mr_state_hash(copy) == mr_state_hash(rack));
+    CHECK(mr_now_ns(copy) == mr_now_ns(rack));
+    CHECK(mr_advance_ns(rack, 1000000000) == MR_OK);
+    CHECK(mr_state_hash(copy) != mr_state_hash(rack));
+    CHECK(mr_advance_ns(copy, 1000000000) == MR_OK);
+    CHECK(mr_state_hash(copy) == mr_state_hash(rack));
+    mr_rack_close(rack);
+    CHECK(logical_position(copy) == 20000);
+    mr_rack_close(copy);
+}
+
+/* A broken encoder track: the counter stands while the machine moves. */
+static void a_broken_track_stops_the_counter(void) {
+    mr_rack *rack = NULL;
+    CHECK(mr_rack_open("card.c1 = \"mcx314\"", &rack) == MR_OK);
+    set_up(rack);
+    CHECK(mr_fault(rack, "encoder.broken_a", "X") == MR_OK);
+    CHECK(mr_write16(rack, "c1", WR0, AXIS_X | FIXED_PLUS) == MR_OK);
+    CHECK(mr_advance_ns(rack, 2000000000) == MR_OK);
+    CHECK(part(rack, "X.position_mm") == 20);
+    CHECK((int64_t)peeked(rack, "x.EP") >= -1 && (int64_t)peeked(rack, "x.EP") <= 1);
+    CHECK(mr_fault(rack, "encoder.unknown", "X") == MR_BAD_CALL);
+    CHECK(strstr(mr_last_error(), "encoder.swapped") != NULL);
+    mr_rack_close(rack);
+}
+
 static void tells_what_is_wrong(void) {
     mr_rack *rack = NULL;
     uint8_t byte = 7;
@@ -71,7 +168,11 @@ static void tells_what_is_wrong(void) {
 }
 
 int main(void) {
+    the_headers_example_runs();
     drives_a_fixed_number_of_pulses();
+    a_limit_switch_stops_the_drive();
+    a_snapshot_is_a_world_of_its_own();
+    a_broken_track_stops_the_counter();
     tells_what_is_wrong();
     return failures == 0 ? 0 : 1;
 }

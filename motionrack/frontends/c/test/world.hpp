@@ -1,0 +1,77 @@
+// An open rack over the C interface, with short names for what tests do most.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <motionrack/c.h>
+
+#include <cstdint>
+#include <limits>
+
+namespace motionrack::c_test {
+
+inline constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+inline constexpr const char* one_card = "card.c1 = \"mcx314\"";
+inline constexpr const char* with_switches = R"(
+[card.c1]
+type = "mcx314"
+[axis.X]
+card = "c1"
+channel = "x"
+start_mm = 10
+max_jerk_mm_s3 = 0
+[axis.X.switches]
+limit_minus_mm = -1
+limit_plus_mm = 30
+[axis.A]
+card = "c1"
+channel = "u"
+encoder_counts_per_rev = 0
+)";
+
+class World {
+  public:
+    explicit World(const char* text = one_card) { EXPECT_EQ(mr_rack_open(text, &rack), MR_OK) << mr_last_error(); }
+    explicit World(mr_rack* of) { EXPECT_EQ(mr_snapshot(of, &rack), MR_OK) << mr_last_error(); }
+    ~World() { mr_rack_close(rack); }
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+    operator mr_rack*() const { return rack; }
+
+    void write(std::uint32_t offset, unsigned value) {
+        EXPECT_EQ(mr_write16(rack, "c1", offset, static_cast<std::uint16_t>(value)), MR_OK) << mr_last_error();
+    }
+    /// Command `code` of the axes in `axes` (bit 0: X) with its data.
+    void command(unsigned axes, unsigned code, std::uint32_t value = 0) {
+        write(0x0E, value >> 16);
+        write(0x0C, value & 0xFFFF);
+        write(0x00, axes << 8 | code);
+    }
+    void set_up(unsigned axes, unsigned speed) {
+        command(axes, 0x00, 800'000);
+        command(axes, 0x02, 400);
+        command(axes, 0x04, 10);
+        command(axes, 0x05, speed);
+    }
+    void pass(std::uint64_t ns) { EXPECT_EQ(mr_advance_ns(rack, ns), MR_OK) << mr_last_error(); }
+    double wire(const char* name) {
+        double value = nan_value;
+        EXPECT_EQ(mr_wire_get(rack, name, &value), MR_OK) << mr_last_error();
+        return value;
+    }
+    void set(const char* name, double value) { EXPECT_EQ(mr_wire_set(rack, name, value), MR_OK) << mr_last_error(); }
+    double part(const char* name) {
+        double value = nan_value;
+        EXPECT_EQ(mr_part_get(rack, name, &value), MR_OK) << mr_last_error();
+        return value;
+    }
+    std::int64_t peek(const char* name) {
+        std::uint64_t value = 0;
+        EXPECT_EQ(mr_peek(rack, "c1", name, &value), MR_OK) << mr_last_error();
+        return static_cast<std::int64_t>(value);
+    }
+    std::uint64_t hash() { return mr_state_hash(rack); }
+
+    mr_rack* rack = nullptr;
+};
+
+}  // namespace motionrack::c_test

@@ -1,0 +1,51 @@
+// Faults at planned instants of a run: "X.limit_plus=0@0.5s" drives a wire, "X.encoder.broken_a@1s" breaks a part.
+//
+//   kernel ──act at the planned instant──► break_run ──► between runs: apply_due() ──► WireDesk, inject_fault
+#pragma once
+
+#include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/wire_desk.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::rack {
+
+/// NAME[=VALUE]@TIME as a user writes it. NAME is a wire that can be driven (VALUE 0, 1 or release), or TARGET.FAULT (see
+/// faults.hpp; without a VALUE 1). TIME is since the rack was started: a number with s, ms or us.
+struct PlannedFault {
+    std::string text;    ///< what the user wrote
+    Instant at{};
+    std::string name;    ///< of the wire; of the fault with its value
+    std::string target;  ///< of the fault; empty: it is a wire
+    double value = 1;    ///< of the wire; NaN releases it
+    bool done = false;
+};
+
+class FaultPlan final : public sim::Device {
+  public:
+    /// Before the rack is started; nothing is planned if it fails. Errors: bad_input and refused, for the first text that
+    /// cannot be obeyed.
+    static Result<std::unique_ptr<FaultPlan>> create(Rack& rack, const std::vector<std::string>& texts);
+
+    /// After the rack was started.
+    void begin();
+    /// Between runs, whenever one was broken: does what is due.
+    void apply_due();
+    /// What the run did not come to, in the order of time.
+    std::vector<std::string> not_reached() const;
+
+    void act(Instant now) override;
+
+  private:
+    explicit FaultPlan(Rack& rack) : rack_(rack), desk_(rack) {}
+    Result<PlannedFault> read(const std::string& text);
+    Result<void> read_action(const std::string& text, std::string_view action, PlannedFault& fault);
+
+    Rack& rack_;
+    WireDesk desk_;
+    sim::DeviceId id_{};
+    std::vector<PlannedFault> faults_;  // in the order of time
+};
+
+}  // namespace motionrack::rack

@@ -1,0 +1,28 @@
+// Faults by name: what can be broken on purpose in a running rack.
+//
+//   inject_fault(rack, "encoder.broken_a", "X")        from now on
+//   inject_fault(rack, "encoder.broken_a=0", "X")      mended
+//   inject_fault(rack, "motor.lose_steps=64", "X")     with a number
+#pragma once
+
+#include <motionrack/rack/rack.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::rack {
+
+/// The fault `fault` ("NAME" or "NAME=VALUE"; without a value: 1) of `target`, an axis of the rack. Between runs.
+/// Errors: bad_input (no such target or fault, with the ones that there are), refused (the part is missing, the value).
+Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view target);
+
+/// What inject_fault would say of names and value; the rack need not be started.
+Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view target);
+
+/// The greatest number of a fault, in microsteps: how far a motor can be pushed at once.
+inline constexpr double greatest_push = 1e7;
+
+/// Names of the faults of each axis.
+std::vector<std::string_view> fault_names();
+
+}  // namespace motionrack::rack

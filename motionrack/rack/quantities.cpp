@@ -1,0 +1,112 @@
+// The table of quantities of an axis.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/quantities.hpp>
+#include <motionrack/rack/toml_reader.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+bool always(const RunningAxis&) { return true; }
+bool has_encoder(const RunningAxis& axis) { return axis.machine->has_encoder(); }
+
+double rotor(RunningAxis& axis, Instant now) { return static_cast<double>(axis.machine->rotor().count(now)); }
+
+constexpr std::array<Quantity, 11> table = {{
+    {"position_{u}", "where the table is",
+     [](RunningAxis& axis, Instant now) { return axis.machine->position(now); },
+     [](RunningAxis& axis, double value, Instant now) {
+         return (value - axis.machine->position(now)) / axis.machine->units_per_pulse();
+     },
+     always},
+    {"speed_{u}_s", "how fast the rotor moves the table, signed",
+     [](RunningAxis& axis, Instant now) { return axis.machine->rotor().rate(now) * axis.machine->units_per_pulse(); }, nullptr,
+     always},
+    {"position_pulses", "the rotor in microsteps from where it stood at the start", rotor,
+     [](RunningAxis& axis, double value, Instant now) { return value - rotor(axis, now); }, always},
+    {"position_counts", "what its encoder's tracks have counted since the start",
+     [](RunningAxis& axis, Instant now) { return static_cast<double>(axis.machine->encoder().count(now)); }, nullptr, has_encoder},
+    {"pulses", "pulses that came to the motor, + less -",
+     [](RunningAxis& axis, Instant now) { return rotor(axis, now) + static_cast<double>(axis.machine->lost_steps(now)); }, nullptr,
+     always},
+    {"lost_pulses", "pulses that the rotor did not follow",
+     [](RunningAxis& axis, Instant now) { return static_cast<double>(axis.machine->lost_steps(now)); }, nullptr, always},
+    {"in_step", "1 while the rotor follows the pulses, else 0",
+     [](RunningAxis& axis, Instant) { return axis.machine->in_step() ? 1.0 : 0.0; }, nullptr, always},
+    {"top_speed_{u}_s", "the greatest speed so far",
+     [](RunningAxis& axis, Instant) { return axis.machine->top_speed(); }, nullptr, always},
+    {"limit_minus", "1 while the machine is at that switch, whatever its wire shows",
+     [](RunningAxis& axis, Instant) { return axis.machine->limit_minus().active() ? 1.0 : 0.0; }, nullptr,
+     [](const RunningAxis& axis) { return axis.machine->limit_minus().present(); }},
+    {"limit_plus", "the same for the switch at the + end",
+     [](RunningAxis& axis, Instant) { return axis.machine->limit_plus().active() ? 1.0 : 0.0; }, nullptr,
+     [](const RunningAxis& axis) { return axis.machine->limit_plus().present(); }},
+    {"home", "the same for the home switch",
+     [](RunningAxis& axis, Instant) { return axis.machine->home().active() ? 1.0 : 0.0; }, nullptr,
+     [](const RunningAxis& axis) { return axis.machine->home().present(); }},
+}};
+
+struct Found {
+    RunningAxis* axis = nullptr;
+    const Quantity* quantity = nullptr;
+};
+
+Result<Found> find(Rack& rack, std::string_view name) {
+    const std::size_t dot = name.find('.');
+    const std::string_view part = name.substr(0, dot);
+    Found found;
+    std::string axes;
+    for (RunningAxis& axis : rack.axes()) {
+        if (part.size() == 1 && part[0] == axis.config.letter) found.axis = &axis;
+        axes += (axes.empty() ? "" : ", ") + std::string(1, axis.config.letter);
+    }
+    if (found.axis == nullptr || dot == std::string_view::npos)
+        return fail(Trouble::bad_input, fmt::format("There is no quantity {}: write PART.QUANTITY, such as X.position_mm; the parts of "
+                                                    "this rack are: {}. Nothing was done.",
+                                                    in_quotes(name), axes.empty() ? "none" : axes));
+    std::string known;
+    for (const Quantity& quantity : table) {
+        if (!quantity.present(*found.axis)) continue;
+        const std::string its_name = with_unit(quantity.name, found.axis->config.unit());
+        if (its_name == name.substr(dot + 1)) found.quantity = &quantity;
+        known += (known.empty() ? "" : ", ") + its_name;
+    }
+    if (found.quantity == nullptr)
+        return fail(Trouble::bad_input, fmt::format("Axis {} has no quantity {}; it has: {}. Nothing was done.", part,
+                                                    in_quotes(name.substr(dot + 1)), known));
+    return found;
+}
+
+}  // namespace
+
+std::span<const Quantity> quantities() { return table; }
+
+Result<double> get_quantity(Rack& rack, std::string_view name) {
+    MOTIONRACK_TRY(const Found found, find(rack, name));
+    return found.quantity->get(*found.axis, rack.kernel().now());
+}
+
+Result<void> set_quantity(Rack& rack, std::string_view name, double value) {
+    MOTIONRACK_TRY(const Found found, find(rack, name));
+    if (found.quantity->push == nullptr)
+        return fail(Trouble::refused, fmt::format("{} follows from the machine and cannot be set; set the position. Nothing was done.", name));
+    if (!std::isfinite(value))
+        return fail(Trouble::refused, fmt::format("{} cannot become {}: that is no number. Nothing was done.", name, value));
+    parts::AxisMachine& machine = *found.axis->machine;
+    const double push = found.quantity->push(*found.axis, value, rack.kernel().now());
+    if (!(std::fabs(push) <= greatest_push))
+        return fail(Trouble::refused, fmt::format("To bring {} to {} the motor must be pushed by {:.0f} microsteps; {:.0f} are the most "
+                                                  "at once. Nothing was done.",
+                                                  name, value, push, greatest_push));
+    // A rotor in step springs back unless it is brought past the middle of an electrical cycle.
+    const double least = machine.in_step() ? 2.0 * static_cast<double>(machine.settings().motor.microsteps) : 0.5;
+    if (std::fabs(push) < least) return {};
+    return inject_fault(rack, fmt::format("motor.push={:.0f}", push), std::string(1, found.axis->config.letter));
+}
+
+}  // namespace motionrack::rack

@@ -1,0 +1,31 @@
+// What is true of a machine's parts, by name: where a table really is, whatever any counter says.
+//
+//   "X.position_mm"   NAME.QUANTITY; the quantities are a table, the unit in their names is the axis' own (mm or deg)
+#pragma once
+
+#include <motionrack/rack/rack.hpp>
+#include <span>
+#include <string_view>
+
+namespace motionrack::rack {
+
+/// One thing that can be asked of an axis. "{u}" in the name stands for mm or deg.
+struct Quantity {
+    std::string_view name;
+    std::string_view doc;
+    double (*get)(RunningAxis& axis, Instant now);
+    /// What brings it to `value`, as microsteps to push the motor by; nullptr: it cannot be set.
+    double (*push)(RunningAxis& axis, double value, Instant now);
+    bool (*present)(const RunningAxis& axis);
+};
+std::span<const Quantity> quantities();
+
+/// Errors: bad_input if there is no such part or quantity, with the ones that there are.
+Result<double> get_quantity(Rack& rack, std::string_view part_dot_quantity);
+
+/// Pushes the part there by hand. A motor in step goes to the nearest place of the same electrical phase (a multiple of
+/// four full steps away), as a real one under current does: read the quantity to see where it came to. Between runs.
+/// Errors: bad_input; refused if it cannot be set, if the value is no number or too far away (see greatest_push).
+Result<void> set_quantity(Rack& rack, std::string_view part_dot_quantity, double value);
+
+}  // namespace motionrack::rack

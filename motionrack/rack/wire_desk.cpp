@@ -1,0 +1,157 @@
+// Names of wires, and driving them.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/wire_desk.hpp>
+#include <motionrack/sim/blocks/quadrature_counter.hpp>
+
+namespace motionrack::rack {
+
+WireDesk::WireDesk(Rack& rack) : rack_(rack) {
+    wires_["estop"] = {Kind::plain, rack_.kernel().find_wire("estop"), -1, 0, {}};
+    add_cards();
+    add_axes();
+    add_encoders();
+}
+
+void WireDesk::add_cards() {
+    for (const RackCard& card : rack_.config().cards)
+        for (const Pin& pin : pins_of(*find_card_type(card.type))) {
+            const std::string name = card.name + "." + pin.name;
+            Wire wire{Kind::plain, rack_.kernel().find_wire(name), -1, 0, {}};
+            if (pin.direction == PinDirection::output)
+                wire.refused = fmt::format("{} is an output of the card; inputs, switches and the emergency stop can be driven", name);
+            wires_[name] = std::move(wire);
+        }
+}
+
+void WireDesk::add_axes() {
+    const RackConfig& config = rack_.config();
+    for (std::size_t i = 0; i < config.axes.size(); ++i)
+        for (const AxisEnd& end : axis_ends()) {
+            if (!end.present(config.axes[i])) continue;
+            const std::string name = fmt::format("{}.{}", config.axes[i].letter, end.name);
+            Wire wire{Kind::plain, rack_.kernel().find_wire(name), static_cast<int>(i), 0, {}};
+            if (end.name == "enc_a" || end.name == "enc_b") {
+                wire.kind = Kind::track;
+                wire.which = end.name == "enc_b";
+                wire.refused = fmt::format("{} is the encoder's own output; drive the input of a card that it leads to", name);
+            } else if (end.direction == PinDirection::input) {
+                wire.kind = Kind::pulses;
+                wire.refused = fmt::format("{} follows the pulses of a channel as a whole; the pulses of a card drive it, or a push", name);
+                for (const RackWire& joined : config.wires)
+                    if (config.end_name(joined.to) == name) wire.id = rack_.kernel().find_wire(config.end_name(joined.from));
+            }
+            wires_[name] = std::move(wire);
+        }
+}
+
+/// The inputs that a link comes in at are no wires of their own while nobody drives them.
+void WireDesk::add_encoders() {
+    const RackConfig& config = rack_.config();
+    for (const RackWire& joined : config.wires) {
+        if (!is_link(joined) || joined.to.owner != EndOwner::card) continue;
+        const auto& card = config.cards[static_cast<std::size_t>(joined.to.index)];
+        int channel = -1;
+        for (const Pin& pin : pins_of(*find_card_type(card.type)))
+            if (pin.name == joined.to.pin) channel = pin.channel;
+        for (const EncoderLink& link : config.encoder_links) {
+            if (link.card != joined.to.index || link.channel != channel) continue;
+            auto input = std::find_if(encoders_.begin(), encoders_.end(),
+                                      [&](const EncoderInput& known) { return known.link == link; });
+            if (input == encoders_.end()) input = encoders_.insert(input, EncoderInput{link, 0});
+            Wire& wire = wires_[config.end_name(joined.to)];
+            wire.kind = Kind::counted;
+            wire.index = static_cast<int>(input - encoders_.begin());
+            wire.which = (joined.from.pin == "enc_b") != link.swapped;
+        }
+    }
+}
+
+const WireDesk::Wire* WireDesk::find(std::string_view name) const {
+    const auto found = wires_.find(name);
+    return found != wires_.end() ? &found->second : nullptr;
+}
+
+tl::unexpected<Error> WireDesk::unknown(std::string_view name) const {
+    std::vector<std::string_view> names;
+    for (const auto& [known, wire] : wires_) names.push_back(known);
+    const std::string hint = did_you_mean(name, names);
+    return fail(Trouble::bad_input,
+                fmt::format("There is no wire {}{} Wires are called CARD.PIN, NAME.END or estop, as the page of the rack "
+                            "file lists them. Nothing was done.",
+                            in_quotes(name), hint.empty() ? "." : hint));
+}
+
+/// The levels that the encoder shows at the channel (bit 0: A).
+unsigned WireDesk::lines_at(const EncoderInput& input) const {
+    RunningAxis& axis = rack_.axes()[static_cast<std::size_t>(input.link.axis)];
+    const std::int64_t count = axis.machine->encoder().count(rack_.kernel().now());
+    return sim::lines_of(input.link.swapped ? -count : count);
+}
+
+Result<double> WireDesk::get(std::string_view name) const {
+    const Wire* wire = find(name);
+    if (wire == nullptr) return unknown(name);
+    const sim::Kernel& kernel = rack_.kernel();
+    if (wire->kind == Kind::track) {
+        const parts::Lines lines = rack_.axes()[static_cast<std::size_t>(wire->index)].machine->encoder_lines(kernel.now());
+        return wire->which == 0 ? lines.a : lines.b;
+    }
+    if (wire->kind == Kind::counted) {
+        const EncoderInput& input = encoders_[static_cast<std::size_t>(wire->index)];
+        if (input.driven == 0) return lines_at(input) >> wire->which & 1u;
+    }
+    return wire->id == sim::WireId::none ? 0 : kernel.level(wire->id);
+}
+
+Result<void> WireDesk::check(std::string_view name, double value) const {
+    const Wire* wire = find(name);
+    if (wire == nullptr) return unknown(name);
+    if (!wire->refused.empty()) return fail(Trouble::refused, wire->refused + ". Nothing was done.");
+    if (!std::isnan(value) && value != 0 && value != 1)
+        return fail(Trouble::refused, fmt::format("{} cannot be driven with {}: it is a digital wire, 0 or 1 (NaN releases it). "
+                                                  "Nothing was done.",
+                                                  name, value));
+    return {};
+}
+
+Result<void> WireDesk::set(std::string_view name, double value) {
+    MOTIONRACK_CHECK(check(name, value));
+    const Wire& wire = *find(name);
+    const bool released = std::isnan(value);
+    rack_.input_log().add({rack_.kernel().now(), released ? sim::InputKind::release_wire : sim::InputKind::force_wire,
+                           static_cast<std::uint16_t>(wire.id), 0, static_cast<std::uint16_t>(value == 1)});
+    if (released)
+        release(wire);
+    else
+        drive(wire, value == 1);
+    rack_.kernel().settle();
+    return {};
+}
+
+void WireDesk::drive(const Wire& wire, int level) {
+    sim::Kernel& kernel = rack_.kernel();
+    if (wire.kind == Kind::counted) {
+        EncoderInput& input = encoders_[static_cast<std::size_t>(wire.index)];
+        if (input.driven == 0) {
+            // Its lines stay as it left them, so that cutting it off counts nothing.
+            rack_.cards()[static_cast<std::size_t>(input.link.card)]->take_encoder(input.link.channel, true);
+            kernel.settle();
+        }
+        input.driven |= 1u << wire.which;
+    }
+    kernel.force(wire.id, level);
+}
+
+void WireDesk::release(const Wire& wire) {
+    if (wire.kind != Kind::counted) return rack_.kernel().release(wire.id);
+    EncoderInput& input = encoders_[static_cast<std::size_t>(wire.index)];
+    if ((input.driven & 1u << wire.which) == 0) return;
+    input.driven &= ~(1u << wire.which);
+    if (input.driven != 0) return;
+    rack_.cards()[static_cast<std::size_t>(input.link.card)]->take_encoder(input.link.channel, false);
+}
+
+}  // namespace motionrack::rack

@@ -1,0 +1,69 @@
+// The wires of a running rack by their names, as a hand with a test lead has them: every pin can be looked at, inputs and
+// switches can be driven, and then what drove them before is cut off until they are released.
+//
+//   part ──X.limit_plus──► junction ──c1.xlmtp──► chip        set("X.limit_plus", 0): the switch is stuck
+//                                         ▲                  set("c1.xlmtp", 0): this pin alone
+//   encoder ══counts══► channel ◄── c1.xeca, c1.xecb          set("c1.xeca", 1): the encoder is cut off, the pins count
+#pragma once
+
+#include <map>
+#include <motionrack/rack/rack.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::rack {
+
+class WireDesk {
+  public:
+    /// Any time; the rack must outlive it. One desk a rack.
+    explicit WireDesk(Rack& rack);
+
+    /// The level of CARD.PIN, NAME.END or estop: 0 or 1. Errors: bad_input if there is no such wire.
+    Result<double> get(std::string_view name) const;
+    /// Drives a wire from now on: 0 or 1; NaN releases it. The two inputs of an encoder are taken over together: the
+    /// other one holds the level that it had, and the encoder is connected again when both are released. In a started
+    /// rack, between runs. Errors: bad_input (no such wire), refused (an output, another value).
+    Result<void> set(std::string_view name, double value);
+    /// What set would say.
+    Result<void> check(std::string_view name, double value) const;
+    bool knows(std::string_view name) const { return wires_.find(name) != wires_.end(); }
+
+    /// The wires are driven as those of `other`, whose rack has the same wiring and whose kernel state was copied.
+    void copy_from(const WireDesk& other) { encoders_ = other.encoders_; }
+
+  private:
+    enum class Kind : std::uint8_t {
+        plain,    ///< a wire of the kernel
+        counted,  ///< an input of a channel to which an encoder is connected as a whole
+        track,    ///< an encoder's own end
+        pulses    ///< a motor's own end
+    };
+    struct Wire {
+        Kind kind = Kind::plain;
+        sim::WireId id = sim::WireId::none;  ///< plain, counted; pulses: the pin that drives it, if any
+        int index = -1;                      ///< counted: of encoders_; track: of the axis
+        int which = 0;                       ///< 0: A, 1: B
+        std::string refused;                 ///< why it cannot be driven; empty: it can
+    };
+    /// An encoder at a channel.
+    struct EncoderInput {
+        EncoderLink link;
+        unsigned driven = 0;  ///< bit 0: A, bit 1: B
+    };
+
+    void add_cards();
+    void add_axes();
+    void add_encoders();
+    const Wire* find(std::string_view name) const;
+    tl::unexpected<Error> unknown(std::string_view name) const;
+    unsigned lines_at(const EncoderInput& input) const;
+    void drive(const Wire& wire, int level);
+    void release(const Wire& wire);
+
+    Rack& rack_;
+    std::map<std::string, Wire, std::less<>> wires_;
+    std::vector<EncoderInput> encoders_;
+};
+
+}  // namespace motionrack::rack

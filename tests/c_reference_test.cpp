@@ -1,0 +1,115 @@
+// docs/reference/c.md is made from motionrack/c.h, and the header names what the tables have.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/quantities.hpp>
+#include <motionrack/rack/toml_reader.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace motionrack {
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = MOTIONRACK_SOURCE_DIR;
+
+std::string contents(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The header as Markdown: sections are headings, each declaration a block of code with its comment below.
+class Page {
+  public:
+    explicit Page(const std::string& header) {
+        std::istringstream in(header);
+        for (std::string line; std::getline(in, line);) take(line);
+        end_declaration();
+    }
+    std::string text() const { return text_; }
+
+  private:
+    void take(const std::string& line) {
+        if (!inside_ && line.rfind("/* ---- ", 0) == 0) {
+            end_declaration();
+            text_ += "## " + line.substr(8, line.rfind(" ----") - 8) + "\n\n";
+        } else if (!inside_ && line.rfind("/* ", 0) == 0) {
+            end_declaration();
+            comment_.clear();
+            inside_ = true;
+            add_comment(line.substr(3));
+        } else if (inside_) {
+            add_comment(line.substr(std::min<std::size_t>(line.size(), line == " */" ? 1 : 3)));
+        } else if (line.empty() || line[0] == '#' || line.rfind("extern", 0) == 0 || (line == "}" && declaration_.empty())) {
+            end_declaration();
+        } else {
+            declaration_ += (line.rfind("MR_API ", 0) == 0 ? line.substr(7) : line) + "\n";
+        }
+    }
+
+    void add_comment(std::string line) {
+        const std::size_t end = line.rfind("*/");
+        inside_ = end == std::string::npos;
+        if (!inside_) line.resize(end);
+        while (!line.empty() && line.back() == ' ') line.pop_back();
+        if (!line.empty() || inside_) comment_.push_back(line);
+        if (!inside_ && text_.empty()) {
+            text_ = "# The C interface\n\n`motionrack/c.h`, as a page: this one is made from it.\n\n";
+            end_declaration();
+        }
+    }
+
+    /// What was declared, then what the comment before it says.
+    void end_declaration() {
+        if (declaration_.empty() && comment_.empty()) return;
+        if (!declaration_.empty()) text_ += "```c\n" + declaration_ + "```\n";
+        bool code = false;
+        for (std::size_t i = 0; i < comment_.size(); ++i) {
+            const std::string& line = comment_[i];
+            const bool indented = line.rfind("  ", 0) == 0;
+            if (indented != code) text_ += indented ? "```text\n" : "```\n";
+            code = indented;
+            text_ += (code ? line.substr(2) : line) + "\n";
+        }
+        if (code) text_ += "```\n";
+        text_ += "\n";
+        declaration_.clear();
+        comment_.clear();
+    }
+
+    std::string text_;
+    std::string declaration_;
+    std::vector<std::string> comment_;
+    bool inside_ = false;
+};
+
+TEST(CReference, ThePageIsMadeFromTheHeader) {
+    std::string page = Page(contents(root / "motionrack/c.h")).text();
+    while (page.size() > 1 && page[page.size() - 2] == '\n') page.pop_back();
+    if (page == contents(root / "docs/reference/c.md")) return;
+    const fs::path made = fs::temp_directory_path() / "motionrack_c.md";
+    std::ofstream(made, std::ios::binary) << page;
+    ADD_FAILURE() << "docs/reference/c.md is not what motionrack/c.h says; take " << made;
+}
+
+TEST(CReference, TheHeaderHasEveryQuantityAndFaultWithItsMeaning) {
+    const std::string header = contents(root / "motionrack/c.h");
+    for (const rack::Quantity& quantity : rack::quantities()) {
+        const std::size_t at = header.find(" *   " + rack::with_unit(quantity.name, "mm") + " ");
+        ASSERT_NE(at, std::string::npos) << quantity.name;
+        EXPECT_NE(header.substr(at, header.find('\n', at) - at).find(quantity.doc), std::string::npos) << quantity.name;
+    }
+    std::size_t at = header.find("Breaks something on purpose");
+    for (const std::string_view fault : rack::fault_names()) {
+        at = header.find("\n *   " + std::string(fault), at);
+        EXPECT_NE(at, std::string::npos) << fault;
+    }
+}
+
+}  // namespace
+}  // namespace motionrack
