@@ -111,20 +111,82 @@ inline constexpr TransitionInfo drive_transitions[] = {
 };
 inline constexpr StateInfo chain_states[] = {
     {"idle", "no interpolation"},
-    {"running", "a segment runs, CNEXT = 1"},
+    {"running", "a segment runs, CNEXT = 1; or a bit pattern, CNEXT = 0"},
     {"queued", "a segment runs and the next one waits, CNEXT = 0"},
 };
 inline constexpr TransitionInfo chain_transitions[] = {
-    {"idle", "running", "command 30h .. 33h"},
-    {"running", "queued", "command 30h .. 33h"},
+    {"idle", "running", "command 30h .. 35h"},
+    {"running", "queued", "command 30h .. 33h; not while a bit pattern runs"},
     {"queued", "running", "the running segment's last pulse: the queued one takes over, interrupt if CIINT"},
     {"running", "idle", "the segment's last pulse, or a stop"},
     {"queued", "idle", "a stop: the queued segment is dropped"},
+};
+inline constexpr StateInfo pattern_states[] = {
+    {"idle", "no word runs"},
+    {"running", "the bits of a word are stepped, D0 first"},
+    {"stopped", "a stop came within a word; its rest is kept"},
+};
+inline constexpr TransitionInfo pattern_transitions[] = {
+    {"idle", "running", "command 34h or 35h: the oldest stacked word"},
+    {"running", "running", "D15 is done: the oldest stacked word"},
+    {"running", "idle", "end code; D15 is done and nothing is stacked; command 39h"},
+    {"running", "stopped", "a stop"},
+    {"stopped", "running", "command 34h or 35h: the rest of the word"},
+    {"stopped", "idle", "command 39h"},
+};
+inline constexpr StateInfo stack_states[] = {
+    {"0", "no word waits"},
+    {"1", "one word waits"},
+    {"2", "two words wait"},
+    {"3", "full; command 38h is ignored"},
+};
+inline constexpr TransitionInfo stack_transitions[] = {
+    {"0", "1", "command 38h"},
+    {"1", "2", "command 38h"},
+    {"2", "3", "command 38h"},
+    {"3", "2", "the oldest word begins to run"},
+    {"2", "1", "the oldest word begins to run; interrupt if BPINT"},
+    {"1", "0", "the oldest word begins to run; end code; command 39h"},
+    {"2", "0", "end code; command 39h"},
+    {"3", "0", "end code; command 39h"},
+};
+inline constexpr StateInfo step_states[] = {
+    {"free", "basic pulses come by themselves, or no interpolation runs"},
+    {"waiting", "the next basic pulse must be asked for"},
+    {"stepping", "it has been asked for and is on its way"},
+};
+inline constexpr TransitionInfo step_transitions[] = {
+    {"free", "waiting", "a segment begins whose command found CMPLS or EXPLS"},
+    {"waiting", "stepping", "command 3Ah, or EXPLSN Low at two ticks"},
+    {"stepping", "waiting", "the basic pulse"},
+    {"stepping", "free", "the last basic pulse, or a stop"},
+    {"waiting", "free", "a stop"},
+};
+inline constexpr StateInfo wire_states[] = {
+    {"off", "EXOP does not let the input drive"},
+    {"low", "the input is Low and has done what it does, or has not been seen High yet"},
+    {"high", "a falling edge is waited for"},
+    {"falling", "Low at one tick"},
+};
+inline constexpr TransitionInfo wire_transitions[] = {
+    {"off", "low", "EXOP 1 or 2"},
+    {"low", "high", "High at a tick; EXOP 1: the drive that this input began is decelerated"},
+    {"high", "falling", "Low at a tick"},
+    {"falling", "high", "High at a tick"},
+    {"falling", "low", "Low at a second tick; EXOP 1: continuous drive, EXOP 2: fixed drive"},
+    {"low", "off", "EXOP 0 or 3"},
+    {"high", "off", "EXOP 0 or 3"},
+    {"falling", "off", "EXOP 0 or 3"},
 };
 inline constexpr MachineInfo machines[] = {
     {"drive", "one axis' drive; RESET leads from every state to idle", drive_states, drive_transitions},
     {"continuous interpolation", "the segment that runs and the one behind it; RESET leads from every state to idle",
      chain_states, chain_transitions},
+    {"bit pattern", "the word that runs; RESET leads from every state to idle", pattern_states, pattern_transitions},
+    {"bit-pattern stack", "the words behind it, as BPSC shows them; RESET leads from every state to 0", stack_states,
+     stack_transitions},
+    {"single steps", "basic pulses on request; RESET leads from every state to free", step_states, step_transitions},
+    {"drive by wire", "each of nEXPP and nEXPM; RESET leads from every state to off", wire_states, wire_transitions},
 };
 static_assert(declared<machines_flaw(machines)>());
 
@@ -142,8 +204,8 @@ inline constexpr PinInfo pins[] = {
     {"*lmtm", in, true, "- limit switch, level by WR2"},
     {"*alarm", in, true, "alarm of the drive, level by WR2"},
     {"*inpos", in, true, "in-position of the drive, level by WR2"},
-    {"*expp", in, true, "external drive, + direction (not reproduced; RR4, RR5 show its level)"},
-    {"*expm", in, true, "external drive, - direction (not reproduced; RR4, RR5 show its level)"},
+    {"*expp", in, true, "drives in + direction where EXOP says so"},
+    {"*expm", in, true, "drives in - direction where EXOP says so"},
     {"*out0", out, false, "general output, WR4"},
     {"*out1", out, false, "general output, WR4"},
     {"*out2", out, false, "general output, WR4"},
@@ -153,7 +215,7 @@ inline constexpr PinInfo pins[] = {
     {"*out6", out, false, "general output, WR3, or accelerating"},
     {"*out7", out, false, "general output, WR3, or decelerating"},
     {"emgn", in, true, "emergency stop of all axes"},
-    {"expls_n", in, true, "one interpolation step (not reproduced)"},
+    {"expls_n", in, true, "one interpolation step where EXPLS says so"},
     {"int_n", out, true, "interrupt"},
 };
 static_assert(declared<pins_flaw(pins)>());

@@ -23,10 +23,24 @@ std::string describe(const sim::Condition& condition, const std::string& card) {
                 card, condition.a, "XYZU"[condition.b & 3]);
         case path_ignored:
             return fmt::format(
-                "{}: interpolation command {:02X}h was ignored: the next segment is queued already, or an axis is "
-                "named twice "
-                "or drives on its own; wait for CNEXT",
+                "{}: interpolation command {:02X}h was ignored: the next segment is queued already, an axis is named "
+                "twice or drives on its own, or a bit pattern runs; wait for CNEXT or the end of the drive",
                 card, condition.a);
+        case pattern_full:
+            return fmt::format(
+                "{}: command 38h was ignored: three words of the bit pattern are stacked already; wait until BPSC is "
+                "below 3",
+                card);
+        case pattern_ran_out:
+            return fmt::format(
+                "{}: the bit pattern ended after {} basic pulses without its end code, since no more words were "
+                "stacked; stack them sooner, drive slower, or end with both bits of an axis set",
+                card, condition.a);
+        case step_ignored:
+            return fmt::format(
+                "{}: command 3Ah was ignored: no interpolation that waits for it (WR5 CMPLS at its command) runs, or "
+                "its last step is still under way",
+                card);
         case unknown_command:
             return fmt::format("{}: command {:02X}h is not one of this model's; nothing was done", card, condition.a);
         default:
@@ -59,7 +73,8 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name)
     }
     emgn_ = kernel_.add_wire(name + ".emgn", 1);
     kernel_.listen(emgn_, id_, emergency_pin);
-    kernel_.add_wire(name + ".expls_n", 1);
+    expls_n_ = kernel_.add_wire(name + ".expls_n", 1);
+    kernel_.listen(expls_n_, id_, step_pin);
     int_n_ = kernel_.add_wire(name + ".int_n", 1);
     for (int a = 0; a < axes_of_chip; ++a) compare(a);
     state_.next_event = far;
@@ -104,7 +119,7 @@ void Chip::reschedule() {
         const Axis& axis = state_.axis[a];
         if (axis.pulses_wanted && axis.mark.active(state_.tick)) next = std::min(next, axis.mark.end());
     });
-    state_.next_event = next;
+    state_.next_event = state_.sampled != 0 ? state_.tick + 1 : next;
     stale_ = false;
 }
 
@@ -134,6 +149,8 @@ void Chip::begin() {
     }
     kernel_.want(emgn_, id_, true);
     state_.emergency_high = kernel_.level(emgn_) != 0;
+    kernel_.want(expls_n_, id_, true);
+    hear_step_wire(kernel_.level(expls_n_));
     note_followers();
     stale_ = true;
 }
@@ -159,19 +176,24 @@ void Chip::on_wire(int pin, int wire_level, Instant now) {
     note_rates();
     stale_ = true;
     if (pin >= encoder_pin) return encoder_lines((pin - encoder_pin) / 2, now);
+    if (pin == step_pin) {
+        hear_step_wire(wire_level);
+        return settle(now);
+    }
     if (pin == emergency_pin) {
         state_.emergency_high = wire_level != 0;
     } else {
         Axis& axis = state_.axis[pin / 16];
         const unsigned mask = 1u << (pin % 16);
         axis.levels = static_cast<std::uint16_t>(wire_level ? axis.levels | mask : axis.levels & ~mask);
+        hear_external(pin);
     }
     for (Axis& axis : state_.axis) axis.gen.look = true;
     settle(now);
 }
 
 void Chip::update_interrupt() {
-    bool active = state_.path_interrupt;
+    bool active = state_.path_interrupt || state_.pattern.interrupt;
     for (const Axis& axis : state_.axis) active = active || axis.flags != 0;
     if (active == state_.interrupt) return;
     state_.interrupt = active;
@@ -255,7 +277,7 @@ double Chip::rate_of(int a, Instant t) const {
     const bool on_path = (state_.chain >> a & 1u) != 0;
     const int generator = on_path ? state_.master : a;
     const Generator& gen = state_.axis[generator].gen;
-    if (gen.drive == Drive::idle) return 0;
+    if (gen.drive == Drive::idle || halted(generator)) return 0;
     const std::int64_t ticks = std::max<std::int64_t>(0, tick_of(t) - gen.at - gen.wait);
     const double phase = 8e6 * static_cast<double>(gen.walks ? walk(generator, ticks, far).law.speed : gen.speed);
     if (!on_path) return phase / static_cast<double>(gen.range_now) * axis.direction;
@@ -264,6 +286,7 @@ double Chip::rate_of(int a, Instant t) const {
     const double extra = path.command.count == 2 ? static_cast<double>(path.range_for[1]) - r1 : 0.0;
     for (int i = 0; i < path.command.count; ++i) {
         if (path.command.axis[i] != a) continue;
+        if (path.command.pattern()) return phase / r1 * pattern_share(i);
         const double sign = path_direction(i);
         if (path.command.arc()) {
             const int s = rules::octants[path.arc.octant].short_axis;

@@ -27,7 +27,10 @@ namespace motionrack::mcx314 {
 enum ChipCondition : std::uint16_t {
     drive_ignored = 1,   ///< a: command, b: axis that is driving
     path_ignored = 2,    ///< a: command; queue full, axis busy or named twice
-    unknown_command = 3  ///< a: command
+    unknown_command = 3,   ///< a: command
+    pattern_full = 4,      ///< 38h with three words stacked
+    pattern_ran_out = 5,   ///< a: basic pulses made; the bit pattern ended without its end code
+    step_ignored = 6       ///< 3Ah without a segment that waits for it
 };
 
 /// The sentence of a condition that a chip reported.
@@ -41,6 +44,9 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     std::uint16_t read(std::uint32_t offset) override;
     void write(std::uint32_t offset, std::uint16_t value) override;
     std::uint16_t peek(std::uint32_t offset) const override;
+    /// The 8-bit bus (see ByteBus): port 2 n is the low byte of WRn and RRn, 2 n + 1 the high one; WR0 is carried out by its low byte.
+    std::uint8_t read_byte(std::uint32_t port);
+    void write_byte(std::uint32_t port, std::uint8_t value);
 
     /// Pulses of an axis (0 X .. 3 U) as a position over time: + and - pulses since the start, whatever LP is set to.
     sim::Motion& pulses(int axis) { return outputs_[static_cast<std::size_t>(axis)]; }
@@ -74,6 +80,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
   private:
     struct Inspected;  // inspect.cpp
     static constexpr int emergency_pin = 100;
+    static constexpr int step_pin = 101;
     static constexpr int encoder_pin = 120;  // + 2 * axis + (0 xeca, 1 xecb)
     static constexpr int output_pin = 200;   // + 16 * axis + (0 xpp, 1 xpm, 8 + n: nOUTn)
 
@@ -167,6 +174,27 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     bool path_finished() const;
     int path_direction(int i) const;
 
+    // pattern.cpp: bit patterns
+    void pattern_command(int code);
+    void stack_pattern();
+    void clear_pattern();
+    void next_pattern_word();
+    int step_pattern();
+    void look_ahead_in_pattern();
+    int pattern_counter() const;
+    double pattern_share(int i) const;
+
+    // external.cpp: drives and single steps by wire
+    void set_external(int a, std::uint16_t before);
+    void hear_external(int pin);
+    void hear_step_wire(int wire_level);
+    void sample_external();
+    void sample_external_drive(int a);
+    bool by_steps(int a) const;
+    bool halted(int a) const { return by_steps(a) && !state_.stepping; }
+    bool ask_step(std::uint32_t by);
+    void end_step(int a);
+
     // speed.cpp: the speed step
     bool speed_step(int a);
     std::int64_t target(const Axis& axis) const;
@@ -204,6 +232,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void walk_ahead(int a, std::int64_t phase_limit);
     std::int64_t phase_in(int a, std::int64_t ticks) const;
     PulseMoment last_pulse(int a, std::int64_t pulses, std::int64_t ticks) const;
+    static void rest(Generator& gen);
     void bring_along(int a, std::int64_t to);
 
     // edges.cpp
@@ -221,6 +250,10 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
 
     // registers.cpp
     void reset();
+    void write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t mask);
+    template <class Put>
+    void write_mode(std::uint32_t offset, int a, const Put& put);
+    void clear_flags(std::uint16_t mask);
     void command(std::uint16_t value);
     void data_write(int code, int a);
     void data_read(int code, int a);
@@ -250,10 +283,12 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     std::array<std::array<sim::WireId, 2>, axes_of_chip> pulse_wires_{};
     std::array<std::array<sim::WireId, 2>, axes_of_chip> encoder_wires_{};
     sim::WireId emgn_{};
+    sim::WireId expls_n_{};
     sim::WireId int_n_{};
     unsigned listened_ = 0;    // axes of which somebody listens to motion or edges
     bool stale_ = false;       // the next interesting tick must be looked for again
     unsigned moved_last_ = 0;  // axes that stepped in the basic pulse at hand
+    std::array<int, axes_of_chip> went_{};  // which way each of them did
     unsigned changed_ = 0;     // axes whose law of motion changed in the present event
 };
 

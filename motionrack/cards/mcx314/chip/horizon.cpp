@@ -27,6 +27,7 @@ void Chip::find_next_tick(int a) {
     gen.next_tick = state_.tick + ticks;
     if (gen.next_special >= far) {
         gen.plain = true;
+        if (halted(a)) return rest(gen);
         if (ticks >= far) gen.next_tick = far;
         if (some_unheard()) walk_ahead(a, far);
         return;
@@ -58,6 +59,7 @@ std::int64_t Chip::ticks_to_speed_event(const Axis& axis) const {
 std::int64_t Chip::pulses_to_special(int a) const {
     const Axis& own = state_.axis[a];
     const Generator& gen = own.gen;
+    if (halted(a)) return far;
     if (walks_pulses(a)) return 1;
     std::int64_t pulses = pulses_to_final(a);
     if (gen.drive == Drive::fixed) pulses = std::min(pulses, std::int64_t{own.pulses} - gen.n);
@@ -76,10 +78,13 @@ std::int64_t Chip::pulses_to_special(int a) const {
     return std::max<std::int64_t>(1, pulses);
 }
 
-/// Constant vector speed of three axes has no closed form here: its pulses are walked one by one.
+/// Bit patterns, single steps and constant vector speed of three axes have no closed form here: their pulses are walked
+/// one by one.
 bool Chip::walks_pulses(int a) const {
     const Path& path = state_.path;
-    return state_.axis[a].gen.drive == Drive::path && path.command.count == 3 &&
+    if (state_.axis[a].gen.drive != Drive::path) return false;
+    if (path.command.pattern() || path.command.steps != 0) return true;
+    return path.command.count == 3 &&
            (path.range_for[1] != path.range_for[0] || path.range_for[2] != path.range_for[0]);
 }
 
@@ -89,7 +94,7 @@ std::int64_t Chip::pulses_to_final(int a) const {
     std::int64_t total = 0;
     if (gen.final || gen.drive == Drive::continuous) return far;
     if (gen.drive == Drive::path) {
-        if (!state_.decel_enabled || state_.queued || (state_.path.command.arc() && !gen.manual)) return far;
+        if (!state_.decel_enabled || state_.queued || (!state_.path.command.line() && !gen.manual)) return far;
         total = state_.path.longest;
     } else {
         total = axis.pulses;
@@ -200,6 +205,12 @@ std::int64_t Chip::pulses_of(const Generator& gen, std::int64_t added) const {
 std::array<std::int64_t, 3> Chip::path_steps(std::int64_t pulses) const {
     const Path& path = state_.path;
     std::array<std::int64_t, 3> steps{};
+    if (path.command.pattern()) {
+        const int end = static_cast<int>(std::min<std::int64_t>(Pattern::length, state_.pattern.place + pulses));
+        for (int at = state_.pattern.place; at < end && !state_.pattern.ends(path.command.count, at); ++at)
+            for (int i = 0; i < path.command.count; ++i) steps[i] += state_.pattern.step(i, at);
+        return steps;
+    }
     if (path.command.arc()) {
         const auto to = path.arc.after(pulses);
         steps[0] = to[0] - path.arc.at[0];

@@ -102,6 +102,7 @@ void Chip::walk_ahead(int a, std::int64_t phase_limit) {
 /// What the generator's speed adds up to in the next `ticks`, none of them after next_tick.
 std::int64_t Chip::phase_in(int a, std::int64_t ticks) const {
     const Generator& gen = state_.axis[a].gen;
+    if (halted(a)) return 0;
     if (!gen.walks) return ticks * gen.speed;
     const Walk so_far = walk(a, ticks, far);
     return so_far.phase + (ticks - so_far.ticks) * so_far.law.speed;
@@ -118,10 +119,20 @@ PulseMoment Chip::last_pulse(int a, std::int64_t pulses, std::int64_t ticks) con
     return {gen.at + until.ticks + more, more * speed - left, speed};
 }
 
-/// Generator `a` goes `to` a tick on its walk, not beyond its end.
+/// A generator that waits for a step: until then it neither adds up nor changes its speed.
+void Chip::rest(Generator& gen) {
+    gen.walks = true;
+    gen.next_tick = far;
+}
+
+/// Generator `a` goes `to` a tick on its walk, not beyond its end; or it rests.
 void Chip::bring_along(int a, std::int64_t to) {
     Generator& gen = state_.axis[a].gen;
     const std::int64_t ticks = to - gen.at;
+    if (halted(a)) {
+        gen.at = to;
+        return;
+    }
     const Walk done = to == gen.next_tick ? state_.ahead[a] : walk(a, ticks, far);
     const std::int64_t rest = ticks - done.ticks, rest_phase = rest * done.law.speed;
     const std::int64_t pulses = pulses_of(gen, done.phase + rest_phase);

@@ -27,7 +27,10 @@ void Chip::reset() {
     state_.selected = 1;
     state_.wr4 = state_.wr5 = state_.wr6 = state_.wr7 = state_.rr6 = state_.rr7 = 0;
     state_.chain = state_.working = state_.in_place = 0;
-    state_.queued = state_.decel_enabled = state_.path_interrupt = false;
+    state_.queued = state_.decel_enabled = state_.path_interrupt = state_.stepping = false;
+    state_.pattern = {};
+    state_.wr0_high = state_.step_low = 0;
+    hear_step_wire(state_.step_high);
     for (int a = 0; a < axes_of_chip; ++a) compare(a);
     update_outputs();
 }
@@ -35,54 +38,67 @@ void Chip::reset() {
 // ---- writing --------------------------------------------------------------------------------------------------------
 
 void Chip::write(std::uint32_t offset, std::uint16_t value) {
+    write_bits(offset, value, 0xFFFF);
+}
+
+void Chip::write_byte(std::uint32_t port, std::uint8_t value) {
+    const bool high = (port & 1u) != 0;
+    if (port == 1)
+        state_.wr0_high = value;
+    else if (port == 0)
+        write_bits(reg::WR0, static_cast<std::uint16_t>(state_.wr0_high << 8 | value), 0xFFFF);
+    else
+        write_bits(port & ~1u, static_cast<std::uint16_t>(high ? value << 8 : value), high ? 0xFF00 : 0x00FF);
+}
+
+/// A write of the bits in `mask`.
+void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t mask) {
     const Instant now = kernel_.now();
     catch_up(now);
-    for (int a = 0; a < axes_of_chip; ++a) {
-        if (!(state_.selected >> a & 1u)) continue;
-        Axis& axis = state_.axis[a];
-        if (offset == reg::WR1) {
-            // The counter has moved uncompared while nothing was enabled: only what comes from now on counts.
-            compare(a);
-            axis.wr1 = value;
-        }
-        if (offset == reg::WR2) {
-            const std::int32_t ep_now = encoder_position(axis, a);
-            axis.wr2 = value;
-            set_encoder_position(a, ep_now);  // the edge ratio may have changed
-            compare(a);
-        }
-        if (offset == reg::WR3) axis.wr3 = value;
-        if (offset == reg::WR1 || offset == reg::WR2) {
-            set_wants(a);
-            watch_encoder(a);
-        }
-    }
-    switch (offset) {
-        case reg::WR0:
-            command(value);
-            break;
-        case reg::WR4:
-            state_.wr4 = value;
-            update_outputs();
-            break;
-        case reg::WR5:
-            state_.wr5 = value;
-            break;
-        case reg::WR6:
-            state_.wr6 = value;
-            break;
-        case reg::WR7:
-            state_.wr7 = value;
-            break;
-        default:
-            break;
-    }
+    auto put = [=](std::uint16_t& word) { word = static_cast<std::uint16_t>((word & ~mask) | (value & mask)); };
+    if (state_.pattern.writable && offset >= reg::WR2 && offset <= reg::WR7)
+        put(state_.pattern.registers[(offset - reg::WR2) / 2]);
+    else if (offset == reg::WR0)
+        command(value);
+    else if (offset >= reg::WR1 && offset <= reg::WR3)
+        for_each_axis(state_.selected, [&](int a) { write_mode(offset, a, put); });
+    else if (offset == reg::WR4)
+        put(state_.wr4), update_outputs();
+    else if (offset == reg::WR5)
+        put(state_.wr5);
+    else if (offset == reg::WR6)
+        put(state_.wr6);
+    else if (offset == reg::WR7)
+        put(state_.wr7);
     // Whatever changed: the next working tick of every generator is worked in full.
     for (Axis& axis : state_.axis) {
         axis.gen.look = true;
         axis.gen.special_known = false;
     }
     settle(now);
+}
+
+/// WR1 .. WR3 of an axis; put(word) writes what is written.
+template <class Put>
+void Chip::write_mode(std::uint32_t offset, int a, const Put& put) {
+    Axis& axis = state_.axis[a];
+    if (offset == reg::WR3) {
+        const std::uint16_t before = axis.wr3;
+        put(axis.wr3);
+        return set_external(a, before);
+    }
+    if (offset == reg::WR1) {
+        // The counter has moved uncompared while nothing was enabled: only what comes from now on counts.
+        compare(a);
+        put(axis.wr1);
+    } else {
+        const std::int32_t ep_now = encoder_position(axis, a);
+        put(axis.wr2);
+        set_encoder_position(a, ep_now);  // the edge ratio may have changed
+        compare(a);
+    }
+    set_wants(a);
+    watch_encoder(a);
 }
 
 void Chip::command(std::uint16_t value) {
@@ -105,8 +121,12 @@ void Chip::command(std::uint16_t value) {
         if (axes != 0) data_read(code, first_selected());
     } else if (code >= 0x20 && code <= 0x23) {
         drive_command(code, axes);
-    } else if (code >= 0x30 && code <= 0x33) {
+    } else if (code >= 0x30 && code <= 0x35) {
         path_command(code);
+    } else if (code >= 0x36 && code <= 0x39) {
+        pattern_command(code);
+    } else if (code == 0x3A) {
+        if (!ask_step(PathCommand::by_command)) kernel_.report(id_, step_ignored);
     } else if (code == 0x24) {
         each([&](int a) { state_.axis[a].hold = true; });
     } else if (code == 0x25) {
@@ -119,7 +139,7 @@ void Chip::command(std::uint16_t value) {
     } else if (code == 0x3C) {
         state_.decel_enabled = false;
     } else if (code == 0x3D) {
-        state_.path_interrupt = false;
+        state_.path_interrupt = state_.pattern.interrupt = false;
     } else {
         kernel_.report(id_, unknown_command, code);
     }
@@ -245,8 +265,9 @@ void Chip::begin_generator(int a, Drive drive) {
 PathCommand Chip::captured(int code) const {
     PathCommand command;
     command.code = code;
-    command.count = code == 0x31 ? 3 : 2;
+    command.count = code == 0x31 || code == 0x35 ? 3 : 2;
     command.vector_speed = state_.wr5 >> 8 & 3;
+    command.steps = state_.wr5 >> 11 & 3u;
     for (int i = 0; i < 3; ++i) {
         command.axis[i] = state_.wr5 >> (2 * i) & 3;
         command.finish[i] = rules::signed24(state_.axis[command.axis[i]].pulses);
@@ -264,7 +285,8 @@ bool Chip::any_busy(const PathCommand& command) const {
 void Chip::path_command(int code) {
     state_.path_interrupt = false;
     const PathCommand command = captured(code);
-    if (command.names_an_axis_twice() || any_busy(command) || (state_.chain != 0 && state_.queued)) {
+    const bool full = state_.queued || command.pattern() || state_.path.command.pattern();
+    if (command.names_an_axis_twice() || any_busy(command) || (state_.chain != 0 && full)) {
         kernel_.report(id_, path_ignored, code);
     } else if (state_.chain != 0) {
         state_.queued = true;
@@ -283,7 +305,7 @@ void Chip::path_command(int code) {
 void Chip::start_path(const PathCommand& command) {
     state_.chain = command.mask();
     state_.master = command.axis[0];
-    state_.queued = false;
+    state_.queued = state_.stepping = false;
     state_.stepped = 1;
     for (int a = 0; a < axes_of_chip; ++a)
         if (state_.chain >> a & 1u) state_.axis[a].finished = state_.axis[a].causes = 0;

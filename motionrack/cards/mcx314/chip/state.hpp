@@ -19,14 +19,20 @@ enum class Phase : std::uint8_t { increasing, constant, decreasing };
 
 /// What an interpolation command captures.
 struct PathCommand {
-    std::int32_t code = 0;  ///< 30h .. 33h
+    std::int32_t code = 0;  ///< 30h .. 35h
     std::int32_t count = 2;
     std::int32_t vector_speed = 0;  ///< WR5.LSPD
+    std::uint32_t steps = 0;        ///< WR5.EXPLS, CMPLS: a basic pulse a request
     std::array<std::int32_t, 3> axis{};
+    std::int32_t reserved = 0;
     std::array<std::int64_t, 3> finish{};
     std::array<std::int64_t, 2> centre{};
 
-    bool arc() const { return code >= 0x32; }
+    static constexpr std::uint32_t by_wire = 1, by_command = 2;  ///< of steps
+
+    bool line() const { return code <= 0x31; }
+    bool arc() const { return code == 0x32 || code == 0x33; }
+    bool pattern() const { return code >= 0x34; }
     unsigned mask() const {
         unsigned bits = 0;
         for (int i = 0; i < count; ++i) bits |= 1u << axis[static_cast<std::size_t>(i)];
@@ -44,6 +50,32 @@ struct Path {
     std::int64_t longest = 0;                 ///< lines: basic pulses
     std::array<std::int64_t, 3> made{};       ///< lines: steps of each axis so far
     std::array<std::int64_t, 3> range_for{};  ///< Rnow when one, two, three axes stepped
+};
+
+/// Sixteen steps of three axes: BP1P, BP1M, BP2P, BP2M, BP3P, BP3M.
+using PatternWord = std::array<std::uint16_t, 6>;
+
+/// The bit pattern: its registers, the stack and the word of which the next step is `place`.
+struct Pattern {
+    static constexpr std::uint8_t depth = 3, length = 16;
+    PatternWord registers{};
+    std::array<PatternWord, depth> stack{};
+    PatternWord running{};
+    std::uint8_t stacked = 0;
+    std::uint8_t place = length;  ///< `length`: there is no running word
+    bool writable = false;        ///< 36h: the registers stand where WR2..WR7 are
+    bool interrupt = false;
+
+    /// The step of AX(i+1) at `at`: -1, 0 or +1.
+    int step(int i, int at) const {
+        return (running[2 * i] >> at & 1) - (running[2 * i + 1] >> at & 1);
+    }
+    /// Whether one of the first `axes` axes has the end code at `at`.
+    bool ends(int axes, int at) const {
+        unsigned both = 0;
+        for (int i = 0; i < axes; ++i) both |= running[2 * i] & running[2 * i + 1];
+        return (both >> at & 1u) != 0;
+    }
 };
 
 /// A speed and the ramp it is on.
@@ -78,7 +110,7 @@ struct Generator : Speed {
     bool look = false;           ///< the next working tick must be worked in full (inputs, limits or commands changed)
     bool special_known = false;  ///< next_special is up to date
     bool plain = false;          ///< what comes at next_tick is a step of the speed and nothing else
-    bool walks = false;          ///< plain, and there are more such steps on the way there: State::ahead
+    bool walks = false;          ///< plain, and there are more such steps on the way there (State::ahead), or it rests
     std::array<std::uint8_t, 2> reserved{};
     std::int64_t wait = 0;
     std::int64_t range = 0, range_now = 0, acc = 0;
@@ -123,7 +155,9 @@ struct Axis {
     bool hold = false;
     bool pulses_wanted = false, outputs_wanted = false;  ///< somebody follows xpp, xpm; nOUT4..7
     std::uint8_t encoder_lines = 3;                      ///< xeca, xecb as last heard
-    std::array<std::uint8_t, 4> reserved{};
+    std::uint8_t external = 0;                    ///< nEXPP (1) or nEXPM (2) drives until it is High
+    std::array<std::uint8_t, 2> external_low{2, 2};  ///< ticks, up to 2, since nEXPP, nEXPM were seen High
+    std::uint8_t reserved = 0;
     std::int64_t shown = 0;  ///< `made` when the pulse wires were set last
     PulseMark mark;
     std::int64_t count = 0;       ///< net pulses since the start
@@ -140,6 +174,10 @@ struct State {
     std::int64_t next_event = 0;  ///< the next tick that must be worked in full
     std::uint16_t wr4 = 0, wr5 = 0, wr6 = 0, wr7 = 0, rr6 = 0, rr7 = 0;
     std::uint16_t selected = 1;
+    std::uint8_t wr0_high = 0;  ///< as written by byte
+    std::uint8_t step_low = 0;  ///< ticks, up to 2, since EXPLSN was seen High
+    bool step_high = true;      ///< EXPLSN as last heard
+    bool stepping = false;      ///< a single step is under way
     bool emergency_high = true;
     bool queued = false, decel_enabled = false, path_interrupt = false, interrupt = false;
     bool begun = false;       ///< the wires have been looked at since the world began
@@ -149,9 +187,11 @@ struct State {
     std::uint32_t working = 0;    ///< axes whose generator works
     std::uint32_t in_place = 0;   ///< axes whose drive is over but not yet in position
     std::uint32_t following = 0;  ///< axes whose lazily driven wires somebody follows
+    std::uint32_t sampled = 0;    ///< axes whose nEXPP, nEXPM the next tick looks at; bit 4: EXPLSN
     std::uint32_t crossed = 0;    ///< axes of which a watched count may have been left
     Path path;
     PathCommand queue;
+    Pattern pattern;
     std::array<Walk, axes_of_chip> ahead{};  ///< of generators that walk, from `at` to next_tick
 };
 
@@ -174,6 +214,14 @@ constexpr std::int64_t quick_div(std::int64_t a, std::int64_t b) {
 
 constexpr bool bit(unsigned value, int n) {
     return (value >> n & 1u) != 0;
+}
+/// WR3.EXOP.
+constexpr unsigned external_mode(std::uint16_t wr3) {
+    return wr3 >> 3 & 3u;
+}
+inline constexpr unsigned external_continuous = 1, external_fixed = 2;
+constexpr bool drives_by_wire(std::uint16_t wr3) {
+    return external_mode(wr3) == external_continuous || external_mode(wr3) == external_fixed;
 }
 constexpr bool level(const Axis& axis, Pin pin) {
     return bit(axis.levels, static_cast<int>(pin));

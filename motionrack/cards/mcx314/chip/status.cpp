@@ -14,12 +14,26 @@ std::uint16_t Chip::read(std::uint32_t offset) {
     const Instant now = kernel_.now();
     catch_up(now);
     const std::uint16_t value = peek(offset);
-    if (offset == reg::RR3) {
-        state_.axis[first_selected()].flags = 0;
-        for (Axis& axis : state_.axis) axis.gen.special_known = false;
-    }
+    if (offset == reg::RR3) clear_flags(0xFFFF);
     settle(now);
     return value;
+}
+
+std::uint8_t Chip::read_byte(std::uint32_t port) {
+    const Instant now = kernel_.now();
+    catch_up(now);
+    const bool high = (port & 1u) != 0;
+    const unsigned value = peek(port & ~1u);
+    if ((port & ~1u) == reg::RR3) clear_flags(high ? 0xFF00 : 0x00FF);
+    settle(now);
+    return static_cast<std::uint8_t>(high ? value >> 8 : value);
+}
+
+/// RR3 was read, the bits in `mask`.
+void Chip::clear_flags(std::uint16_t mask) {
+    Axis& read_axis = state_.axis[first_selected()];
+    read_axis.flags = static_cast<std::uint16_t>(read_axis.flags & ~mask);
+    for (Axis& axis : state_.axis) axis.gen.special_known = false;
 }
 
 std::uint16_t Chip::peek(std::uint32_t offset) const {
@@ -55,11 +69,12 @@ std::uint16_t Chip::main_status() const {
     }
     if (state_.chain != 0) {
         v |= 1u << 8;
-        if (!state_.queued) v |= 1u << 9;
+        if (!state_.queued && !state_.path.command.pattern()) v |= 1u << 9;
         if (state_.path.command.arc())
             v |= static_cast<unsigned>(state_.path.arc.clockwise ? 7 - state_.path.arc.octant : state_.path.arc.octant)
                  << 10;
     }
+    v |= static_cast<unsigned>(pattern_counter()) << 13;
     return static_cast<std::uint16_t>(v);
 }
 

@@ -33,7 +33,9 @@ void Chip::work_off(std::int64_t to) {
             work(a);
         }
     });
-    if (state_.in_place != 0) look_at_in_position();
+    if ((state_.in_place | state_.sampled) == 0) return;
+    look_at_in_position();
+    sample_external();
 }
 
 void Chip::look_at_in_position() {
@@ -53,12 +55,15 @@ void Chip::work(int a) {
     if (inputs(a)) return;
     if (gen.drive == Drive::fixed && gen.n >= state_.axis[a].pulses) return end(a);
     if (gen.drive == Drive::path && path_finished() && segment_end(a)) return;
+    if (halted(a)) return;
     gen.acc += gen.speed;
+    bool step_made = false;
     if (gen.acc >= gen.range_now) {
         gen.acc -= gen.range_now;
         if (pulse(a)) return;
+        step_made = by_steps(a);
     }
-    speed_step(a);
+    if (!speed_step(a) && step_made) end_step(a);
 }
 
 // ---- step 1 ---------------------------------------------------------------------------------------------------------
@@ -117,7 +122,7 @@ bool Chip::inputs(int a) {
 bool Chip::stop(int a, bool decelerating, bool immediate) {
     Generator& gen = state_.axis[a].gen;
     if (!decelerating && !immediate) return false;
-    if (immediate || gen.speed <= rules::used_speed(state_.axis[a].start_speed)) return end(a), true;
+    if (immediate || halted(a) || gen.speed <= rules::used_speed(state_.axis[a].start_speed)) return end(a), true;
     if (!gen.final) gen.special_known = false;
     gen.final = gen.stopping = true;
     if (gen.drive == Drive::path) state_.queued = false;
@@ -142,6 +147,7 @@ void Chip::end(int a) {
         state_.queued = false;
     }
     state_.axis[a].gen.drive = Drive::idle;
+    state_.axis[a].external = 0;
     state_.working &= ~(1u << a);
     state_.axis[a].gen.ramp = 0;
 }
@@ -162,6 +168,7 @@ bool Chip::pulse(int a) {
     if (gen.ramp < 0 && !gen.final && gen.accel_pulses > 0) --gen.accel_pulses;
     if (gen.n >= gen.next_special) gen.special_known = false;
     mark_pulse(a, moved_last_, {state_.tick, gen.acc, gen.speed});
+    for_each_axis(moved_last_, [this](int i) { state_.axis[i].mark.direction = went_[i]; });
     bool beyond = false;
     const std::uint32_t moved = moved_by(a);
     for (int i = 0; i < axes_of_chip; ++i) beyond = beyond || ((moved >> i & 1) && beyond_software_limit(i));
@@ -176,6 +183,7 @@ bool Chip::pulse(int a) {
 int Chip::step_axes(int a) {
     Path& path = state_.path;
     if (state_.axis[a].gen.drive != Drive::path) return move(a, state_.axis[a].direction, state_.tick), 1;
+    if (path.command.pattern()) return step_pattern();
     int moved = 0;
     if (path.command.arc()) {
         const int octant = path.arc.octant;
@@ -210,6 +218,7 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
     ++axis.made;
     axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & flag_pulse));
     moved_last_ |= 1u << a;
+    went_[a] = direction;
     if ((axis.wr1 & 0x1E00u) != 0) compare(a);
     if (outputs_[a].edge_listener) add_edge(a, tick_now, direction, axis.count);
     for (int i = 0; i < outputs_[a].listener_count; ++i)
@@ -231,6 +240,7 @@ void Chip::mark_pulse(int a, unsigned stepped, const PulseMoment& at) {
 }
 
 bool Chip::path_finished() const {
+    if (state_.path.command.pattern()) return state_.pattern.place == Pattern::length;
     return state_.path.command.arc() ? state_.path.arc.finished
                                      : state_.axis[state_.master].gen.n >= state_.path.longest;
 }
@@ -238,7 +248,8 @@ bool Chip::path_finished() const {
 /// The direction in which AX(i+1) goes; 0: it does not move.
 int Chip::path_direction(int i) const {
     const PathCommand& command = state_.path.command;
-    if (!command.arc()) return command.finish[i] > 0 ? 1 : command.finish[i] < 0 ? -1 : 0;
+    if (command.pattern()) return 0;
+    if (command.line()) return command.finish[i] > 0 ? 1 : command.finish[i] < 0 ? -1 : 0;
     const int d = rules::direction_in_octant(state_.path.arc.octant, i);
     return i == 1 && state_.path.arc.clockwise ? -d : d;
 }
@@ -266,7 +277,10 @@ void Chip::begin_segment(const PathCommand& command) {
     path.command = command;
     path.longest = 0;
     path.made = {};
-    if (command.arc())
+    if (command.pattern()) {
+        if (state_.pattern.place == Pattern::length) next_pattern_word();
+        look_ahead_in_pattern();
+    } else if (command.arc())
         path.arc.begin(command.centre[0], command.centre[1], command.finish[0], command.finish[1],
                        command.code == 0x32);
     else
@@ -295,7 +309,7 @@ void Chip::check_final(int a) {
                          : std::int64_t{axis.pulses} - gen.n <= gen.accel_pulses + axis.offset;
     } else if (gen.drive == Drive::path && state_.decel_enabled && !state_.queued) {
         now = gen.manual ? gen.n >= axis.decel_point
-                         : !state_.path.command.arc() && state_.path.longest - gen.n <= gen.accel_pulses + axis.offset;
+                         : state_.path.command.line() && state_.path.longest - gen.n <= gen.accel_pulses + axis.offset;
     }
     if (!now) return;
     gen.final = true;

@@ -19,8 +19,8 @@ void Chip::set_wants(int a) {
         axis.levels = static_cast<std::uint16_t>(high ? axis.levels | mask : axis.levels & ~mask);
     };
     for (int i = 0; i < 4; ++i) set(static_cast<Pin>(i), bit(axis.wr1, 2 * i + 1));
-    set(Pin::exp_plus, false);
-    set(Pin::exp_minus, false);
+    set(Pin::exp_plus, drives_by_wire(axis.wr3));
+    set(Pin::exp_minus, drives_by_wire(axis.wr3));
     set(Pin::in_position, bit(axis.wr2, 15));
     set(Pin::alarm, bit(axis.wr2, 13));
     set(Pin::limit_plus, true);

@@ -109,7 +109,9 @@ Result<void> Driver::give_kept_back(bool last, Duration timeout) {
         if (chain_.next_v != 0) put(own, param::V, chain_.speeds.V = chain_.next_v);
         if (last) aim_at_end(piece);
         chain_.next_v = chain_.kept_back_v;
-        piece.from = chain_.at;
+        read_start(piece);  // of an axis that joins the chain here; the others are on their way
+        for (std::size_t i = 0; i < 4; ++i)
+            if (chain_.axes >> i & 1) piece.from[i] = chain_.at[i];
     }
     path_axes_ |= piece.axes;
     put_piece(piece);
@@ -121,9 +123,6 @@ Result<void> Driver::give_kept_back(bool last, Duration timeout) {
 
 /// Where the chain is after this piece, for the positions on arcs.
 void Driver::note_end(const Piece& piece) {
-    for (int i = 0; i < 4; ++i)
-        if (chain_.segments == 0 || !(chain_.axes >> i & 1))
-            chain_.at[static_cast<std::size_t>(i)] = piece.axes >> i & 1 ? piece.from[static_cast<std::size_t>(i)] : 0;
     chain_.axes |= piece.axes;
     const ChannelList list = channels_of(piece.axes);
     const auto h = static_cast<std::size_t>(list.channel[0]), v = static_cast<std::size_t>(list.channel[1]);
@@ -135,7 +134,7 @@ void Driver::note_end(const Piece& piece) {
         moved[v] = end.second;
     }
     for (std::size_t i = 0; i < 4; ++i)
-        if (piece.axes >> i & 1) chain_.at[i] += moved[i];
+        if (piece.axes >> i & 1) chain_.at[i] = piece.from[i] + moved[i];
 }
 
 /// The last piece must hold the fall to SV: where it is too short the speed is lowered before it.

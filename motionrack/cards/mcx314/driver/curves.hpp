@@ -83,8 +83,8 @@ Result<CurvePlan> plan_drive(const CurveData& data, const std::function<void(con
 /// Exact by trying: every later point ends faster.
 Result<std::int64_t> best_dec_point(const CurveData& data);
 
-/// The least AO, 0 .. 65,535, with which the automatic deceleration reaches SV by the last pulse: falling takes a little
-/// more pulses than rising did, most of all in S-curves. 65,535 if none does.
+/// The least AO, 0 .. 65,535, with which the automatic deceleration reaches SV by the last pulse: falling takes a
+/// little more pulses than rising did, most of all in S-curves. 65,535 if none does.
 Result<std::int64_t> best_offset(const CurveData& data);
 
 /// Pulses that the fall from `v` to SV takes, rounded up.

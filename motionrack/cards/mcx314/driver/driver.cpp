@@ -140,6 +140,7 @@ void Driver::RESET() {
     interrupt_.pass(reset_time);
     kept_ = {};
     outputs_ = 0;
+    path_axes_ = 0;
     path_mode_ = 0;
     vector_axes_ = 1;
     chain_ = {};
@@ -283,6 +284,7 @@ Result<void> Driver::LPS(unsigned axes, std::int64_t value) {
     MOTIONRACK_CHECK(write(axes, param::LP, value));
     for (int i = 0; i < 4; ++i)
         if (axes >> i & 1) kept(i).from_known = false;
+    if (axes & path_axes_) pieces_ = {};  // where its axes began is no longer known
     return {};
 }
 Result<void> Driver::EPS(unsigned axes, std::int64_t value) {

@@ -123,7 +123,8 @@ class Driver {
     /// Later lines and arcs keep the speed along the path: two axes stepping together take 1.414 times as long, three
     /// 1.732 times. 1: off, 2: two axes, 3: three axes.
     Result<void> SetVectorSpeed(int axes_count);
-    /// Speed of every axis, pulses a second, signed, also in interpolations that this library started.
+    /// Speed of every axis, pulses a second, signed, also in interpolations that this library started: the mean over
+    /// some pulses. Refused where the interpolation was started by Line() or Arc(), or LPS() has moved its counters.
     Result<std::array<double, 4>> axis_speeds();
 
     /// The bare registers: AX1, AX2 (, AX3) channels; constant vector speed of two axes; interrupt at each joint.

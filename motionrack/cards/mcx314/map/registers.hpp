@@ -58,7 +58,7 @@ inline constexpr FieldInfo wr3_fields[] = {
     {"MANLD", 0x0001, "deceleration of a fixed drive: 0 automatic, 1 from DP on"},
     {"DSNDE", 0x0002, "deceleration uses D instead of A"},
     {"SACC", 0x0004, "0 T-curve, 1 S-curve"},
-    {"EXOP", 0x0018, "drive by nEXPP, nEXPM: 0 off, 1 continuous, 2 fixed (not reproduced)"},
+    {"EXOP", 0x0018, "drive by nEXPP, nEXPM: 0 off, 1 continuous, 2 fixed"},
     {"OUTSL", 0x0080, "nOUT4..7 show: 0 OUT4..7, 1 drive status"},
     {"OUT4", 0x0100, "level of nOUT4"},
     {"OUT5", 0x0200, "level of nOUT5"},
@@ -76,10 +76,10 @@ inline constexpr FieldInfo wr5_fields[] = {
     {"AX2", 0x000C, "second axis"},
     {"AX3", 0x0030, "third axis"},
     {"LSPD", 0x0300, "constant vector speed: 0 off, 1 two axes, 3 three axes"},
-    {"EXPLS", 0x0800, "step by the wire EXPLSN (not reproduced)"},
-    {"CMPLS", 0x1000, "step by command 3Ah (not reproduced)"},
+    {"EXPLS", 0x0800, "a basic pulse each time that the wire EXPLSN goes Low"},
+    {"CMPLS", 0x1000, "a basic pulse each command 3Ah"},
     {"CIINT", 0x4000, "interrupt when the next segment may be written"},
-    {"BPINT", 0x8000, "interrupt when the bit-pattern stack wants data (not reproduced)"},
+    {"BPINT", 0x8000, "interrupt when BPSC goes from 2 to 1"},
 };
 inline constexpr FieldInfo rr0_fields[] = {
     {"DRV", 0x000F, "X, Y, Z, U drive"},
@@ -87,7 +87,7 @@ inline constexpr FieldInfo rr0_fields[] = {
     {"IDRV", 0x0100, "an interpolation runs"},
     {"CNEXT", 0x0200, "the next segment may be written"},
     {"ZONE", 0x1C00, "octant of a circular interpolation, 0..7"},
-    {"BPSC", 0x6000, "bit-pattern stack counter (not reproduced: 0)"},
+    {"BPSC", 0x6000, "bit-pattern stack counter: words that wait, 0..3"},
 };
 inline constexpr FieldInfo rr1_fields[] = {
     {"CMPP", 0x0001, "LP or EP >= COMP+"},

@@ -91,6 +91,8 @@ class Watcher final : public sim::MotionListener {
 
 // A kernel with one chip, its wires and, perhaps, somebody who listens to its edges.
 class Bench {
+    static constexpr int output_count = 10;
+
   public:
     Bench(const Program& program, const Way& way) : program_(program), way_(way), random_(way.slices) {
         static constexpr const char* pins[] = {"in0",  "in1",   "in2",   "in3",  "expp",
@@ -98,7 +100,12 @@ class Bench {
         for (int a = 0; a < axis_count; ++a)
             for (int p = 0; p < pin_count; ++p)
                 wires_[a][p] = kernel_.find_wire(std::string("c.") + "xyzu"[a] + pins[p]);
+        static constexpr const char* outputs[] = {"pp", "pm", "out4", "out5", "out6", "out7", "out0", "out1", "out2", "out3"};
+        for (int a = 0; a < axis_count; ++a)
+            for (int p = 0; p < output_count; ++p)
+                output_wires_[a][p] = kernel_.find_wire(std::string("c.") + "xyzu"[a] + outputs[p]);
         emgn_ = kernel_.find_wire("c.emgn");
+        step_ = kernel_.find_wire("c.expls_n");
         requests_.wire = chip_.interrupt_wire();
         kernel_.observe_wires(&requests_);
         for (int a = 0; a < axis_count && way.watch; ++a) watchers_[a].begin(chip_.pulses(a), a);
@@ -112,11 +119,12 @@ class Bench {
         for (std::size_t i = 0; i < program_.ops.size(); ++i) {
             const Op& op = program_.ops[i];
             const bool more = i + 1 < program_.ops.size() && program_.ops[i + 1].order() == op.order();
-            out_.sights.push_back(is_wire(op) ? move_wire(op, more) : access(op));
+            out_.sights.push_back(op.is_wire() ? move_wire(op, more) : access(op));
             if (i + 1 >= way_.snapshot_at && way_.snapshot_at != 0 && !disturbed_ && hand_.idle()) disturb(op);
         }
         sort_pulses(out_.pulses);
         out_.requests = std::move(requests_.list);
+        out_.conditions = kernel_.conditions().size() + kernel_.dropped_conditions();
         for (int a = 0; a < axis_count; ++a) out_.crossings[a] = std::move(watchers_[a].list);
         return std::move(out_);
     }
@@ -136,12 +144,13 @@ class Bench {
         run_on(until);
     }
 
-    static bool is_wire(const Op& op) { return op.kind == Op::Kind::input || op.kind == Op::Kind::emergency; }
     static Instant instant_of(const Op& op) { return op.tick * one_tick + (op.between ? one_tick / 2 : Duration{0}); }
 
     // `more`: the next op moves a wire at the same instant, so that the tick must not be worked off yet.
     Sight move_wire(const Op& op, bool more) {
-        const sim::WireId wire = op.kind == Op::Kind::emergency ? emgn_ : wires_[op.axis][static_cast<int>(op.pin)];
+        const sim::WireId wire = op.kind == Op::Kind::emergency ? emgn_
+                                 : op.kind == Op::Kind::step    ? step_
+                                                                : wires_[op.axis][static_cast<int>(op.pin)];
         hand_.move(wire, op.value, instant_of(op));
         if (!more) run_to(instant_of(op));
         return {};
@@ -152,11 +161,19 @@ class Bench {
         run_to(instant_of(op));
         if (op.kind == Op::Kind::write)
             chip_.write(op.offset, op.value);
+        else if (op.kind == Op::Kind::write_byte)
+            chip_.write_byte(op.offset, static_cast<std::uint8_t>(op.value));
+        else if (op.kind == Op::Kind::read_byte)
+            sight.value = chip_.read_byte(op.offset);
         else
             sight.value = read(op.offset);
         kernel_.settle();
         sight.interrupt = kernel_.level(chip_.interrupt_wire()) == 0;
-        for (int a = 0; a < axis_count; ++a) sight.count[a] = chip_.pulses(a).count(kernel_.now());
+        for (int a = 0; a < axis_count; ++a) {
+            sight.count[a] = chip_.pulses(a).count(kernel_.now());
+            for (int p = 0; p < output_count; ++p)
+                sight.outputs[a] |= static_cast<unsigned>(kernel_.level(output_wires_[a][p])) << p;
+        }
         return sight;
     }
 
@@ -191,8 +208,9 @@ class Bench {
     std::array<Edges, axis_count> edges_{Edges{out_.pulses, 0}, Edges{out_.pulses, 1}, Edges{out_.pulses, 2},
                                          Edges{out_.pulses, 3}};
     std::array<std::array<sim::WireId, pin_count>, axis_count> wires_{};
+    std::array<std::array<sim::WireId, output_count>, axis_count> output_wires_{};
     std::array<Watcher, axis_count> watchers_;
-    sim::WireId emgn_{};
+    sim::WireId emgn_{}, step_{};
     bool disturbed_ = false;
 };
 

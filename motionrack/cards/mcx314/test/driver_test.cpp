@@ -100,6 +100,18 @@ TEST(DriverFlight, ASpeedIsNotChangedWhereTheChipWouldNotTakeIt) {
     done(d.wait_until_done(axis_x, patience));
     EXPECT_EQ(d.ReadLPS(0), 30'000);
 
+    // Where the counter was set meanwhile, the pulses made are not known.
+    done(d.TCurve_F(axis_z, 10, 1'000, 1'000, 4'000));
+    done(d.LPS(axis_z, 77));
+    const Result<void> unknown = d.change_pulses(2, 5'000);
+    ASSERT_FALSE(unknown);
+    EXPECT_THAT(unknown.error().message, HasSubstr("of which this library knows the start"));
+    // The last pulses at SV belong to the end too.
+    done(d.SetAO(axis_z, 500));
+    while (!(d.axis_status(2).constant() && d.ReadCV(2) == 10)) rig.port.pass(milliseconds(1));
+    EXPECT_FALSE(d.change_speed(axis_z, 500));
+    done(d.wait_until_done(axis_z, patience));
+
     done(d.TCurve_F(axis_y, 10, 1'000, 100, 4'000));
     while (!d.axis_status(1).decelerating()) rig.port.pass(milliseconds(1));
     const Result<void> late = d.change_speed(axis_y, 500);
@@ -275,6 +287,45 @@ TEST(DriverPaths, SpeedsOnAnArcAreThoseOfThePulses) {
         EXPECT_NEAR(static_cast<double>(rig.count(0) - x) / 0.02, (*told)[0], 150) << sample;
         EXPECT_NEAR(static_cast<double>(rig.count(1) - y) / 0.02, (*told)[1], 150) << sample;
     }
+}
+
+TEST(DriverPaths, SpeedsInAChainAreThoseOfTheSegmentThatRuns) {
+    DriverRig rig;
+    Driver& d = rig.driver;
+    done(d.SetMultiple(xyzu, 10));
+    done(d.LPS(axis_x, 123'456));
+    done(d.ContStart({0, 1'000, 0, 0}));
+    done(d.ContLine(0x3, {10'000, -5'000}));
+    done(d.ContArc(0x5, {20'000, 0, 20'000}, {0, 0, 20'000}, false));  // Z joins
+    done(d.ContLine(0x3, {-10'000, 1'000}));
+    for (int sample = 0; sample < 36; ++sample) {
+        const auto told = d.axis_speeds();
+        ASSERT_TRUE(told) << told.error().message;
+        const std::array<std::int64_t, 3> at = {rig.count(0), rig.count(1), rig.count(2)};
+        rig.port.pass(milliseconds(20));
+        const bool in_arc = rig.count(0) > 10'100;
+        for (std::size_t i = 0; i < 3; ++i)
+            if (in_arc || rig.count(0) < 9'900) {
+                EXPECT_NEAR(static_cast<double>(rig.count(static_cast<int>(i)) - at[i]) / 0.02, (*told)[i], 150)
+                    << sample << ' ' << i;
+            }
+        rig.port.pass(milliseconds(60));
+    }
+    d.stop_all(StopKind::quick);
+}
+
+TEST(DriverPaths, ConstantVectorSpeedOfThreeAxes) {
+    DriverRig rig;
+    Driver& d = rig.driver;
+    done(d.SetRange(4'000'000));
+    done(d.SetVectorSpeed(3));
+    done(d.Line3D_C({0, 1'000, 0, 0, 0, {20'000, 20'000, -20'000}}, 0x7));
+    rig.port.pass(milliseconds(500));
+    const std::int64_t x = rig.count(0);
+    const auto told = d.axis_speeds();
+    rig.port.pass(whole_seconds(5));
+    EXPECT_NEAR(static_cast<double>(rig.count(0) - x) / 5, 2'000 / std::sqrt(3.0), 1);
+    EXPECT_NEAR((*told)[2], -2'000 / std::sqrt(3.0), 0.1);
 }
 
 TEST(DriverPaths, ConstantVectorSpeedKeepsTheSpeedAlongThePath) {

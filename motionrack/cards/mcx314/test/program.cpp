@@ -1,6 +1,6 @@
 // Makes random register programs.
 #include <algorithm>
-#include <motionrack/cards/mcx314/test/program_values.hpp>
+#include <motionrack/cards/mcx314/test/program_paths.hpp>
 
 namespace motionrack::mcx314::twin {
 
@@ -17,9 +17,9 @@ std::int64_t Random::between(std::int64_t low, std::int64_t high) {
 
 namespace {
 
-class Maker : private Values {
+class Maker : private Paths {
   public:
-    Maker(std::uint64_t seed, std::uint64_t number) : Values(seed, number) {}
+    Maker(std::uint64_t seed, std::uint64_t number) : Paths(seed, number) {}
 
     Program make() {
         static constexpr std::int64_t lengths[] = {2'000, 2'000, 2'000, 2'000, 4'000, 4'000, 8'000, 8'000};
@@ -30,6 +30,9 @@ class Maker : private Values {
         s_curve_ = random_.one_in(3);
         if (s_curve_ && !long_) program_.ticks *= random_.between(1, 3);
         nasty_ = random_.one_in(4);
+        bytes_ = random_.one_in(8);
+        steps_ = random_.one_in(6);
+        external_ = random_.one_in(4);
         const std::int64_t theme = random_.between(0, 3);  // single axes, interpolation, both, everything
         initial();
         if (random_.one_in(4)) retarget();
@@ -45,62 +48,7 @@ class Maker : private Values {
     }
 
   private:
-    // ---- accesses
-    // -----------------------------------------------------------------------------------------------------------
-    void write(int offset, std::int64_t value) {
-        Op op;
-        op.tick = now_, op.between = between_, op.kind = Op::Kind::write;
-        op.offset = static_cast<std::uint8_t>(offset);
-        op.value = static_cast<std::uint16_t>(value);
-        program_.ops.push_back(op);
-        if (random_.one_in(60)) gap();
-    }
-    void read(int offset) {
-        Op op;
-        op.tick = now_, op.between = between_, op.kind = Op::Kind::read, op.offset = static_cast<std::uint8_t>(offset);
-        program_.ops.push_back(op);
-    }
-    void input(int axis, Pin pin, bool level) {
-        Op op;
-        op.tick = now_, op.between = between_, op.kind = Op::Kind::input, op.value = level;
-        op.axis = static_cast<std::int8_t>(axis), op.pin = pin;
-        program_.ops.push_back(op);
-    }
-    void command(unsigned axes, int code) {
-        write(0, static_cast<std::int64_t>(axes << 8 | static_cast<unsigned>(code)));
-    }
-    void data(unsigned axes, int code, std::int64_t value) {
-        write(14, value >> 16);
-        write(12, value);
-        command(axes, code);
-    }
-    void mode(unsigned axes, int number, std::int64_t value) {
-        command(axes, 0x0F);
-        write(2 * number, value);
-    }
-    void gap() {
-        const std::int64_t most = random_.one_in(busy_ < 10 ? 8 : 3) ? 4
-                                  : random_.one_in(6)                ? program_.ticks / 6
-                                                                     : program_.ticks / busy_;
-        now_ += random_.between(0, std::max<std::int64_t>(most, 4));
-        between_ = random_.one_in(2);
-    }
-    unsigned axes() {
-        return random_.one_in(2) ? 1u << random_.between(0, 3) : static_cast<unsigned>(random_.between(1, 15));
-    }
-
     // ---- parameters
-    void speeds(unsigned some) {
-        const std::int64_t start = start_speed();
-        data(some, 0x00, range());
-        data(some, 0x04, start);
-        data(some, 0x05, speed(start));
-        data(some, 0x02, accel());
-        data(some, 0x03, accel());
-        data(some, 0x01, jerk());
-        data(some, 0x0D, random_.one_in(3) ? 0 : random_.between(0, random_.one_in(10) ? 65'535 : 30));
-        data(some, 0x07, pulses());
-    }
     void initial() {
         now_ = random_.between(0, 3);
         if (random_.one_in(4)) {
@@ -117,7 +65,11 @@ class Maker : private Values {
         data(15, 0x06, pulses());
     }
     std::int64_t drive_mode() {
-        return (random_.one_in(4) ? 1 : 0) | (random_.one_in(3) ? 2 : 0) | (s_curve_ && !random_.one_in(4) ? 4 : 0);
+        std::int64_t bits = (random_.one_in(4) ? 1 : 0) | (random_.one_in(3) ? 2 : 0);
+        if (s_curve_ && !random_.one_in(4)) bits |= 4;
+        if (random_.one_in(external_ ? 2 : 12)) bits |= random_.between(1, 3) << 3;
+        if (random_.one_in(4)) bits |= random_.between(0, 31) << 7;
+        return bits;
     }
 
     // ---- actions
@@ -128,7 +80,7 @@ class Maker : private Values {
         const bool path = theme == 1 || (theme >= 2 && random_.one_in(2));
         if (roll < 26) {
             if (path)
-                random_.one_in(3) ? chain() : segment();
+                random_.one_in(3) ? chain() : random_.one_in(3) ? pattern() : segment();
             else
                 drive();
         } else if (roll < 38) {
@@ -138,7 +90,7 @@ class Maker : private Values {
         } else if (roll < 74) {
             command(axes(), random_.one_in(3) ? 0x27 : 0x26);
         } else if (roll < 84) {
-            wire();
+            external_ && random_.one_in(2) ? external() : wire();
         } else if (roll < 90) {
             modes();
         } else if (roll < 93) {
@@ -194,54 +146,6 @@ class Maker : private Values {
             }
         }
     }
-    void choose_axes() {
-        int order[4] = {0, 1, 2, 3};
-        for (int i = 3; i > 0; --i) std::swap(order[i], order[random_.between(0, i)]);
-        if (!random_.one_in(3)) std::sort(order, order + 4);
-        if (random_.one_in(30)) order[1] = order[0];
-        static constexpr int constant[] = {0, 0, 0, 1, 3, 3, 2};
-        wr5_ = order[0] | order[1] << 2 | order[2] << 4 | random_.of(constant) << 8 | (random_.one_in(2) ? 1 << 14 : 0);
-        write(10, wr5_);
-    }
-    void segment() {
-        if (wr5_ == 0 || random_.one_in(4)) choose_axes();
-        if (random_.one_in(8)) {
-            speeds(1u << (wr5_ & 3));
-            if (random_.one_in(2)) data(1u << (wr5_ >> 2 & 3), 0x00, range());
-        }
-        const int code = static_cast<int>(random_.between(0x30, 0x33));
-        if (code >= 0x32) {
-            arc_data();
-        } else {
-            for (int i = 0; i < 3; ++i) data(1u << (wr5_ >> (2 * i) & 3), 0x06, coordinate());
-        }
-        command(0, code);
-    }
-    void arc_data() {
-        const unsigned first = 1u << (wr5_ & 3), second = 1u << (wr5_ >> 2 & 3);
-        const std::int64_t cx = coordinate(), cy = coordinate();
-        data(first, 0x08, cx);
-        data(second, 0x08, cy);
-        std::int64_t px = 0, py = 0;
-        const std::int64_t turn = random_.between(0, 4);  // a full circle, quarters, or anything
-        if (turn == 1) px = cx - cy, py = cy + cx;
-        if (turn == 2) px = 2 * cx, py = 2 * cy;
-        if (turn == 3) px = cx + cy, py = cy - cx;
-        if (turn == 4) px = coordinate(), py = coordinate();
-        if (random_.one_in(4)) px += random_.between(-1, 1), py += random_.between(-1, 1);
-        data(first, 0x06, px);
-        data(second, 0x06, py);
-    }
-    void chain() {
-        if (random_.one_in(2)) command(0, random_.one_in(2) ? 0x3B : 0x3C);
-        for (std::int64_t n = random_.between(2, 6); n > 0; --n) {
-            segment();
-            if (random_.one_in(3)) data(1u << (wr5_ & 3), 0x05, speed(4000));
-            if (random_.one_in(2)) read(0);
-            if (random_.one_in(2)) now_ += random_.between(0, program_.ticks / 20);
-            if (n == 1 && random_.one_in(2)) command(0, 0x3B);
-        }
-    }
     void rewrite() {
         const unsigned some = axes();
         switch (random_.between(0, 9)) {
@@ -285,13 +189,15 @@ class Maker : private Values {
             return;
         }
         const Pin pin = static_cast<Pin>(random_.between(0, pin_count - 1));
-        if (pin == Pin::exp_plus || pin == Pin::exp_minus) return;
-        input(axis, pin, false);
-        const std::int64_t back = now_;
-        now_ += random_.between(0, random_.one_in(3) ? program_.ticks / 8 : 20);
-        between_ = random_.one_in(2);
-        if (!random_.one_in(8)) input(axis, pin, true);
-        now_ = back;
+        pull(axis, pin, random_.one_in(3) ? program_.ticks / 8 : 20);
+    }
+    void external() {
+        const int axis = static_cast<int>(random_.between(0, 3));
+        if (random_.one_in(3)) mode(1u << axis, 3, drive_mode());
+        for (std::int64_t n = random_.between(1, 3); n > 0; --n) {
+            pull(axis, random_.one_in(2) ? Pin::exp_plus : Pin::exp_minus, random_.one_in(3) ? program_.ticks / 8 : 4);
+            now_ += random_.between(0, 6);
+        }
     }
     void modes() {
         const unsigned some = axes();
@@ -364,10 +270,7 @@ class Maker : private Values {
         read(2 * static_cast<int>(random_.between(0, 7)));
     }
 
-    std::int64_t now_ = 0;
-    bool between_ = false;
-    std::int64_t busy_ = 30;
-    int wr5_ = 0;
+    bool external_ = false;  // drives by nEXPP and nEXPM
 };
 
 }  // namespace

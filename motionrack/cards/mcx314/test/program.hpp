@@ -11,19 +11,21 @@ namespace motionrack::mcx314::twin {
 /// One thing that happens to the chip. An access with `between` = false is at the very instant of `tick` (and so comes
 /// after it), else half a tick later. A wire that changes at the very instant counts for that tick.
 struct Op {
-    enum class Kind : std::uint8_t { write, read, input, emergency };
+    enum class Kind : std::uint8_t { write, read, write_byte, read_byte, input, emergency, step };
     std::int64_t tick = 0;
     bool between = false;
     Kind kind = Kind::read;
-    std::uint8_t offset = 0;  ///< register, for accesses
+    std::uint8_t offset = 0;  ///< register or port, for accesses
     std::uint16_t value = 0;  ///< what is written, or the level of the input
     std::int8_t axis = 0;     ///< of the input
     Pin pin = Pin::in0;
 
     /// Things in the order in which they happen: two halves a tick, wires first.
     std::int64_t order() const {
-        return tick * 4 + (between ? 2 : 0) + (kind == Kind::write || kind == Kind::read ? 1 : 0);
+        return tick * 4 + (between ? 2 : 0) + (is_wire() ? 0 : 1);
     }
+    bool is_wire() const { return kind == Kind::input || kind == Kind::emergency || kind == Kind::step; }
+    bool is_read() const { return kind == Kind::read || kind == Kind::read_byte; }
 };
 
 struct Program {

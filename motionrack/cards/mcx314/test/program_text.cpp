@@ -45,6 +45,20 @@ const char* name_of_command(int code) {
             return "CW arc";
         case 0x33:
             return "CCW arc";
+        case 0x34:
+            return "2-axis pattern";
+        case 0x35:
+            return "3-axis pattern";
+        case 0x36:
+            return "pattern registers on";
+        case 0x37:
+            return "pattern registers off";
+        case 0x38:
+            return "stack the pattern";
+        case 0x39:
+            return "clear the pattern";
+        case 0x3A:
+            return "step";
         case 0x3B:
             return "deceleration on";
         case 0x3C:
@@ -74,6 +88,12 @@ std::string to_text(const Program& program) {
                 std::snprintf(line + n, rest(), "%c%s = %d", "XYZU"[op.axis], pins[static_cast<int>(op.pin)], op.value);
         } else if (op.kind == Op::Kind::emergency) {
             n += std::snprintf(line + n, rest(), "EMGN = %d", op.value);
+        } else if (op.kind == Op::Kind::step) {
+            n += std::snprintf(line + n, rest(), "EXPLSN = %d", op.value);
+        } else if (op.kind == Op::Kind::write_byte) {
+            n += std::snprintf(line + n, rest(), "WR%d%c = %02X", op.offset / 2, op.offset % 2 != 0 ? 'H' : 'L', op.value);
+        } else if (op.kind == Op::Kind::read_byte) {
+            n += std::snprintf(line + n, rest(), "read RR%d%c", op.offset / 2, op.offset % 2 != 0 ? 'H' : 'L');
         } else if (op.kind == Op::Kind::read) {
             n += std::snprintf(line + n, rest(), "read RR%d", op.offset / 2);
         } else {

@@ -46,7 +46,7 @@ Outcome run_on_twin(const Program& program) {
     };
     out.sights.reserve(program.ops.size());
     for (const Op& op : program.ops) {
-        const bool wire = op.kind == Op::Kind::input || op.kind == Op::Kind::emergency;
+        const bool wire = op.is_wire();
         const std::int64_t before =
             op.tick - (wire && !op.between ? 1 : 0);  // a wire at the instant of a tick counts for it
         run_to(before);
@@ -58,6 +58,15 @@ Outcome run_on_twin(const Program& program) {
             case Op::Kind::read:
                 sight.value = twin.read(op.offset);
                 break;
+            case Op::Kind::write_byte:
+                twin.write_byte(op.offset, static_cast<std::uint8_t>(op.value));
+                break;
+            case Op::Kind::read_byte:
+                sight.value = twin.read_byte(op.offset);
+                break;
+            case Op::Kind::step:
+                twin.set_step(op.value != 0);
+                break;
             case Op::Kind::input:
                 twin.set_input(op.axis, op.pin, op.value != 0);
                 break;
@@ -67,13 +76,14 @@ Outcome run_on_twin(const Program& program) {
         }
         if (!wire) {
             sight.interrupt = twin.interrupt();
-            for (int a = 0; a < axis_count; ++a) sight.count[a] = twin.count(a);
+            for (int a = 0; a < axis_count; ++a) sight.count[a] = twin.count(a), sight.outputs[a] = twin.outputs(a);
         }
         note_request(2 * op.tick + op.between);
         out.sights.push_back(sight);
     }
     if (!program.ops.empty()) run_to(program.ops.back().tick);
     out.pulses = twin.pulses();
+    out.conditions = twin.conditions();
     sort_pulses(out.pulses);
     find_crossings(out);
     return out;
@@ -129,7 +139,8 @@ std::string difference(const Program& program, const Outcome& twin, const Outcom
         out += "op " + std::to_string(i) + " at tick " + std::to_string(op.tick) + (op.between ? ".5" : "") + ": ";
         if (t.value != c.value) {
             char line[80];
-            std::snprintf(line, sizeof line, "RR%d twin %04X chip %04X; ", op.offset / 2, t.value, c.value);
+            std::snprintf(line, sizeof line, "RR%d%s twin %04X chip %04X; ", op.offset / 2,
+                          op.kind == Op::Kind::read ? "" : op.offset % 2 != 0 ? "H" : "L", t.value, c.value);
             out += line;
         }
         if (t.interrupt != c.interrupt)
@@ -139,8 +150,14 @@ std::string difference(const Program& program, const Outcome& twin, const Outcom
             if (t.count[a] != c.count[a])
                 out += std::string(1, "XYZU"[a]) + " count twin " + std::to_string(t.count[a]) + " chip " +
                        std::to_string(c.count[a]) + "; ";
+        for (int a = 0; a < axis_count; ++a)
+            if (t.outputs[a] != c.outputs[a])
+                out += std::string(1, "XYZU"[a]) + " outputs (PP PM OUT4-7 OUT0-3 from bit 0) twin " +
+                       std::to_string(t.outputs[a]) + " chip " + std::to_string(c.outputs[a]) + "; ";
         return out + "\n";
     }
+    if (twin.conditions != chip.conditions)
+        out += "conditions: twin " + std::to_string(twin.conditions) + " chip " + std::to_string(chip.conditions) + "\n";
     return out;
 }
 

@@ -14,6 +14,7 @@ struct Sight {
     std::uint16_t value = 0;
     bool interrupt = false;
     std::array<std::int64_t, axis_count> count{};
+    std::array<unsigned, axis_count> outputs{};  ///< levels of nPP, nPM, nOUT4..7, nOUT0..3
     friend bool operator==(const Sight&, const Sight&) = default;
 };
 
@@ -42,6 +43,7 @@ struct Outcome {
     std::vector<Pulse> pulses;  ///< by tick, then axis; only if they were listened to
     std::vector<Request> requests;
     std::array<std::vector<Crossing>, axis_count> crossings;  ///< only if somebody watched
+    std::uint64_t conditions = 0;                             ///< reported since the start
 };
 
 /// How a program is run: all ways must give the same outcome.

@@ -24,6 +24,7 @@ void Twin::tick() {
         const bool in_position = axis.pin[static_cast<int>(Pin::in_position)] == bit(axis.wr2, 14);
         if (!bit(axis.wr2, 15) || in_position) axis.waits_position = false;
     }
+    look_at_wires();
 }
 
 void Twin::work(int a) {
@@ -34,13 +35,18 @@ void Twin::work(int a) {
     }
     if (inputs(a)) return;
     if (gen.kind == Generator::Kind::fixed && gen.n >= axes_[a].reg.pulses) return end(a);
-    if (gen.kind == Generator::Kind::path && path_.finished() && segment_end(a)) return;
+    if (gen.kind == Generator::Kind::path && path_finished() && segment_end(a)) return;
+    if (halted(a)) return;
+    bool step_made = false;
     gen.acc += gen.speed;
     if (gen.acc >= gen.range_now) {
         gen.acc -= gen.range_now;
         if (pulse(a)) return;
+        step_made = by_steps(a);
     }
-    speed_step(a);
+    if (speed_step(a) || !step_made) return;
+    step_under_way_ = false;
+    if (gen.stopping) end(a);
 }
 
 // ---- step 1
@@ -100,7 +106,7 @@ bool Twin::inputs(int a) {
 bool Twin::stop(int a, bool decelerating, bool immediate) {
     Generator& gen = axes_[a].gen;
     if (!decelerating && !immediate) return false;
-    if (immediate || gen.speed <= used_start_speed(axes_[a].reg)) return end(a), true;
+    if (immediate || halted(a) || gen.speed <= used_start_speed(axes_[a].reg)) return end(a), true;
     gen.final = gen.stopping = true;
     if (gen.kind == Generator::Kind::path) queued_ = false;
     return false;
@@ -123,6 +129,7 @@ void Twin::end(int a) {
     }
     axes_[a].gen.kind = Generator::Kind::idle;
     axes_[a].gen.ramp = 0;
+    axes_[a].external = -1;
 }
 
 // ---- step 2
@@ -132,11 +139,14 @@ void Twin::end(int a) {
 bool Twin::pulse(int a) {
     Generator& gen = axes_[a].gen;
     ++gen.n;
+    for (int i = 0; i < axis_count; ++i)
+        if (moves_with(a, i)) axes_[i].pulse_end = now_;
     const int stepped = step_axes(a);
     if (gen.kind == Generator::Kind::path) {
         path_stepped_ = stepped;
         gen.range_now = path_range_[stepped - 1];
     }
+    show_pulse(a);
     if (gen.ramp > 0) ++gen.accel_pulses;
     if (gen.ramp < 0 && !gen.final && gen.accel_pulses > 0) --gen.accel_pulses;
 
@@ -144,14 +154,23 @@ bool Twin::pulse(int a) {
     for (int i = 0; i < axis_count; ++i) beyond = beyond || (moves_with(a, i) && beyond_software_limit(axes_[i]));
     if (stop(a, beyond, false)) return true;
     if (gen.kind == Generator::Kind::fixed && gen.n >= axes_[a].reg.pulses) return end(a), true;
-    if (gen.kind == Generator::Kind::path && path_.finished()) return segment_end(a);
+    if (gen.kind == Generator::Kind::path && path_finished()) return segment_end(a);
     check_final(a);
     return false;
+}
+
+// The wires of the axes that have just moved are active for half a period.
+void Twin::show_pulse(int a) {
+    const Generator& gen = axes_[a].gen;
+    for (int i = 0; i < axis_count; ++i)
+        if (moves_with(a, i) && axes_[i].pulse_end > now_)
+            axes_[i].pulse_end = now_ + std::max<std::int64_t>(1, gen.range_now / gen.speed / 2);
 }
 
 // Moves the axes of one pulse; returns how many moved.
 int Twin::step_axes(int a) {
     if (axes_[a].gen.kind != Generator::Kind::path) return move(a, axes_[a].direction), 1;
+    if (path_.is_pattern()) return step_pattern();
     std::array<int, 3> step{};
     path_.step(step);
     int moved = 0;
@@ -166,11 +185,49 @@ int Twin::step_axes(int a) {
     return moved;
 }
 
+// The next step of the running word; returns how many axes moved, at least one.
+int Twin::step_pattern() {
+    const Pattern::Step step = pattern_.pop();
+    const Segment& segment = path_.segment();
+    if (step.is_end(segment.count)) {
+        pattern_.clear();
+        return 1;
+    }
+    int moved = 0;
+    for (int i = 0; i < segment.count; ++i) {
+        if (step.of(i) == 0) continue;
+        move(segment.axis[i], step.of(i));
+        ++moved;
+    }
+    if (!pattern_.running()) next_word();
+    look_ahead();
+    return std::max(moved, 1);
+}
+
+void Twin::next_word() {
+    const int before = pattern_.counter();
+    if (!pattern_.take()) ++conditions_;
+    if (before == 2 && pattern_.counter() == 1 && bit(wr5_, 15)) pattern_.interrupt = true;
+}
+
+void Twin::look_ahead() {
+    const Segment& segment = path_.segment();
+    for (int i = 0; i < segment.count; ++i)
+        if (const int direction = pattern_.next_direction(i, segment.count); direction != 0)
+            axes_[segment.axis[i]].direction = direction;
+}
+
+bool Twin::path_finished() const {
+    return path_.is_pattern() ? !pattern_.running() : path_.finished();
+}
+
 void Twin::move(int a, int direction) {
     Axis& axis = axes_[a];
     axis.lp = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.lp) + static_cast<std::uint32_t>(direction));
     count_[a] += direction;
     axis.flags |= axis.wr1 >> 8 & flag_pulse;
+    axis.pulse_direction = direction;
+    axis.pulse_end = now_ + 1;
     if (recording_) pulses_.push_back({now_, a, direction});
     compare(a);
 }
@@ -183,13 +240,17 @@ bool Twin::segment_end(int a) {
     axes_[a].gen.n = 0;
     axes_[a].gen.range_now = path_range_[path_stepped_ - 1];
     if (bit(wr5_, 14)) path_interrupt_ = true;
-    if (path_.finished()) return end(a), true;
+    if (path_finished()) return end(a), true;
     check_final(a);
     return false;
 }
 
 void Twin::begin_segment(const Segment& segment) {
     path_.begin(segment);
+    if (path_.is_pattern()) {
+        if (!pattern_.running()) next_word();
+        look_ahead();
+    }
     const auto range_of = [&](int i) { return used_range(axes_[segment.axis[i]].reg); };
     path_range_.fill(axes_[master_].gen.range);
     if (segment.constant_speed == 1) path_range_[1] = path_range_[2] = range_of(1);
@@ -219,7 +280,7 @@ void Twin::check_final_of_path() {
     if (!decel_enabled_ || queued_) return;
     if (gen.manual) {
         if (gen.n >= axis.reg.decel_point) gen.final = true;
-    } else if (!path_.is_arc() && path_.left() <= gen.accel_pulses + axis.reg.offset) {
+    } else if (path_.is_line() && path_.left() <= gen.accel_pulses + axis.reg.offset) {
         gen.final = true;
     }
 }
@@ -241,7 +302,8 @@ void Twin::compare(int a) {
 }
 
 bool Twin::interrupt() const {
-    return path_interrupt_ || std::any_of(axes_.begin(), axes_.end(), [](const Axis& axis) { return axis.flags != 0; });
+    return path_interrupt_ || pattern_.interrupt ||
+           std::any_of(axes_.begin(), axes_.end(), [](const Axis& axis) { return axis.flags != 0; });
 }
 
 bool Twin::any_driving() const {

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <motionrack/cards/mcx314/test/twin_path.hpp>
+#include <motionrack/cards/mcx314/test/twin_pattern.hpp>
 #include <vector>
 
 namespace motionrack::mcx314::twin {
@@ -62,6 +63,10 @@ struct Axis {
     std::uint16_t flags = 0;     ///< RR3
     unsigned compared = 0;       ///< the four comparisons as they were, in the bits of RR3
     bool waits_position = false;
+    std::array<int, 2> low{3, 3};  ///< ticks, up to 3, since nEXPP, nEXPM were seen High
+    std::int64_t pulse_end = 0;    ///< the tick at which the last pulse on its wire is over
+    int pulse_direction = +1;
+    int external = -1;             ///< 0, 1: nEXPP, nEXPM drives until it is High
     bool hold = false;
     int held_command = 0;
     Segment held_segment;
@@ -75,12 +80,15 @@ class Twin {
 
     /// The register bus, byte offsets 0, 2, .. 14; an access comes after the last tick and before the next.
     void write(std::uint32_t offset, std::uint16_t value);
+    void write_byte(std::uint32_t port, std::uint8_t value);
+    std::uint8_t read_byte(std::uint32_t port);
     std::uint16_t read(std::uint32_t offset);
     std::uint16_t peek(std::uint32_t offset) const;
 
     /// Levels count from the next tick on (and in the status registers at once).
     void set_input(int axis, Pin pin, bool level) { axes_[axis].pin[static_cast<int>(pin)] = level; }
     void set_emergency(bool level) { emgn_ = level; }
+    void set_step(bool level) { expls_ = level; }
 
     void tick();
     void run(std::int64_t ticks) {
@@ -95,8 +103,10 @@ class Twin {
     std::int64_t count(int a) const { return count_[a]; }
     /// True: an interrupt is requested (INTN Low).
     bool interrupt() const;
-    /// Commands that were ignored since the start.
-    std::uint64_t ignored() const { return ignored_; }
+    /// Levels of output pins: nPP, nPM, nOUT4..7, nOUT0..3.
+    unsigned outputs(int a) const;
+    /// Conditions since the start: commands that were ignored, and patterns whose data ran out.
+    std::uint64_t conditions() const { return conditions_; }
 
     /// Pulses are recorded unless switched off.
     void record(bool on) { recording_ = on; }
@@ -110,7 +120,12 @@ class Twin {
     bool beyond_software_limit(const Axis& axis) const;
     bool stop(int a, bool decelerating, bool immediate);
     bool pulse(int a);
+    void show_pulse(int a);
     int step_axes(int a);
+    int step_pattern();
+    void next_word();
+    void look_ahead();
+    bool path_finished() const;
     void move(int a, int direction);
     bool segment_end(int a);
     void check_final(int a);
@@ -119,6 +134,14 @@ class Twin {
     void compare(int a);
     bool moves_with(int a, int other) const;
     void begin_segment(const Segment& segment);
+
+    // twin_wires.cpp: wires that ask for drives and steps
+    void look_at_wires();
+    void look_at_external(int a);
+    void write_wr3(Axis& axis, std::uint16_t value);
+    bool ask_step(Segment::Steps by);
+    bool by_steps(int a) const;
+    bool halted(int a) const { return by_steps(a) && !step_under_way_; }
 
     // twin_speed.cpp: the speed step
     bool speed_step(int a);
@@ -129,8 +152,10 @@ class Twin {
     void s_advance(int a);
     void set_ramp(int a, int ramp);
 
-    // twin_bus.cpp: registers and commands
+    // twin_bus.cpp: registers and commands; twin_status.cpp: what they show
+    void write_register(std::uint32_t offset, std::uint16_t value, std::uint16_t mask);
     void command(std::uint16_t value);
+    void pattern_command(int code);
     void data_write(int code, Axis& axis);
     void data_read(int code, const Axis& axis);
     void drive_command(int code, unsigned axes);
@@ -165,7 +190,12 @@ class Twin {
     int path_stepped_ = 1;                      // axes stepped in the last pulse
     bool decel_enabled_ = false;
     bool path_interrupt_ = false;
-    std::uint64_t ignored_ = 0;
+    Pattern pattern_;
+    bool step_under_way_ = false;
+    bool expls_ = true;
+    int expls_low_ = 0;  // ticks, up to 3, since EXPLSN was seen High
+    std::uint8_t wr0_high_ = 0;
+    std::uint64_t conditions_ = 0;
     bool recording_ = true;
     std::vector<Pulse> pulses_;
 };

@@ -15,14 +15,19 @@ Twin::Twin() {
 
 void Twin::reset() {
     for (Axis& axis : axes_) {
-        const auto pins = axis.pin;
-        axis = Axis{};
-        axis.pin = pins;
+        Axis fresh;
+        fresh.pin = axis.pin;
+        fresh.pulse_end = axis.pulse_end;
+        fresh.pulse_direction = axis.pulse_direction;
+        axis = fresh;
     }
     selected_ = 1;
     wr4_ = wr5_ = wr6_ = wr7_ = rr6_ = rr7_ = 0;
     chain_ = 0;
-    queued_ = decel_enabled_ = path_interrupt_ = false;
+    queued_ = decel_enabled_ = path_interrupt_ = step_under_way_ = false;
+    pattern_ = {};
+    wr0_high_ = 0;
+    expls_low_ = 0;
     for (int a = 0; a < axis_count; ++a) compare(a);
 }
 
@@ -30,31 +35,36 @@ void Twin::reset() {
 // ----------------------------------------------------------------------------------------------------------------
 
 void Twin::write(std::uint32_t offset, std::uint16_t value) {
+    write_register(offset, value, 0xFFFF);
+}
+
+void Twin::write_byte(std::uint32_t port, std::uint8_t value) {
+    if (port == 0)
+        write(0, static_cast<std::uint16_t>(wr0_high_ << 8 | value));
+    else if (port == 1)
+        wr0_high_ = value;
+    else if (port % 2 == 0)
+        write_register(port, value, 0x00FF);
+    else
+        write_register(port - 1, static_cast<std::uint16_t>(value << 8), 0xFF00);
+}
+
+// Writes the bits in `mask`.
+void Twin::write_register(std::uint32_t offset, std::uint16_t value, std::uint16_t mask) {
+    const auto mixed = [=](std::uint16_t old) { return static_cast<std::uint16_t>((old & ~mask) | (value & mask)); };
+    const auto put = [&](std::uint16_t& old) { old = mixed(old); };
+    if (pattern_.writable && offset >= 4) return put(pattern_.registers[(offset - 4) / 2]);
     for (int a = 0; a < axis_count && offset >= 2 && offset <= 6; ++a) {
         if (!(selected_ >> a & 1)) continue;
-        if (offset == 2) axes_[a].wr1 = value;
-        if (offset == 4) axes_[a].wr2 = value, compare(a);
-        if (offset == 6) axes_[a].wr3 = value;
+        if (offset == 2) put(axes_[a].wr1);
+        if (offset == 4) put(axes_[a].wr2), compare(a);
+        if (offset == 6) write_wr3(axes_[a], mixed(axes_[a].wr3));
     }
-    switch (offset) {
-        case 0:
-            command(value);
-            break;
-        case 8:
-            wr4_ = value;
-            break;
-        case 10:
-            wr5_ = value;
-            break;
-        case 12:
-            wr6_ = value;
-            break;
-        case 14:
-            wr7_ = value;
-            break;
-        default:
-            break;
-    }
+    if (offset == 0) command(value);
+    if (offset == 8) put(wr4_);
+    if (offset == 10) put(wr5_);
+    if (offset == 12) put(wr6_);
+    if (offset == 14) put(wr7_);
 }
 
 void Twin::command(std::uint16_t value) {
@@ -72,8 +82,12 @@ void Twin::command(std::uint16_t value) {
         if (axes != 0) data_read(code, axes_[selected()]);
     } else if (code >= 0x20 && code <= 0x23) {
         drive_command(code, axes);
-    } else if (code >= 0x30 && code <= 0x33) {
+    } else if (code >= 0x30 && code <= 0x35) {
         path_command(code);
+    } else if (code >= 0x36 && code <= 0x39) {
+        pattern_command(code);
+    } else if (code == 0x3A) {
+        if (!ask_step(Segment::by_command)) ++conditions_;
     } else if (code == 0x24) {
         for (int a = 0; a < axis_count; ++a)
             if (axes >> a & 1) axes_[a].hold = true;
@@ -87,8 +101,20 @@ void Twin::command(std::uint16_t value) {
     } else if (code == 0x3C) {
         decel_enabled_ = false;
     } else if (code == 0x3D) {
-        path_interrupt_ = false;
+        path_interrupt_ = pattern_.interrupt = false;
+    } else if (code != 0x0F) {
+        ++conditions_;
     }
+}
+
+void Twin::pattern_command(int code) {
+    if (code == 0x36) pattern_.writable = true;
+    if (code == 0x37) pattern_.writable = false;
+    if (code == 0x38) {
+        pattern_.interrupt = false;
+        if (!pattern_.stack()) ++conditions_;
+    }
+    if (code == 0x39) pattern_.clear();
 }
 
 void Twin::data_write(int code, Axis& axis) {
@@ -168,7 +194,7 @@ void Twin::drive_command(int code, unsigned axes) {
     for (int a = 0; a < axis_count; ++a) {
         if (!(axes >> a & 1)) continue;
         if (driving(a))
-            ++ignored_;
+            ++conditions_;
         else if (axes_[a].hold)
             axes_[a].held_command = code;
         else
@@ -199,9 +225,13 @@ void Twin::begin_generator(int a, Generator::Kind kind) {
 
 Segment Twin::captured(int code) const {
     Segment s;
-    s.kind = code <= 0x31 ? Segment::Kind::line : code == 0x32 ? Segment::Kind::arc_cw : Segment::Kind::arc_ccw;
-    s.count = code == 0x31 ? 3 : 2;
+    s.kind = code <= 0x31   ? Segment::Kind::line
+             : code == 0x32 ? Segment::Kind::arc_cw
+             : code == 0x33 ? Segment::Kind::arc_ccw
+                            : Segment::Kind::pattern;
+    s.count = code == 0x31 || code == 0x35 ? 3 : 2;
     s.constant_speed = wr5_ >> 8 & 3;
+    s.steps = (bit(wr5_, 11) ? Segment::by_wire : 0) | (bit(wr5_, 12) ? Segment::by_command : 0);
     const auto signed24 = [](std::uint32_t v) {
         return static_cast<std::int64_t>((v & 0xFF'FFFF) ^ 0x80'0000) - 0x80'0000;
     };
@@ -222,9 +252,10 @@ bool Twin::any_busy(const Segment& segment) const {
 void Twin::path_command(int code) {
     path_interrupt_ = false;
     const Segment segment = captured(code);
-    const bool second_in_queue = chain_ != 0 && queued_;
-    if (segment.names_an_axis_twice() || any_busy(segment) || second_in_queue) {
-        ++ignored_;
+    const bool no_place =
+        chain_ != 0 && (queued_ || path_.is_pattern() || segment.kind == Segment::Kind::pattern);
+    if (segment.names_an_axis_twice() || any_busy(segment) || no_place) {
+        ++conditions_;
     } else if (chain_ != 0) {
         queued_ = true;
         queue_ = segment;
@@ -244,6 +275,7 @@ void Twin::start_path(const Segment& segment) {
     master_ = segment.axis[0];
     queued_ = false;
     path_stepped_ = 1;
+    step_under_way_ = false;
     for (int a = 0; a < axis_count; ++a)
         if (chain_ >> a & 1) axes_[a].finished = axes_[a].causes = 0;
     begin_generator(master_, Generator::Kind::path);
@@ -262,9 +294,9 @@ void Twin::free_held(unsigned axes) {
         if (!(axes >> a & 1) || code == 0) continue;
         axes_[a].held_command = 0;
         if (code < 0x30) {
-            driving(a) ? void(++ignored_) : start_drive(a, code);
+            driving(a) ? void(++conditions_) : start_drive(a, code);
         } else {
-            chain_ != 0 || any_busy(axes_[a].held_segment) ? void(++ignored_) : start_path(axes_[a].held_segment);
+            chain_ != 0 || any_busy(axes_[a].held_segment) ? void(++conditions_) : start_path(axes_[a].held_segment);
         }
     }
 }
@@ -277,93 +309,6 @@ void Twin::ask_stop(unsigned axes, bool immediate) {
         if (gen.kind == Generator::Kind::idle) continue;
         (immediate ? gen.ask_immediate : gen.ask_decelerating) = true;
     }
-}
-
-// ---- reading
-// ----------------------------------------------------------------------------------------------------------------
-
-int Twin::selected() const {
-    int a = 0;
-    while (a < axis_count - 1 && !(selected_ >> a & 1)) ++a;
-    return a;
-}
-
-std::uint16_t Twin::read(std::uint32_t offset) {
-    const std::uint16_t value = peek(offset);
-    if (offset == 6) axes_[selected()].flags = 0;
-    return value;
-}
-
-std::uint16_t Twin::peek(std::uint32_t offset) const {
-    switch (offset) {
-        case 0:
-            return main_status();
-        case 2:
-            return status1(selected());
-        case 4:
-            return status2(selected());
-        case 6:
-            return axes_[selected()].flags;
-        case 8:
-            return static_cast<std::uint16_t>(levels(0) | levels(1) << 8);
-        case 10:
-            return static_cast<std::uint16_t>(levels(2) | levels(3) << 8);
-        case 12:
-            return rr6_;
-        case 14:
-            return rr7_;
-        default:
-            return 0;
-    }
-}
-
-std::uint16_t Twin::main_status() const {
-    unsigned v = 0;
-    for (int a = 0; a < axis_count; ++a) {
-        const Axis& axis = axes_[a];
-        const bool out_of_position =
-            bit(axis.wr2, 15) && axis.pin[static_cast<int>(Pin::in_position)] != bit(axis.wr2, 14);
-        if (driving(a) || (axis.waits_position && out_of_position)) v |= 1u << a;
-        if ((status2(a) & 0x3F) != 0 || (axis.finished & 0xF000) != 0) v |= 1u << (4 + a);
-    }
-    if (chain_ != 0) {
-        v |= 1u << 8;
-        if (!queued_) v |= 1u << 9;
-        v |= static_cast<unsigned>(path_.zone()) << 10;
-    }
-    return static_cast<std::uint16_t>(v);
-}
-
-std::uint16_t Twin::status1(int a) const {
-    const Axis& axis = axes_[a];
-    const Generator& gen = axis.gen;
-    const std::int32_t counter = bit(axis.wr2, 5) ? axis.ep : axis.lp;
-    unsigned v = axis.finished;
-    if (counter >= axis.comp_plus) v |= 1u << 0;
-    if (counter < axis.comp_minus) v |= 1u << 1;
-    if (gen.kind != Generator::Kind::idle) {
-        v |= gen.ramp > 0 ? 1u << 2 : gen.ramp < 0 ? 1u << 4 : 1u << 3;
-        if (gen.s_curve && gen.ramp != 0) v |= 1u << (5 + static_cast<int>(gen.phase));
-    }
-    return static_cast<std::uint16_t>(v);
-}
-
-std::uint16_t Twin::status2(int a) const {
-    const Axis& axis = axes_[a];
-    unsigned v = 0;
-    if (beyond_software_limit(axis)) v |= axis.direction > 0 ? 1u << 0 : 1u << 1;
-    if (axis.pin[static_cast<int>(Pin::limit_plus)] == bit(axis.wr2, 3)) v |= 1u << 2;
-    if (axis.pin[static_cast<int>(Pin::limit_minus)] == bit(axis.wr2, 4)) v |= 1u << 3;
-    if (bit(axis.wr2, 13) && axis.pin[static_cast<int>(Pin::alarm)] == bit(axis.wr2, 12)) v |= 1u << 4;
-    if (!emgn_) v |= 1u << 5;
-    return static_cast<std::uint16_t>(v);
-}
-
-// RR4 and RR5: eight input levels of one axis.
-std::uint16_t Twin::levels(int a) const {
-    unsigned v = 0;
-    for (int i = 0; i < 8; ++i) v |= static_cast<unsigned>(axes_[a].pin[i]) << i;
-    return static_cast<std::uint16_t>(v);
 }
 
 }  // namespace motionrack::mcx314::twin

@@ -69,6 +69,7 @@ bool Segment::names_an_axis_twice() const {
 void Path::begin(const Segment& segment) {
     segment_ = segment;
     n_ = 0;
+    if (is_pattern()) return;
     if (is_arc()) return begin_arc();
     longest_ = 0;
     for (int i = 0; i < segment_.count; ++i) longest_ = std::max<std::int64_t>(longest_, std::abs(segment_.finish[i]));
@@ -149,7 +150,8 @@ int Path::zone() const {
 }
 
 int Path::direction(int i) const {
-    if (!is_arc()) return segment_.finish[i] > 0 ? +1 : segment_.finish[i] < 0 ? -1 : 0;
+    if (is_pattern()) return 0;
+    if (is_line()) return segment_.finish[i] > 0 ? +1 : segment_.finish[i] < 0 ? -1 : 0;
     const int d = direction_in(octant_, i);
     return i == 1 && segment_.kind == Segment::Kind::arc_cw ? -d : d;
 }

@@ -16,11 +16,13 @@ namespace motionrack::mcx314::twin {
 /// What an interpolation command captures: the axes, their finish points and the centre, all in pulses from the start
 /// point.
 struct Segment {
-    enum class Kind : std::uint8_t { line, arc_cw, arc_ccw };
+    enum class Kind : std::uint8_t { line, arc_cw, arc_ccw, pattern };
+    enum Steps : std::uint8_t { by_wire = 1, by_command = 2 };
     Kind kind = Kind::line;
     int count = 2;              ///< axes: 2 or 3
     std::array<int, 3> axis{};  ///< axis number of AX1, AX2, AX3
     int constant_speed = 0;     ///< WR5.LSPD
+    int steps = 0;              ///< WR5.EXPLS, CMPLS
     std::array<std::int64_t, 3> finish{};
     std::array<std::int64_t, 2> centre{};
 
@@ -32,13 +34,15 @@ struct Segment {
 class Path {
   public:
     void begin(const Segment& segment);
-    /// One basic pulse; sets `step[i]` to -1, 0 or +1 for AX(i+1).
+    /// One basic pulse of a line or an arc; sets `step[i]` to -1, 0 or +1 for AX(i+1).
     void step(std::array<int, 3>& step);
     bool finished() const { return finished_; }
     /// Basic pulses a line has left.
     std::int64_t left() const { return longest_ - n_; }
     std::int64_t done() const { return n_; }
-    bool is_arc() const { return segment_.kind != Segment::Kind::line; }
+    bool is_line() const { return segment_.kind == Segment::Kind::line; }
+    bool is_pattern() const { return segment_.kind == Segment::Kind::pattern; }
+    bool is_arc() const { return !is_line() && !is_pattern(); }
     const Segment& segment() const { return segment_; }
     /// What RR0.ZONE shows, 0..7.
     int zone() const;

@@ -1,0 +1,104 @@
+// Wires that ask for something: nEXPP and nEXPM for drives, EXPLSN for single steps (RULES.md, "Single steps" and "Drives by
+// nEXPP and nEXPM").
+//
+//   nEXPP  ~~~~~~\____________/~~~~~~     f, f + 1: the first two ticks that see it Low; g: the first that sees it High
+//                 f f+1        g
+//   EXOP 2            20h                 after all generators have worked tick f + 1
+//   EXOP 1            22h      26h
+#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <utility>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+constexpr std::uint32_t step_wire = 1u << axes_of_chip;  // in State::sampled
+
+/// Counts the ticks that see an input Low; true at the second one.
+bool falls(std::uint8_t& low, bool high) {
+    if (high)
+        low = 0;
+    else if (low < 2)
+        return ++low == 2;
+    return false;
+}
+
+}  // namespace
+
+/// WR3 was written over `before`.
+void Chip::set_external(int a, std::uint16_t before) {
+    Axis& axis = state_.axis[a];
+    if (external_mode(axis.wr3) == external_mode(before)) return;
+    if (axis.external != 0 && external_mode(axis.wr3) != external_continuous) axis.gen.ask_decelerating = true;
+    if (drives_by_wire(axis.wr3))
+        state_.sampled |= 1u << a;
+    else
+        axis.external_low = {2, 2};
+    set_wants(a);
+}
+
+/// A pin of axis 16 * axis + Pin has changed.
+void Chip::hear_external(int pin) {
+    const int which = pin % 16;
+    if (which == static_cast<int>(Pin::exp_plus) || which == static_cast<int>(Pin::exp_minus))
+        state_.sampled |= 1u << pin / 16;
+}
+
+void Chip::hear_step_wire(int wire_level) {
+    state_.step_high = wire_level != 0;
+    if (!state_.step_high || state_.step_low != 0) state_.sampled |= step_wire;
+}
+
+/// After a tick: what the wires that have changed ask for.
+void Chip::sample_external() {
+    const std::uint32_t sampled = std::exchange(state_.sampled, 0u);
+    for_each_axis(sampled & (step_wire - 1), [this](int a) {
+        if (drives_by_wire(state_.axis[a].wr3)) sample_external_drive(a);
+    });
+    if (!(sampled & step_wire)) return;
+    if (falls(state_.step_low, state_.step_high)) ask_step(PathCommand::by_wire);
+    if (state_.step_low == 1) state_.sampled |= step_wire;
+}
+
+void Chip::sample_external_drive(int a) {
+    Axis& axis = state_.axis[a];
+    const bool continuous = external_mode(axis.wr3) == external_continuous;
+    for (int minus = 0; minus < 2; ++minus) {
+        const bool high = level(axis, minus ? Pin::exp_minus : Pin::exp_plus);
+        const bool rises = high && axis.external_low[minus] > 0;
+        if (falls(axis.external_low[minus], high) && !driving(a) && !axis.hold) {
+            start_drive(a, (continuous ? 0x22 : 0x20) + minus);
+            if (continuous) axis.external = static_cast<std::uint8_t>(1 + minus);
+        }
+        if (rises && axis.external == 1 + minus) {
+            axis.gen.ask_decelerating = true;
+            axis.gen.look = true;
+        }
+        if (axis.external_low[minus] == 1) state_.sampled |= 1u << a;
+    }
+}
+
+// ---- single steps ---------------------------------------------------------------------------------------------------
+
+/// Whether the basic pulses of generator `a` come one a request.
+bool Chip::by_steps(int a) const {
+    return state_.axis[a].gen.drive == Drive::path && state_.path.command.steps != 0;
+}
+
+/// True if a step is under way for it.
+bool Chip::ask_step(std::uint32_t by) {
+    if (state_.chain == 0 || state_.stepping || !(state_.path.command.steps & by)) return false;
+    state_.stepping = true;
+    state_.axis[state_.master].gen.special_known = false;
+    law_changed_of(state_.master);
+    return true;
+}
+
+void Chip::end_step(int a) {
+    state_.stepping = false;
+    state_.axis[a].gen.special_known = false;
+    law_changed_of(a);
+    if (state_.axis[a].gen.stopping) end(a);
+}
+
+}  // namespace motionrack::mcx314

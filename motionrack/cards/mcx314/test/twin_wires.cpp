@@ -1,0 +1,58 @@
+// The twin's wires that ask for something (nEXPP, nEXPM, EXPLSN), and the pulses and outputs that it shows.
+#include <algorithm>
+#include <motionrack/cards/mcx314/test/twin.hpp>
+
+namespace motionrack::mcx314::twin {
+
+namespace {
+constexpr bool bit(std::uint16_t value, int n) {
+    return (value >> n & 1) != 0;
+}
+constexpr bool drives_by_wire(const Axis& axis) {
+    return bit(axis.wr3, 3) != bit(axis.wr3, 4);  // EXOP 1 or 2
+}
+}  // namespace
+
+// The end of a tick: inputs that ask for a drive, then EXPLSN.
+void Twin::look_at_wires() {
+    for (int a = 0; a < axis_count; ++a)
+        if (drives_by_wire(axes_[a])) look_at_external(a);
+    expls_low_ = expls_ ? 0 : std::min(expls_low_ + 1, 3);
+    if (expls_low_ == 2) ask_step(Segment::by_wire);
+}
+
+void Twin::look_at_external(int a) {
+    Axis& axis = axes_[a];
+    const bool continuous = bit(axis.wr3, 3);
+    for (int way : {0, 1}) {
+        const bool high = axis.pin[static_cast<int>(way == 0 ? Pin::exp_plus : Pin::exp_minus)];
+        const bool rises = high && axis.low[way] > 0;
+        axis.low[way] = high ? 0 : std::min(axis.low[way] + 1, 3);
+        if (axis.low[way] == 2 && !driving(a) && !axis.hold) {
+            start_drive(a, (continuous ? 0x22 : 0x20) + way);
+            if (continuous) axis.external = way;
+        }
+        if (rises && axis.external == way) axis.gen.ask_decelerating = true;
+    }
+}
+
+void Twin::write_wr3(Axis& axis, std::uint16_t value) {
+    const bool changed = ((axis.wr3 ^ value) & 0x18) != 0;
+    axis.wr3 = value;
+    if (!changed) return;
+    if (!drives_by_wire(axis)) axis.low = {3, 3};
+    if (axis.external >= 0 && (value & 0x18) != 0x08) axis.gen.ask_decelerating = true;
+}
+
+// Asked by 3Ah or by EXPLSN; false: nothing waits for it.
+bool Twin::ask_step(Segment::Steps by) {
+    if (chain_ == 0 || step_under_way_ || (path_.segment().steps & by) == 0) return false;
+    step_under_way_ = true;
+    return true;
+}
+
+bool Twin::by_steps(int a) const {
+    return axes_[a].gen.kind == Generator::Kind::path && path_.segment().steps != 0;
+}
+
+}  // namespace motionrack::mcx314::twin
