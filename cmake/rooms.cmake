@@ -3,21 +3,31 @@
 # Flags every translation unit of the product has: same input, same bits, on every compiler and CPU.
 add_library(motionrack_flags INTERFACE)
 target_compile_features(motionrack_flags INTERFACE cxx_std_20)
-target_include_directories(motionrack_flags INTERFACE ${CMAKE_SOURCE_DIR})
+target_include_directories(motionrack_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 # Nobody replaces a function at load time, so position-independent code may inline it: the chip is a tenth to a third faster.
-target_compile_options(motionrack_flags INTERFACE -ffp-contract=off -fno-semantic-interposition -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-                       -Wno-sign-conversion)
+# Strangers need only the flag that decides bits.
+set(own_flags -fno-semantic-interposition -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+target_compile_options(motionrack_flags INTERFACE -ffp-contract=off "$<BUILD_INTERFACE:${own_flags}>")
+set_target_properties(motionrack_flags PROPERTIES EXPORT_NAME flags)
 
-# motionrack_room(NAME [SOURCES ...] [DEPS ...]): the library motionrack_NAME; without sources it is headers only.
+# motionrack_room(NAME [SOURCES ...] [DEPS ...] [LIBRARIES ...] [HEADERS_OF ...]): the library motionrack_NAME, for others
+# motionrack::NAME; without sources it is headers only. Only its sources use LIBRARIES and HEADERS_OF; the latter have no library.
 function(motionrack_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;DEPS;LIBRARIES;HEADERS_OF" ${ARGN})
   if(ROOM_SOURCES)
     add_library(motionrack_${name} STATIC ${ROOM_SOURCES})
-    target_link_libraries(motionrack_${name} PUBLIC motionrack_flags ${ROOM_DEPS})
+    target_link_libraries(motionrack_${name} PUBLIC motionrack_flags ${ROOM_DEPS} PRIVATE ${ROOM_LIBRARIES})
+    foreach(target IN LISTS ROOM_HEADERS_OF)
+      target_link_libraries(motionrack_${name} PRIVATE $<BUILD_INTERFACE:${target}>)
+    endforeach()
   else()
     add_library(motionrack_${name} INTERFACE)
     target_link_libraries(motionrack_${name} INTERFACE motionrack_flags ${ROOM_DEPS})
   endif()
+  add_library(motionrack::${name} ALIAS motionrack_${name})
+  set_target_properties(motionrack_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY motionrack_rooms motionrack_${name})
 endfunction()
 
 # motionrack_test(NAME [SOURCES ...] [DEPS ...]): one test program; each of its tests is a ctest test.

@@ -17,5 +17,6 @@ void add_describe(CLI::App& app, Action& chosen);
 void add_new(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app, Action& chosen);
 void add_completion(CLI::App& app, Action& chosen);
+void add_manual(CLI::App& app, Action& chosen);
 
 }  // namespace motionrack::cli

@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     using namespace motionrack::cli;
     CLI::App app{"Motionrack: a rack of motion-control cards, in software.", "motionrack"};
     app.footer(footer);
-    app.set_version_flag("--version", "motionrack 0.1.0");
+    app.set_version_flag("--version", "motionrack " MOTIONRACK_VERSION);
     app.require_subcommand(1);
     Action chosen;
     add_run(app, chosen);
@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
     add_canon(app, chosen);
     add_bench(app, chosen);
     add_completion(app, chosen);
+    add_manual(app, chosen);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

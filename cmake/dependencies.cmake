@@ -1,0 +1,16 @@
+# The packages that the library and the program are made with, each with the oldest version that is known to do. This is the one list:
+# the top CMakeLists.txt looks for them here, and motionrackConfig.cmake looks for the public ones where the library is installed.
+
+# Whoever compiles or links against the installed rooms needs these.
+set(motionrack_public_packages "fmt 9" "tl-expected 1.0" "tomlplusplus 3.3")
+# Those of them that are libraries, as a linker calls them.
+set(motionrack_linked_libraries fmt tomlplusplus)
+# Headers that only our own sources include.
+set(motionrack_private_packages "nlohmann_json 3.11" "CLI11 2.1")
+
+macro(motionrack_find_packages)
+  foreach(package IN LISTS motionrack_public_packages motionrack_private_packages)
+    separate_arguments(package UNIX_COMMAND "${package}")
+    find_package(${package} REQUIRED)
+  endforeach()
+endmacro()

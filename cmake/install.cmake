@@ -1,0 +1,84 @@
+# What `cmake --install` puts where, so that strangers find it by find_package(motionrack) or pkg-config. Nothing that is installed knows
+# the prefix: the tree may be moved.
+include(CMakePackageConfigHelpers)
+
+get_property(rooms GLOBAL PROPERTY motionrack_rooms)
+
+# ---- libraries ----
+install(TARGETS motionrack_flags ${rooms} EXPORT motionrack-cpp ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS motionrack_c EXPORT motionrack-c LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        PUBLIC_HEADER DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/motionrack INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+set_target_properties(motionrack_c PROPERTIES EXPORT_NAME c)
+
+# libmotionrack.a: the C library with all rooms in it, for programs that are to stand alone.
+set(objects $<TARGET_OBJECTS:motionrack_c>)
+foreach(room IN LISTS rooms)
+  get_target_property(type ${room} TYPE)
+  if(type STREQUAL "STATIC_LIBRARY")
+    list(APPEND objects $<TARGET_OBJECTS:${room}>)
+  endif()
+endforeach()
+add_library(motionrack_c_archive STATIC ${objects})
+set_target_properties(motionrack_c_archive PROPERTIES OUTPUT_NAME motionrack LINKER_LANGUAGE CXX
+                      ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+install(TARGETS motionrack_c_archive ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+
+# ---- headers: those of the rooms; the program and the C library have none but c.h ----
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/motionrack DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp"
+        PATTERN test EXCLUDE PATTERN frontends EXCLUDE PATTERN report EXCLUDE)
+
+# ---- find_package ----
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/motionrack)
+install(EXPORT motionrack-cpp NAMESPACE motionrack:: DESTINATION ${package_dir})
+install(EXPORT motionrack-c NAMESPACE motionrack:: DESTINATION ${package_dir})
+set(motionrack_find_dependencies "")
+foreach(package IN LISTS motionrack_public_packages)
+  string(APPEND motionrack_find_dependencies "  find_dependency(${package})\n")
+endforeach()
+configure_package_config_file(cmake/motionrackConfig.cmake.in ${PROJECT_BINARY_DIR}/motionrackConfig.cmake
+                              INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
+# Before 1.0 the interface may change with each minor version.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/motionrackConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/motionrackConfig.cmake ${PROJECT_BINARY_DIR}/motionrackConfigVersion.cmake DESTINATION ${package_dir})
+
+# ---- pkg-config: folders are told from where the file lies ----
+function(motionrack_pc_folder out folder)
+  if(IS_ABSOLUTE "${folder}")
+    set(${out} "${folder}" PARENT_SCOPE)
+  else()
+    set(${out} "\${prefix}/${folder}" PARENT_SCOPE)
+  endif()
+endfunction()
+set(pc_dir ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
+  set(pc_prefix ${CMAKE_INSTALL_PREFIX})
+else()
+  file(RELATIVE_PATH up /${pc_dir} /)
+  string(REGEX REPLACE "/$" "" up "${up}")
+  set(pc_prefix "\${pcfiledir}/${up}")
+endif()
+motionrack_pc_folder(pc_libdir "${CMAKE_INSTALL_LIBDIR}")
+motionrack_pc_folder(pc_includedir "${CMAKE_INSTALL_INCLUDEDIR}")
+# What a C compiler does not link by itself.
+set(runtime ${motionrack_linked_libraries} ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+list(REMOVE_DUPLICATES runtime)
+list(FILTER runtime EXCLUDE REGEX "^(c|gcc|gcc_s|gcc_eh|.*/.*)$")
+list(TRANSFORM runtime PREPEND "-l")
+list(JOIN runtime " " pc_libs_private)
+configure_file(cmake/motionrack.pc.in ${PROJECT_BINARY_DIR}/motionrack.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/motionrack.pc DESTINATION ${pc_dir})
+
+# ---- the program, and what it says of itself ----
+install(TARGETS motionrack RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+set(pages ${PROJECT_BINARY_DIR}/pages)
+file(MAKE_DIRECTORY ${pages})
+add_custom_command(OUTPUT ${pages}/motionrack ${pages}/motionrack.1
+                   COMMAND motionrack completion > ${pages}/motionrack
+                   COMMAND motionrack manual > ${pages}/motionrack.1
+                   DEPENDS motionrack COMMENT "The program's manual page and shell completion" VERBATIM)
+add_custom_target(motionrack_pages ALL DEPENDS ${pages}/motionrack ${pages}/motionrack.1)
+install(FILES ${pages}/motionrack DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${pages}/motionrack.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+
+# ---- examples and rack files ----
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack)

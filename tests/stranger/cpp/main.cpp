@@ -1,0 +1,18 @@
+// The README's lines, in a program of a stranger.
+#include <cstdio>
+#include <motionrack/rack/job.hpp>
+#include <motionrack/rack/template.hpp>
+
+using namespace motionrack;
+
+int main() {
+    rack::Rack rack(*rack::read_rack_text(*rack::rack_template("router")).config);
+    rack::JobSettings settings;
+    settings.program = "G21 G90\nG1 X10 Y5 F600\nG3 X20 Y15 I0 J10\nM2\n";
+    rack::Job job(rack, settings);
+    rack.start();
+    const rack::JobOutcome outcome = job.run();
+
+    for (const rack::AxisOutcome& axis : outcome.axes) std::printf("%c %.4f\n", "XYZABC"[axis.index], axis.real_end);
+    return outcome.ended ? 0 : 1;
+}
