@@ -32,6 +32,7 @@ void Driver::command(unsigned axes, unsigned code) {
 }
 
 void Driver::write_data(unsigned axes, unsigned code, std::uint32_t value) {
+    const PlainRegisters plain(*this);
     port_.write(reg::WR7, static_cast<std::uint16_t>(value >> 16));
     port_.write(reg::WR6, static_cast<std::uint16_t>(value & 0xFFFFu));
     command(axes, code);
@@ -46,6 +47,7 @@ std::uint32_t Driver::read_data(int axis, unsigned code) {
 }
 
 void Driver::write_mode(unsigned axes, int number, std::uint16_t word) {
+    const PlainRegisters plain(*this);
     command(axes, cmd::NOP);
     port_.write(reg::WR0 + 2u * static_cast<unsigned>(number), word);
     for (int i = 0; i < 4; ++i)

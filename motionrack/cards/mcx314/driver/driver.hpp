@@ -219,8 +219,8 @@ class Driver {
     /// The same, and Trouble::machine with the reports if one was stopped by a limit, an alarm or the emergency input.
     Result<void> wait_until_done(unsigned axes, Duration timeout);
 
-    /// What was last written of a parameter (cmd::R, cmd::V, ..): nothing after a reset.
-    std::optional<std::int64_t> written(int axis, unsigned code) const { return kept(axis).data[code]; }
+    /// What was last written of a parameter, cmd::R .. cmd::L: nothing after a reset.
+    std::optional<std::int64_t> written(int axis, unsigned code) const { return kept(axis).data.at(code); }
     /// Pulses a second of one V unit: 8,000,000 / R; 0 before R was written.
     double multiple(int axis) const;
 
@@ -284,6 +284,21 @@ class Driver {
     /// Sets bits of a mode register, axis by axis, keeping the rest.
     void set_mode(unsigned axes, int number, Field bits, unsigned value);
     void put(unsigned axes, const Parameter& parameter, std::int64_t value);
+    /// While one lives WR2 .. WR7 are themselves, also if an open bit pattern uses their places.
+    class PlainRegisters {
+      public:
+        explicit PlainRegisters(Driver& driver) : driver_(driver.pattern_.axes != 0 ? &driver : nullptr) {
+            if (driver_) driver_->command(0, cmd::BP_DISABLE);
+        }
+        ~PlainRegisters() {
+            if (driver_) driver_->command(0, cmd::BP_ENABLE);
+        }
+        PlainRegisters(const PlainRegisters&) = delete;
+        PlainRegisters& operator=(const PlainRegisters&) = delete;
+
+      private:
+        Driver* driver_;
+    };
     void write_outputs(std::uint16_t word);
     void write_path_mode(std::uint16_t word);
     bool fetch_interrupts(int axis);

@@ -38,6 +38,7 @@ ChannelList channels_of(unsigned axes) {
 // -------------------------------------------------------------------------------------------------
 
 void Driver::write_path_mode(std::uint16_t word) {
+    const PlainRegisters plain(*this);
     port_.write(reg::WR5, word);
     path_mode_ = word;
 }

@@ -77,6 +77,7 @@ Result<void> Driver::SetExternalDrive(unsigned axes, ExternalDrive mode) {
 // -----------------------------------------------------------------------------------------------
 
 void Driver::write_outputs(std::uint16_t word) {
+    const PlainRegisters plain(*this);
     port_.write(reg::WR4, word);
     outputs_ = word;
 }

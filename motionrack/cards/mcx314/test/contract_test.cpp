@@ -226,6 +226,55 @@ TEST_F(Contract, TheMakersContourIsClosed) {
     }
 }
 
+/// A staircase of words: what is stacked ahead and what comes while it runs are one path.
+TEST_F(Contract, ABitPatternOfTwoAxesGoesWhereItsBitsSay) {
+    done(card().BP2D({0, 20, 0, 0}, 0x9));
+    const BPWORD word{{0xFFFF, 0x00F0}, {0x0000, 0xFF00}};  // X 16 times +; U 4 times +, 8 times -
+    for (int i = 0; i < 3; ++i) done(card().BPStack(word));
+    const Result<void> full = card().BPStack(word);
+    ASSERT_FALSE(full);
+    EXPECT_EQ(full.error().trouble, Trouble::refused);
+    done(card().BPStart());
+    for (int i = 0; i < 9; ++i) done(card().BPStack(word, patience));
+    done(card().SetOutput(axis_x, 0, true));                               // does not disturb it
+    done(card().BPStack({{0x0007, 0x0008}, {0x0000, 0x0008}}, patience));  // X three times +, then the end code
+    done(card().BPEnd(patience));
+    EXPECT_EQ(card().ReadLPS(0), 12 * 16 + 3);
+    EXPECT_EQ(card().ReadLPS(3), 12 * -4);
+    EXPECT_EQ(card().ReadLPS(1), 0);
+    // The registers are themselves again.
+    done(card().TCurve_F(axis_x, 10, 500, 400, 5));
+    finish(axis_x);
+    EXPECT_EQ(card().ReadLPS(0), 12 * 16 + 8);
+}
+
+TEST_F(Contract, ABitPatternOfThreeAxesDeceleratesAtItsPoint) {
+    done(card().BP3D({10, 200, 50, 20}, 0x7));
+    done(card().BPStack({{0xFFFF, 0x5555, 0x0000}, {0x0000, 0x0000, 0x8001}}));
+    done(card().BPStack({{0xFFFF, 0x5555, 0x0000}, {0x0000, 0x0000, 0x8001}}));
+    done(card().BPStack({{0x0001, 0x0000, 0x0000}, {0x0001, 0x0000, 0x0000}}));
+    done(card().BPStart());
+    done(card().BPEnd(patience));
+    EXPECT_EQ(card().ReadLPS(0), 32);
+    EXPECT_EQ(card().ReadLPS(1), 16);
+    EXPECT_EQ(card().ReadLPS(2), -4);
+}
+
+TEST_F(Contract, ALineIsMadeStepByStep) {
+    done(card().SetStep(StepBy::command));
+    done(card().Line2D_C({0, 500, 0, 0, 0, {6, -3}}, 0x3));
+    for (int n = 1; n <= 6; ++n) {
+        EXPECT_TRUE(card().status().interpolating());
+        done(card().Step());
+        card().interrupt().pass(milliseconds(2));
+        EXPECT_EQ(card().ReadLPS(0), n);
+    }
+    finish(0x3);
+    EXPECT_EQ(card().ReadLPS(1), -3);
+    done(card().SetStep(StepBy::generator));
+    EXPECT_FALSE(card().Step());
+}
+
 TEST_F(Contract, SpeedAndTargetChangeWhileDriving) {
     done(card().TCurve_F(axis_x, 10, 200, 800, 20'000));
     card().interrupt().pass(milliseconds(30));

@@ -201,6 +201,14 @@ TEST_F(Traffic, ABitPatternIsStackedStartedAndClosed) {
                                                  w0(0, cmd::BP_STACK)}));
     EXPECT_TRUE(driver_.BPStart());
     EXPECT_EQ(port_.take(), (std::vector<Access>{w0(0, cmd::BP2)}));
+    // Registers that share their places with the pattern's are reached all the same.
+    EXPECT_TRUE(driver_.SetV(axis_x, 7));
+    EXPECT_TRUE(driver_.HLMTP(1, axis_x));
+    EXPECT_TRUE(driver_.SetOutput(axis_x, 0, true));
+    EXPECT_EQ(port_.take(), (std::vector<Access>{w0(0, cmd::BP_DISABLE), w(reg::WR7, 0), w(reg::WR6, 7), w0(1, cmd::V),
+                                                 w0(0, cmd::BP_ENABLE), w0(0, cmd::BP_DISABLE), w0(1, cmd::NOP),
+                                                 w(reg::WR2, 8), w0(0, cmd::BP_ENABLE), w0(0, cmd::BP_DISABLE),
+                                                 w(reg::WR4, 1), w0(0, cmd::BP_ENABLE)}));
     // Y and Z drive, three words are stacked: there is no room within the time.
     port_.levels[0] = 0x6006;
     const Result<void> full = driver_.BPStack(word, milliseconds(1));
