@@ -129,7 +129,7 @@ void Chip::settle(Instant now) {
     update_interrupt();
     if (state_.following != 0) show_wires(now);
     if (stale_) reschedule();
-    Instant next = state_.next_event >= far ? never : Instant{state_.next_event * rules::tick_100ps};
+    Instant next = state_.next_event > tick_of(never) ? never : Instant{state_.next_event * rules::tick_100ps};
     if (state_.crossed != 0) next = now + Duration{1};  // a watch that is left already, told at the next instant
     kernel_.schedule(id_, next);
 }

@@ -324,6 +324,19 @@ TEST(ChipDrive, AResetStopsEverythingAndClearsTheRegisters) {
     EXPECT_FALSE(b.interrupt());
 }
 
+TEST(ChipDrive, WhatComesAfterTheEndOfTimeDoesNotHoldUpTheClock) {
+    Bench b;
+    b.start();
+    b.data(X, 0x00, 16'000'000);  // a pulse in two seconds: LP would wrap after 136 years
+    b.data(X, 0x04, 1);
+    b.data(X, 0x05, 1);
+    b.mode(X, 1, 0x1E00);
+    b.command(X, 0x22);
+    b.advance(whole_seconds(10));
+    EXPECT_EQ(b.count(0), 4);
+    EXPECT_LT(b.kernel.events(), 100u);
+}
+
 TEST(ChipDrive, OutOfRangeParametersAreUsedAtTheirLimits) {
     Bench b;
     b.start();

@@ -1,0 +1,42 @@
+// Any access at any time: a stream of numbers becomes register accesses, wires and passing time on a chip, and what must
+// always hold is checked after each.
+//
+//   counts add up      LP = what was written to it + pulses since; edges = counts
+//   every state ends   after 27h with all inputs released nothing drives any more, and nothing waits for 25h
+//   exactly P          a fixed drive ends at P unless a stop was commanded or is latched, or P was lowered below it
+//   reads are reads    reading RR0, RR1, RR2, RR4 .. RR7 changes nothing that can be seen, then or later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <string>
+
+namespace motionrack::mcx314::fuzz {
+
+/// Where the numbers come from.
+class Feed {
+  public:
+    virtual ~Feed() = default;
+    /// 16 bits.
+    virtual std::uint32_t word() = 0;
+    virtual bool empty() const = 0;
+    /// 0 .. n - 1.
+    std::uint32_t below(std::uint32_t n) { return word() % n; }
+};
+
+/// What a run came to.
+struct Verdict {
+    std::string problem;  ///< "" or what does not hold
+    std::uint64_t hash = 0xCBF29CE484222325ull;
+    std::int64_t accesses = 0;
+    std::int64_t pulses = 0;
+    std::int64_t exact_drives = 0;  ///< fixed drives that were seen to end at P
+
+    void mix(std::uint64_t value) { hash = (hash ^ value) * 0x100000001B3ull; }
+};
+
+/// Runs `accesses` accesses on a chip of its own, fewer if the feed is empty or something does not hold.
+void run(Feed& feed, std::int64_t accesses, Verdict& verdict);
+
+}  // namespace motionrack::mcx314::fuzz

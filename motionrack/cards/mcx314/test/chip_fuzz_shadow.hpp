@@ -1,0 +1,78 @@
+// What a host can know of the chip from its own writes, and what each of them may change.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace motionrack::mcx314::fuzz {
+
+/// Masks of axes.
+struct Effect {
+    unsigned axes = 0;        ///< named by the command
+    unsigned stops = 0;       ///< 26h, 27h, RESET
+    unsigned writes_p = 0;    ///< 06h
+    unsigned writes_lp = 0;   ///< 09h, RESET
+    int fixed_direction = 0;  ///< 20h: +1, 21h: -1
+    bool begins = false;      ///< a command that may begin a drive
+};
+
+class Shadow {
+  public:
+    std::array<std::int64_t, 4> pulses{};               ///< P
+    unsigned software_limits = 0, in_position = 0, external = 0;  ///< axes that have been given them by now
+
+    Effect write(std::uint32_t offset, std::uint16_t value, std::uint16_t mask) {
+        auto put = [&](std::uint16_t& word) { word = static_cast<std::uint16_t>((word & ~mask) | (value & mask)); };
+        if (offset == 0) return command(value);
+        if (patterns_ && offset >= 4) return {};
+        if (offset == 12) put(wr6_);
+        if (offset == 14) put(wr7_);
+        for (unsigned a = 0; a < 4; ++a) {
+            if (!(selected_ >> a & 1u)) continue;
+            if (offset == 4) put(wr2_[a]);
+            if (offset == 6) put(wr3_[a]);
+            software_limits = with(software_limits, a, (wr2_[a] & 3u) != 0);
+            in_position = with(in_position, a, (wr2_[a] & 0x8000u) != 0);
+            external = with(external, a, (wr3_[a] & 0x0018u) != 0);
+        }
+        return {};
+    }
+    Effect write_byte(std::uint32_t port, std::uint8_t value) {
+        if (port == 1) return wr0_high_ = value, Effect{};
+        if (port == 0) return command(static_cast<std::uint16_t>(wr0_high_ << 8 | value));
+        const bool high = (port & 1u) != 0;
+        return write(port & ~1u, static_cast<std::uint16_t>(high ? value << 8 : value), high ? 0xFF00 : 0x00FF);
+    }
+
+  private:
+    static unsigned with(unsigned mask, unsigned a, bool set) { return (mask & ~(1u << a)) | (set ? 1u << a : 0u); }
+
+    Effect command(std::uint16_t value) {
+        Effect effect;
+        if ((value & 0x8000u) != 0) {
+            *this = Shadow{};
+            effect.stops = effect.writes_lp = effect.writes_p = 15;
+            return effect;
+        }
+        const unsigned code = value & 0xFFu;
+        effect.axes = value >> 8 & 15u;
+        if (effect.axes != 0) selected_ = effect.axes;
+        if (code == 0x36 || code == 0x37) patterns_ = code == 0x36;
+        if (code == 0x06) effect.writes_p = effect.axes;
+        if (code == 0x09) effect.writes_lp = effect.axes;
+        if (code == 0x26 || code == 0x27) effect.stops = effect.axes;
+        if (code == 0x20 || code == 0x21) effect.fixed_direction = code == 0x20 ? 1 : -1;
+        effect.begins = (code >= 0x20 && code <= 0x25) || (code >= 0x30 && code <= 0x35);
+        for (unsigned a = 0; a < 4; ++a)
+            if (effect.writes_p >> a & 1u) pulses[a] = (std::int64_t{wr7_} << 16 | wr6_) & 0x0FFF'FFFF;
+        return effect;
+    }
+
+    unsigned selected_ = 1;
+    bool patterns_ = false;
+    std::uint8_t wr0_high_ = 0;
+    std::uint16_t wr6_ = 0, wr7_ = 0;
+    std::array<std::uint16_t, 4> wr2_{}, wr3_{};
+};
+
+}  // namespace motionrack::mcx314::fuzz

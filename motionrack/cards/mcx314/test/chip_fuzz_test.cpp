@@ -1,0 +1,52 @@
+// A million random accesses, twice: what must always hold does, and the same numbers give the same history.
+//
+// MOTIONRACK_SEED and MOTIONRACK_ACCESSES in the environment choose other and more of them.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <motionrack/cards/mcx314/test/chip_fuzz.hpp>
+#include <motionrack/cards/mcx314/test/program.hpp>
+
+namespace motionrack::mcx314::fuzz {
+namespace {
+
+class Dice final : public Feed {
+  public:
+    explicit Dice(std::uint64_t seed) : random_(seed) {}
+    std::uint32_t word() override { return static_cast<std::uint32_t>(random_.next() >> 48); }
+    bool empty() const override { return false; }
+
+  private:
+    twin::Random random_;
+};
+
+std::int64_t from_environment(const char* name, std::int64_t otherwise) {
+    const char* text = std::getenv(name);
+    return text && *text ? std::strtoll(text, nullptr, 0) : otherwise;
+}
+
+Verdict run_all(std::uint64_t seed, std::int64_t accesses) {
+    Verdict verdict;
+    for (std::uint64_t chip = 0; verdict.accesses < accesses && verdict.problem.empty(); ++chip) {
+        Dice dice(seed * 1'000'003 + chip);
+        run(dice, std::min<std::int64_t>(20'000, accesses - verdict.accesses), verdict);
+        if (!verdict.problem.empty()) verdict.problem += ", chip " + std::to_string(chip);
+    }
+    return verdict;
+}
+
+TEST(ChipFuzz, AMillionRandomAccessesBreakNothingAndAreRepeatable) {
+    const auto seed = static_cast<std::uint64_t>(from_environment("MOTIONRACK_SEED", 1));
+    const std::int64_t accesses = from_environment("MOTIONRACK_ACCESSES", 1'000'000);
+    std::cout << "MOTIONRACK_SEED=" << seed << ", " << accesses << " accesses" << std::endl;
+    const Verdict first = run_all(seed, accesses);
+    ASSERT_EQ(first.problem, "");
+    std::cout << first.pulses << " pulses, " << first.exact_drives << " fixed drives that ended at P" << std::endl;
+    EXPECT_GT(first.exact_drives, accesses / 1'000);
+    const Verdict second = run_all(seed, accesses);
+    EXPECT_EQ(first.hash, second.hash);
+}
+
+}  // namespace
+}  // namespace motionrack::mcx314::fuzz
