@@ -52,11 +52,14 @@ constexpr std::array<DefaultWire, 8> mcx314_wires = {{
     {"lmtm", "limit_minus"},
 }};
 
-constexpr std::array<Field, 2> mcx314_settings = {
+constexpr std::array<std::string_view, 2> bus_widths = {"16-bit", "8-bit"};
+
+constexpr std::array<Field, 3> mcx314_settings = {
     field<&Mcx314Settings::clock_hz>("clock_hz", 16'000'000, 16'000'000, "Hz",
                                      "the chip's clock; the model knows the documented one"),
+    with_choices(field<&Mcx314Settings::bus>("bus", 0, 0, "", "how wide the host's bus is"), bus_widths),
     field<&Mcx314Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns",
-                                          "time that one register access of the host takes"),
+                                          "time that one access of the host takes; two of them to a register on 8 bits"),
 };
 
 // One pulse at most every four clocks (R = 16,000, V = 8,000: every second tick of the halved clock).

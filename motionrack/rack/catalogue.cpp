@@ -5,6 +5,7 @@
 #include <motionrack/cards/mcx314/axes/axes.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
+#include <motionrack/cards/mcx314/chip/byte_bus.hpp>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/toml_reader.hpp>
@@ -18,9 +19,12 @@ class Mcx314Card final : public Card {
   public:
     Mcx314Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log)
         : name_(config.name),
-          access_(nanoseconds(config.mcx314.bus_access_ns)),
+          kernel_(kernel),
+          narrow_(config.mcx314.bus == BusWidth::bits8),
+          byte_access_(nanoseconds(config.mcx314.bus_access_ns)),
+          access_(narrow_ ? 2 * byte_access_ : byte_access_),
           chip_(kernel, config.name),
-          port_(kernel, chip_, chip_.id(), chip_.interrupt_wire(), access_, &log),
+          port_(kernel, registers_on_bus(), chip_.id(), chip_.interrupt_wire(), access_, &log),
           driver_(port_, port_) {}
 
     const std::string& name() const override { return name_; }
@@ -28,12 +32,21 @@ class Mcx314Card final : public Card {
     const CardMap& map() const override { return mcx314::card_map(); }
     sim::RegisterDevice* registers() override { return &chip_; }
     std::span<const int> bus_widths() const override {
-        static constexpr int widths[] = {16};
-        return widths;
+        static constexpr int words[] = {16}, bytes[] = {8};
+        return narrow_ ? bytes : words;
     }
-    std::uint32_t bus_read(int, std::uint32_t address) override { return port_.read(address); }
+    std::uint32_t bus_read(int, std::uint32_t address) override {
+        if (!narrow_) return port_.read(address);
+        port_.pass(byte_access_);
+        const std::uint32_t value = byte_bus_.in(static_cast<std::uint8_t>(address));
+        kernel_.settle();
+        return value;
+    }
     void bus_write(int, std::uint32_t address, std::uint32_t value) override {
-        port_.write(address, static_cast<std::uint16_t>(value));
+        if (!narrow_) return port_.write(address, static_cast<std::uint16_t>(value));
+        port_.pass(byte_access_);
+        byte_bus_.out(static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(value));
+        kernel_.settle();
     }
     Result<std::int64_t> inspect(std::string_view name) const override;
     int channel_count() const override { return mcx314::channel_count; }
@@ -71,9 +84,18 @@ class Mcx314Card final : public Card {
         return map;
     }
 
+    sim::RegisterDevice& registers_on_bus() {
+        if (narrow_) return byte_bus_;
+        return chip_;
+    }
+
     std::string name_;
-    Duration access_;
+    sim::Kernel& kernel_;
+    bool narrow_;           // an 8-bit bus
+    Duration byte_access_;  // time of an access of the host
+    Duration access_;       // to a whole register
     mcx314::Chip chip_;
+    mcx314::ByteBus byte_bus_{chip_};
     sim::VirtualPort port_;
     mcx314::Driver driver_;
     std::optional<mcx314::Axes> axes_;

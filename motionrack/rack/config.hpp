@@ -19,10 +19,14 @@ namespace motionrack::rack {
 
 // ---- Cards ------------------------------------------------------------------------------------------------------
 
+/// How wide a card's bus is.
+enum class BusWidth : std::uint8_t { bits16, bits8 };
+
 /// Settings of a card of type mcx314.
 struct Mcx314Settings {
     std::int64_t clock_hz = 16'000'000;  ///< only this: the model's tick is 125 ns
-    std::int64_t bus_access_ns = 250;    ///< 0 .. 100,000 ns for a register access
+    BusWidth bus = BusWidth::bits16;     ///< on 8 bits a register takes two accesses
+    std::int64_t bus_access_ns = 250;    ///< 0 .. 100,000 ns for an access
 };
 
 /// One card; only the settings of its own type mean something. Defaults of the members are the rack file's defaults.

@@ -85,17 +85,20 @@ Result<Card*> Session::bus_of(std::string_view name, int bits, std::uint32_t add
         return fail(Trouble::refused,
                     fmt::format("Card {} is a {}: its bus makes accesses of {} bits, not of {}. Nothing was done.",
                                 card->name(), card->map().name, fmt::join(widths, ", "), bits));
+    const auto bytes = static_cast<std::uint32_t>(bits) / 8;
     std::uint32_t first = ~0u, last = 0;
     for (const RegisterInfo& reg : card->map().registers) {
         if ((reg.access == Access::write) != writing) continue;
-        if (reg.offset == address) return card;
+        const std::uint32_t end = reg.offset + static_cast<std::uint32_t>(reg.width) / 8;
+        if (address >= reg.offset && address < end && (address - reg.offset) % bytes == 0) return card;
         first = std::min(first, reg.offset);
-        last = std::max(last, reg.offset);
+        last = std::max(last, end - bytes);
     }
     return fail(Trouble::refused,
-                fmt::format("Card {} has no register to {} at offset 0x{:02x}; there are some from 0x{:02x} to 0x{:02x}, "
-                            "{} bytes apart at least. Nothing was done.",
-                            card->name(), writing ? "write" : "read", address, first, last, bits / 8));
+                fmt::format("Card {} has nothing to {} with {} bits at offset 0x{:02x}; its registers are from 0x{:02x} to "
+                            "0x{:02x}{}. Nothing was done.",
+                            card->name(), writing ? "write" : "read", bits, address, first, last,
+                            bytes > 1 ? fmt::format(", {} bytes apart", bytes) : ""));
 }
 
 Result<std::uint32_t> Session::read(std::string_view card, int bits, std::uint32_t address) {

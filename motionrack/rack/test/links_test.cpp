@@ -100,6 +100,20 @@ Ended run(const std::string& wires) {
     return out;
 }
 
+TEST(Rack, AJobRunsOverAnEightBitBus) {
+    std::string text = rack_with("");
+    text.replace(text.find("[axis"), 0, "bus = \"8-bit\"\n");
+    Rack rack(good(text));
+    JobSettings settings;
+    settings.program = "G21 G90 F600\nG1 X10\nG0 X2\nM2\n";
+    Job job(rack, settings);
+    rack.start();
+    const JobOutcome outcome = job.run();
+    ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();
+    EXPECT_EQ(outcome.axes[0].real_end, 2);
+    EXPECT_TRUE(outcome.position_trusted);
+}
+
 TEST(Links, AnOpenStepInputLeavesTheMotorStandingAndTheJobSaysSo) {
     const Ended ended = run("X.step = \"open\"\n");
     const AxisOutcome& x = ended.outcome.axes[0];
