@@ -18,6 +18,7 @@ Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(se
         one.origin = axis.config.start_position;
         one.jump_hz = axis.card->jump_hz(rack_.config());
         one.full_step = static_cast<double>(axis.config.microsteps);
+        one.accel_hz = axis.config.max_accel * one.pulses_per_unit;
         watched.push_back(one);
     }
     monitor_ = std::make_unique<Monitor>(rack_.kernel(), std::move(watched), settings_.sample_period, settings_.most_samples);

@@ -12,12 +12,22 @@ constexpr std::size_t most_blocks = 20'000;
 }
 
 void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
+    const bool ramp = std::fabs(rate - before) <= jump_hz;
     if (pending) {
-        away += (present - good) * to_seconds(now - since);
+        const double seconds = to_seconds(now - since);
+        away += (present - good) * seconds;
+        good += before - present;  // along a curve the rate drifts between the changes
+        present = before;
         if (std::fabs(away) > full_step) settle();
+        explained += accel_hz * seconds;
+        // Small jumps that follow each other are an acceleration; what the limit explains of them is no jump.
+        if (!ramp) {
+            good += std::clamp(present - good, -explained, explained);
+            explained = 0;
+        }
+        if (good == present) pending = false;
     }
     if (!pending) good = before;
-    const bool ramp = std::fabs(rate - before) <= jump_hz;
     if (pending && ramp) good += rate - before;  // a ramp goes on after the jump
     if (!ramp) ++jumps;
     present = rate;
@@ -29,7 +39,7 @@ void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
         top = std::max(top, std::fabs(rate));
     } else if (!pending) {
         pending = true;
-        away = 0;
+        away = explained = 0;
     }
 }
 
@@ -53,6 +63,7 @@ Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration pe
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         ears_[i].jump_hz = axes_[i].jump_hz;
         ears_[i].full_step = axes_[i].full_step;
+        ears_[i].accel_hz = axes_[i].accel_hz;
         axes_[i].commanded->listen(ears_[i]);
     }
 }

@@ -25,6 +25,7 @@ struct WatchedAxis {
     double origin = 0;                    ///< mm or degrees where both counts are 0
     double jump_hz = 1;                   ///< rates that change by more than this at once are jumps, not ramps
     double full_step = 16;                ///< pulses: a change that is over before the axis is that far away is no jump
+    double accel_hz = 0;                  ///< the axis' acceleration limit, pulses/s2
 };
 
 struct Sample {
@@ -102,12 +103,14 @@ class Monitor final : public sim::Device {
         double good = 0;       // the rate that the axis is held to have
         double present = 0;    // what the pulses have now
         double away = 0;       // pulses that `present` has led away from `good`
+        double explained = 0;  // change of the rate that the acceleration limit allows since the last jump
         bool pending = false;
         Instant since{};
         double top = 0;
         double jump = 0;
         double jump_hz = 1;
         double full_step = 16;
+        double accel_hz = 0;
         std::uint32_t jumps = 0;
     };
     struct RawSample {

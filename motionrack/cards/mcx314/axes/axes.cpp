@@ -50,7 +50,11 @@ Result<void> Axes::set_up(const control::Point& position) {
 /// the difference, which its start speed must allow.
 double Axes::joint_speed(const control::Geometry& before, const control::Geometry& after) const {
     // An axis that is steered stands before it is interpolated, or the other way round: its registers are those of one drive only.
-    if (drawing_of(map_, before).companion != drawing_of(map_, after).companion) return 0;
+    const int steered = drawing_of(map_, before).companion;
+    if (steered != drawing_of(map_, after).companion) return 0;
+    // And before it turns round: its drive ends, and a new one begins.
+    for (std::size_t i = 0; steered >= 0 && i < map_.channel.size(); ++i)
+        if (map_.channel[i] == steered && before.tangent_out[i] * after.tangent_in[i] <= 0) return 0;
     const double a = basic_pulses_along(map_, drawing_of(map_, before), before.tangent_out);
     const double b = basic_pulses_along(map_, drawing_of(map_, after), after.tangent_in);
     constexpr double reserve = 0.95;  // for whole speed units
@@ -146,7 +150,6 @@ Result<void> Axes::start_chain(const Segment& segment) {
     }
     driver_.EnableDeceleration(segment.s_curve);
     written_speed_ = written_acceleration_ = 0;
-    previous_speed_ = segment.initial_speed;
     MOTIONRACK_CHECK(write_speed(segment));
     return command(segment);
 }
@@ -203,7 +206,6 @@ Result<void> Axes::begin_segment(const Segment& segment, const Segment* next) {
     current_line_ = segment.line;
     for (std::size_t i = 0; i < segment.axis_count; ++i) expected_[segment.axes[i]] += segment.moves[i];
     if (segment.companion_channel >= 0) MOTIONRACK_CHECK(steer_companion(segment, next));
-    previous_speed_ = segment.speed;
     return {};
 }
 
@@ -224,13 +226,13 @@ Result<void> Axes::wait_for_standstill() {
 
 // ---- the fourth axis ------------------------------------------------------------------------------------------------------------
 
-/// About how long the segment takes: from the speed before it to its own, then on.
-double Axes::segment_seconds(const Segment& segment) const {
+/// About how long the segment takes: from the present speed to its own, then on.
+double Axes::segment_seconds(const Segment& segment) {
     std::int64_t pulses = 0;
     for (std::size_t i = 0; i < segment.axis_count; ++i)
         pulses = std::max<std::int64_t>(pulses, segment.finish[i] < 0 ? -segment.finish[i] : segment.finish[i]);
     const double length = static_cast<double>(pulses) * range_ / 8e6;  // in V units * seconds
-    const double v0 = previous_speed_, v1 = segment.speed, slope = 125.0 * segment.acceleration;
+    const double v0 = std::max(1, driver_.ReadCV(generator_)), v1 = segment.speed, slope = 125.0 * segment.acceleration;
     const double ramp = std::fabs(v1 - v0) / slope, ramp_length = ramp * (v0 + v1) / 2;
     if (ramp_length <= length) return ramp + (length - ramp_length) / v1;
     const double end = std::sqrt(std::max(1.0, v0 * v0 + (v1 > v0 ? 2 : -2) * slope * length));
@@ -249,15 +251,17 @@ Result<void> Axes::steer_companion(const Segment& segment, const Segment* next) 
     expected_[static_cast<std::size_t>(c)] = companion_target_;
     const std::int64_t left = companion_target_ - at;
     if (left == 0) return {};
-    const double hertz = std::fabs(static_cast<double>(left)) / segment_seconds(segment);
-    double top = 8'000;
-    for (std::size_t i = 0; i < map_.channel.size(); ++i)
-        if (map_.channel[i] == c) top = std::min(top, map_.limits[i].max_speed * map_.limits[i].pulses_per_unit * range_ / 8e6);
-    const auto v = static_cast<std::int32_t>(std::clamp(std::floor(hertz * range_ / 8e6 + 0.5), 1.0, std::floor(top)));
     // The next segment's pulses are promised too, so that it does not stop at the joint.
     std::int64_t beyond = 0;
     if (next && !next->starts_chain && next->companion_channel == c && (next->companion_pulses < 0) == (left < 0))
         beyond = next->companion_pulses;
+    // Where these are few it must not come to their end before the joint, which it would not brake for.
+    const bool few = beyond != 0 && 3 * std::llabs(beyond) < std::llabs(left);
+    const double hertz = std::fabs(static_cast<double>(left)) / segment_seconds(segment) * (few ? 0.85 : 1);
+    double top = 8'000;
+    for (std::size_t i = 0; i < map_.channel.size(); ++i)
+        if (map_.channel[i] == c) top = std::min(top, map_.limits[i].max_speed * map_.limits[i].pulses_per_unit * range_ / 8e6);
+    const auto v = static_cast<std::int32_t>(std::clamp(std::floor(hertz * range_ / 8e6 + 0.5), 1.0, std::floor(top)));
     const bool driving = driver_.status().driving(1u << c);
     if (!driving || companion_negative_ != (left < 0)) {
         std::int64_t from = at;

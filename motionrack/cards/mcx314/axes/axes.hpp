@@ -55,7 +55,7 @@ class Axes final : public control::PathAxes, private control::JointRule {
     Result<void> steer_companion(const Segment& segment, const Segment* next);
     Result<void> start_companion(int channel, std::int64_t pulses, std::int32_t v, bool ends);
     std::int64_t companion_fall_from(std::int64_t pulses, std::int32_t v, bool ends) const;
-    double segment_seconds(const Segment& segment) const;
+    double segment_seconds(const Segment& segment);
     tl::unexpected<Error> stopped_by_machine();
     tl::unexpected<Error> stopped_by_user();
     void clear_interrupts();
@@ -71,7 +71,6 @@ class Axes final : public control::PathAxes, private control::JointRule {
     Pulses4 expected_ = {};          ///< where the counters are when everything given so far is done
     std::int32_t last_block_ = -2;
     std::int32_t current_line_ = 0;
-    std::int32_t previous_speed_ = 1;
     std::int32_t written_speed_ = 0;
     std::int32_t written_acceleration_ = 0;
     int generator_ = 0;

@@ -42,7 +42,6 @@ double basic_pulses_along(const AxisMap& map, const Drawing& drawing, const cont
         second = std::max(second, std::min(most, rate));
         most = std::max(most, rate);
     }
-    constexpr double both_axes_extra = 0.41421356237309503;  // R of the second axis over that of the first, less one
     return std::max(1e-3, drawing.constant_vector ? most + both_axes_extra * second : most);
 }
 

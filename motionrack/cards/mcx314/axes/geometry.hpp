@@ -10,6 +10,9 @@
 
 namespace motionrack::mcx314 {
 
+/// R of the second axis over that of the first, less one, where the speed along the path of two axes is kept.
+inline constexpr double both_axes_extra = 0.41421356237309503;
+
 /// Which card channel moves which axis of the machine, and how far one pulse is.
 struct AxisMap {
     std::array<int, control::axis_count> channel = {-1, -1, -1, -1, -1, -1};  ///< 0..3, -1: not on this card

@@ -19,6 +19,8 @@ constexpr double acceleration_reserve = 1.015;
 constexpr double accesses_to_speed = 8;
 // Part of the path's acceleration that moves with a fourth axis use.
 constexpr double companion_share = 0.3;
+// Part of an axis' start speed that its speed jumps by from chord to chord of an arc, as long as the chords have so many pulses.
+constexpr double joint_share = 0.75, shortest_chord = 16;
 constexpr std::int32_t top_speed_units = 8'000;
 constexpr std::int64_t longest_line = 8'000'000;
 
@@ -205,8 +207,12 @@ void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
     double count = 1, deviation = 0;
     if (arc) {
         // The middle of a chord is r (1 - cos(angle / 2)) inside the arc: angle = sqrt(8 tolerance / r), cut into equal parts.
-        const double angle = std::min(0.5, std::sqrt(8 * map_.arc_tolerance_mm / work.path.radius));
-        count = std::ceil(std::fabs(work.path.sweep) / angle);
+        // From chord to chord the axes' speeds jump by speed * angle, too.
+        const control::AxisLimits &a = map_.limits[work.path.first], &b = map_.limits[work.path.second];
+        const double jump = joint_share * std::min(a.start_speed, b.start_speed);
+        const double angle = std::min({0.5, std::sqrt(8 * map_.arc_tolerance_mm / work.path.radius), jump / work.move.cruise});
+        const double shortest = shortest_chord / std::max(a.pulses_per_unit, b.pulses_per_unit) / work.path.radius;
+        count = std::ceil(std::fabs(work.path.sweep) / std::max(angle, std::min(0.5, shortest)));
         const double half = std::fabs(work.path.sweep) / count / 2;
         deviation = work.path.radius * (1 - sin_cos(half).cos);
     } else {
@@ -360,8 +366,25 @@ void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, s
     }
     segment.moves = segment.finish;
     segment.speed = v;
-    segment.acceleration = acceleration;
+    segment.acceleration = std::min(acceleration, acceleration_of(segment));
     append(segment, work, to);
+}
+
+/// The acceleration that no axis of a line passes its limit with; in a short line rounding gives an axis more than its share.
+std::int32_t Segmenter::acceleration_of(const Segment& line) const {
+    double longest = 0, second = 0;
+    for (const std::int32_t pulses : line.finish) {
+        second = std::max(second, std::min<double>(longest, std::abs(pulses)));
+        longest = std::max<double>(longest, std::abs(pulses));
+    }
+    if (line.constant_vector) longest += both_axes_extra * second;
+    double least = 8'000;
+    for (std::size_t i = 0; i < map_.channel.size(); ++i)
+        for (std::size_t k = 0; k < line.axis_count; ++k)
+            if (map_.channel[i] == line.axes[k] && line.finish[k] != 0)
+                least = std::min(least, map_.limits[i].max_accel * map_.limits[i].pulses_per_unit * longest /
+                                            std::abs(line.finish[k]) / (125 * pulses_per_v_));
+    return static_cast<std::int32_t>(std::max(1.0, std::floor(least)));
 }
 
 void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
