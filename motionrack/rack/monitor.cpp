@@ -16,19 +16,22 @@ void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
     if (pending) {
         const double seconds = to_seconds(now - since);
         away += (present - good) * seconds;
-        good += before - present;  // along a curve the rate drifts between the changes
+        explained += accel_hz * seconds;
+        const double drift = before - present;  // along a curve, between the changes
+        good += drift;
+        follower += drift;
         present = before;
         if (std::fabs(away) > full_step) settle();
-        explained += accel_hz * seconds;
-        // Small jumps that follow each other are an acceleration; what the limit explains of them is no jump.
-        if (!ramp) {
-            good += std::clamp(present - good, -explained, explained);
-            explained = 0;
-        }
-        if (good == present) pending = false;
     }
-    if (!pending) good = before;
-    if (pending && ramp) good += rate - before;  // a ramp goes on after the jump
+    if (!pending) good = follower = before;
+    if (pending && ramp) {  // a ramp goes on after the jump
+        good += rate - before;
+        follower += rate - before;
+    }
+    if (pending && !ramp) {
+        follower += std::clamp(present - follower, -explained, explained);
+        explained = 0;
+    }
     if (!ramp) ++jumps;
     present = rate;
     since = now;
@@ -45,7 +48,7 @@ void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
 
 void Monitor::Ear::settle() {
     if (!pending) return;
-    jump = std::max(jump, std::fabs(present - good));
+    jump = std::max(jump, std::min(std::fabs(present - good), std::fabs(present - follower)));
     top = std::max(top, std::fabs(present));
     good = present;
     pending = false;

@@ -101,6 +101,7 @@ class Monitor final : public sim::Device {
         /// The last change stays: it was a jump.
         void settle();
         double good = 0;       // the rate that the axis is held to have
+        double follower = 0;   // the same, but following small jumps as fast as the acceleration limit lets it
         double present = 0;    // what the pulses have now
         double away = 0;       // pulses that `present` has led away from `good`
         double explained = 0;  // change of the rate that the acceleration limit allows since the last jump

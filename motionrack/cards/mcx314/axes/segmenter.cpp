@@ -17,14 +17,8 @@ namespace {
 constexpr double acceleration_reserve = 1.015;
 // Register accesses between the interrupt at a joint and the new speed being written.
 constexpr double accesses_to_speed = 8;
-// Part of the path's acceleration that moves with a fourth axis use.
-constexpr double companion_share = 0.3;
-// Part of an axis' start speed that its speed jumps by from chord to chord of an arc, as long as the chords have so many pulses.
-constexpr double joint_share = 0.75, shortest_chord = 16;
 constexpr std::int32_t top_speed_units = 8'000;
 constexpr std::int64_t longest_line = 8'000'000;
-
-double squared(double x) { return x * x; }
 
 }  // namespace
 
@@ -196,82 +190,12 @@ bool Segmenter::emit_s_curve(const Work& work) {
     emit_line(work, work.to, v, limit);
     if (ready_.size() == first) return true;  // less than half a pulse
     ready_.back().s_curve = true;
+    ready_.back().speed = v;  // AO belongs to these two
+    ready_.back().acceleration = limit;
     ready_.back().jerk = jerk;
     ready_.back().offset = static_cast<std::int32_t>(offset);
     close_chain();
     return true;
-}
-
-void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
-    const bool arc = work.path.shape == control::PathShape::arc;
-    double count = 1, deviation = 0;
-    if (arc) {
-        // The middle of a chord is r (1 - cos(angle / 2)) inside the arc: angle = sqrt(8 tolerance / r), cut into equal parts.
-        // From chord to chord the axes' speeds jump by speed * angle, too.
-        const control::AxisLimits &a = map_.limits[work.path.first], &b = map_.limits[work.path.second];
-        const double jump = joint_share * std::min(a.start_speed, b.start_speed);
-        const double angle = std::min({0.5, std::sqrt(8 * map_.arc_tolerance_mm / work.path.radius), jump / work.move.cruise});
-        const double shortest = shortest_chord / std::max(a.pulses_per_unit, b.pulses_per_unit) / work.path.radius;
-        count = std::ceil(std::fabs(work.path.sweep) / std::max(angle, std::min(0.5, shortest)));
-        const double half = std::fabs(work.path.sweep) / count / 2;
-        deviation = work.path.radius * (1 - sin_cos(half).cos);
-    } else {
-        count = std::clamp(std::ceil(work.path.length / (work.move.cruise * 0.008)), 8.0, 20'000.0);
-    }
-    if (work.companion >= 0)
-        note_split(work, "four axes move together: the chip interpolates three, the fourth follows on its own speed generator", deviation);
-    else
-        note_split(work, "the chip has no helix: the arc is drawn with short lines of three axes", deviation);
-    const double step = work.path.length / count;
-    // A companion is told its speed once a piece, so the speeds of the pieces rise and fall more slowly than it can follow.
-    const double top_speed = work.move.cruise, accel = work.companion >= 0 ? companion_share * work.move.accel : work.move.accel;
-    // First the speeds that the limits allow, from the start; then, from the end, what the chip can brake: the basic pulses for a mm change
-    // from chord to chord, so this is counted in the chip's own pulses and speed units.
-    struct Chord {
-        double to = 0;
-        Pulses4 at = {};
-        double v = 0;
-        std::int32_t acceleration = 1;
-    };
-    std::vector<Chord> chords(static_cast<std::size_t>(count));
-    double units_before = work.units_in;
-    for (std::size_t i = 0; i < chords.size(); ++i) {
-        Chord& chord = chords[i];
-        const bool last = i + 1 == chords.size();
-        chord.to = last ? work.path.length : static_cast<double>(i + 1) * step;
-        chord.at = pulses_at(work, chord.to);
-        const double units = arc ? units_along(work, control::tangent_at(work.path, chord.to - step / 2)) : work.units_in;
-        const double next = arc && !last ? units_along(work, control::tangent_at(work.path, chord.to + step / 2)) : units;
-        const double raised = work.companion >= 0 ? std::sqrt(squared(work.move.entry) + 2 * accel * chord.to) : top_speed;
-        chord.v = speed_units(std::min(units, next), std::min(top_speed, raised));
-        chord.acceleration = acceleration_units(std::max(units, units_before), work.move.accel);
-        units_before = units;
-    }
-    chords.back().v = std::min<double>(chords.back().v, speeds.exit);
-    for (std::size_t i = chords.size() - 1; i > 0; --i) {
-        const Chord& after = chords[i];
-        std::int64_t pulses = 0;
-        for (std::size_t c = 0; c < after.at.size(); ++c)
-            if (static_cast<int>(c) != work.companion) pulses = std::max<std::int64_t>(pulses, std::llabs(after.at[c] - chords[i - 1].at[c]));
-        const double share = work.companion >= 0 ? companion_share : 1;
-        // V units squared; less the steps of whole units and the register accesses before the new speed counts.
-        const double slope = 125.0 * after.acceleration * share, spent = latency_seconds_ + 64'000.0 / after.acceleration / 8e6 * 2;
-        const double room = std::max(0.0, (static_cast<double>(pulses) - 2) / pulses_per_v_ - spent * chords[i - 1].v);
-        chords[i - 1].v = std::min(chords[i - 1].v, std::floor(std::sqrt(squared(after.v) + 2 * slope * room)));
-    }
-    for (const Chord& chord : chords)
-        emit_line(work, chord.at, std::max(static_cast<std::int32_t>(chord.v), std::min(speeds.exit, speeds.top)), chord.acceleration);
-    if (at_ == work.to) return;
-    // What is left of a companion after the last pulse of the others belongs to their last piece.
-    const auto c = static_cast<std::size_t>(std::max(0, work.companion));
-    if (work.companion >= 0 && !ready_.empty() && ready_.back().block == work.block && ready_.back().companion_channel == work.companion) {
-        ready_.back().companion_pulses += static_cast<std::int32_t>(work.to[c] - at_[c]);
-        at_[c] = work.to[c];
-        return;
-    }
-    Work alone = work;
-    alone.companion = -1;
-    emit_line(alone, work.to, speeds.exit, speeds.acceleration);
 }
 
 void Segmenter::emit_arcs(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration) {
@@ -366,25 +290,27 @@ void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, s
     }
     segment.moves = segment.finish;
     segment.speed = v;
-    segment.acceleration = std::min(acceleration, acceleration_of(segment));
+    segment.acceleration = acceleration;
+    keep_limits(segment);
     append(segment, work, to);
 }
 
-/// The acceleration that no axis of a line passes its limit with; in a short line rounding gives an axis more than its share.
-std::int32_t Segmenter::acceleration_of(const Segment& line) const {
+/// No axis of a line passes its limits: in a short line rounding gives it more than its share.
+void Segmenter::keep_limits(Segment& line) const {
     double longest = 0, second = 0;
     for (const std::int32_t pulses : line.finish) {
         second = std::max(second, std::min<double>(longest, std::abs(pulses)));
         longest = std::max<double>(longest, std::abs(pulses));
     }
     if (line.constant_vector) longest += both_axes_extra * second;
-    double least = 8'000;
     for (std::size_t i = 0; i < map_.channel.size(); ++i)
-        for (std::size_t k = 0; k < line.axis_count; ++k)
-            if (map_.channel[i] == line.axes[k] && line.finish[k] != 0)
-                least = std::min(least, map_.limits[i].max_accel * map_.limits[i].pulses_per_unit * longest /
-                                            std::abs(line.finish[k]) / (125 * pulses_per_v_));
-    return static_cast<std::int32_t>(std::max(1.0, std::floor(least)));
+        for (std::size_t k = 0; k < line.axis_count; ++k) {
+            if (map_.channel[i] != line.axes[k] || line.finish[k] == 0) continue;
+            const double units = map_.limits[i].pulses_per_unit * longest / std::abs(line.finish[k]) / pulses_per_v_;
+            auto at_most = [](double value) { return static_cast<std::int32_t>(std::clamp(std::floor(value), 1.0, 8'000.0)); };
+            line.speed = std::min(line.speed, at_most(map_.limits[i].max_speed * units));
+            line.acceleration = std::min(line.acceleration, at_most(map_.limits[i].max_accel * units / 125));
+        }
 }
 
 void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {

@@ -80,7 +80,7 @@ class Segmenter {
     double fall_length(double units, const Speeds& speeds) const;
     std::int32_t speed_units(double units, double speed) const;
     std::int32_t acceleration_units(double units, double acceleration) const;
-    std::int32_t acceleration_of(const Segment& line) const;
+    void keep_limits(Segment& line) const;
     double start_speed(const control::Point& tangent) const;
 
     AxisMap map_;

@@ -1,0 +1,108 @@
+// Arcs that the chip cannot draw, and moves with a fourth axis: many short lines, each with its speed.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/cards/mcx314/axes/segmenter.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+// Part of the path's acceleration that moves with a fourth axis use.
+constexpr double companion_share = 0.3;
+// Part of an axis' start speed that its speed jumps by from chord to chord of an arc, as long as the chords have so
+// many pulses.
+constexpr double joint_share = 0.75, shortest_chord = 16;
+
+double squared(double x) {
+    return x * x;
+}
+
+}  // namespace
+
+void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
+    const bool arc = work.path.shape == control::PathShape::arc;
+    double count = 1, deviation = 0;
+    if (arc) {
+        // The middle of a chord is r (1 - cos(angle / 2)) inside the arc: angle = sqrt(8 tolerance / r), cut into equal
+        // parts. From chord to chord the axes' speeds jump by speed * angle, too.
+        const control::AxisLimits &a = map_.limits[work.path.first], &b = map_.limits[work.path.second];
+        const double jump = joint_share * std::min(a.start_speed, b.start_speed);
+        const double angle =
+            std::min({0.5, std::sqrt(8 * map_.arc_tolerance_mm / work.path.radius), jump / work.move.cruise});
+        const double shortest = shortest_chord / std::max(a.pulses_per_unit, b.pulses_per_unit) / work.path.radius;
+        count = std::ceil(std::fabs(work.path.sweep) / std::max(angle, std::min(0.5, shortest)));
+        const double half = std::fabs(work.path.sweep) / count / 2;
+        deviation = work.path.radius * (1 - sin_cos(half).cos);
+    } else {
+        count = std::clamp(std::ceil(work.path.length / (work.move.cruise * 0.008)), 8.0, 20'000.0);
+    }
+    if (work.companion >= 0)
+        note_split(
+            work, "four axes move together: the chip interpolates three, the fourth follows on its own speed generator",
+            deviation);
+    else
+        note_split(work, "the chip has no helix: the arc is drawn with short lines of three axes", deviation);
+    const double step = work.path.length / count;
+    // A companion is told its speed once a piece, so the speeds of the pieces rise and fall more slowly than it can
+    // follow.
+    const double top_speed = work.move.cruise,
+                 accel = work.companion >= 0 ? companion_share * work.move.accel : work.move.accel;
+    // First the speeds that the limits allow, from the start; then, from the end, what the chip can brake: the basic
+    // pulses for a mm change from chord to chord, so this is counted in the chip's own pulses and speed units.
+    struct Chord {
+        double to = 0;
+        Pulses4 at = {};
+        double v = 0;
+        std::int32_t acceleration = 1;
+    };
+    std::vector<Chord> chords(static_cast<std::size_t>(count));
+    double units_before = work.units_in;
+    for (std::size_t i = 0; i < chords.size(); ++i) {
+        Chord& chord = chords[i];
+        const bool last = i + 1 == chords.size();
+        chord.to = last ? work.path.length : static_cast<double>(i + 1) * step;
+        chord.at = pulses_at(work, chord.to);
+        const double units =
+            arc ? units_along(work, control::tangent_at(work.path, chord.to - step / 2)) : work.units_in;
+        const double next =
+            arc && !last ? units_along(work, control::tangent_at(work.path, chord.to + step / 2)) : units;
+        const double raised =
+            work.companion >= 0 ? std::sqrt(squared(work.move.entry) + 2 * accel * chord.to) : top_speed;
+        chord.v = speed_units(std::min(units, next), std::min(top_speed, raised));
+        chord.acceleration = acceleration_units(std::max(units, units_before), work.move.accel);
+        units_before = units;
+    }
+    chords.back().v = std::min<double>(chords.back().v, speeds.exit);
+    for (std::size_t i = chords.size() - 1; i > 0; --i) {
+        const Chord& after = chords[i];
+        std::int64_t pulses = 0;
+        for (std::size_t c = 0; c < after.at.size(); ++c)
+            if (static_cast<int>(c) != work.companion)
+                pulses = std::max<std::int64_t>(pulses, std::llabs(after.at[c] - chords[i - 1].at[c]));
+        const double share = work.companion >= 0 ? companion_share : 1;
+        // V units squared; less the steps of whole units and the register accesses before the new speed counts.
+        const double slope = 125.0 * after.acceleration * share,
+                     spent = latency_seconds_ + 64'000.0 / after.acceleration / 8e6 * 2;
+        const double room = std::max(0.0, (static_cast<double>(pulses) - 2) / pulses_per_v_ - spent * chords[i - 1].v);
+        chords[i - 1].v = std::min(chords[i - 1].v, std::floor(std::sqrt(squared(after.v) + 2 * slope * room)));
+    }
+    for (const Chord& chord : chords)
+        emit_line(work, chord.at, std::max(static_cast<std::int32_t>(chord.v), std::min(speeds.exit, speeds.top)),
+                  chord.acceleration);
+    if (at_ == work.to) return;
+    // What is left of a companion after the last pulse of the others belongs to their last piece.
+    const auto c = static_cast<std::size_t>(std::max(0, work.companion));
+    if (work.companion >= 0 && !ready_.empty() && ready_.back().block == work.block &&
+        ready_.back().companion_channel == work.companion) {
+        ready_.back().companion_pulses += static_cast<std::int32_t>(work.to[c] - at_[c]);
+        at_[c] = work.to[c];
+        return;
+    }
+    Work alone = work;
+    alone.companion = -1;
+    emit_line(alone, work.to, speeds.exit, speeds.acceleration);
+}
+
+}  // namespace motionrack::mcx314
