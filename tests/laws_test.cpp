@@ -34,7 +34,7 @@ std::string room_of(const std::string& path) {
     if (path.rfind("cards/", 0) == 0) {
         const std::size_t card = path.find('/', 6);
         const std::string name = path.substr(6, card - 6), rest = path.substr(card + 1);
-        for (const char* part : {"chip", "driver", "axes"})
+        for (const char* part : {"chip", "model", "driver", "axes"})
             if (rest.rfind(std::string(part) + "/", 0) == 0) return name + "/" + part;
         return name + "/map";
     }
@@ -52,6 +52,9 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"mcx314/chip", {"base", "sim", "mcx314/map"}},
     {"mcx314/driver", {"base", "mcx314/map"}},
     {"mcx314/axes", {"base", "control", "mcx314/map", "mcx314/driver"}},
+    {"databoard4002/map", {"base"}},
+    {"databoard4002/model", {"base", "sim", "databoard4002/map"}},
+    {"databoard4002/driver", {"base", "databoard4002/map"}},
     {"rack", {"base", "sim", "parts", "control", "trace", "mcx314/map", "mcx314/chip", "mcx314/driver", "mcx314/axes"}},
     {"frontends", {"base", "control", "trace", "rack", "c.h"}},
 };

@@ -11,13 +11,14 @@ namespace motionrack {
 struct CommandInfo {
     std::string_view name;
     std::uint32_t code = 0;
-    int data_bytes = 0;      ///< that go with it, 0 .. 4; 0: none
+    int data_bytes = 0;      ///< that go with it: 0 none, 1 .. 4 a number, up to 1024 a table (which has no range)
     std::int64_t least = 0;  ///< range of the data, as documented
     std::int64_t greatest = 0;
     std::string_view unit;
     std::string_view variant;  ///< "": every variant of the card has it
     std::string_view meaning;
     bool reproduced = true;  ///< false: the virtual card ignores it and reports that as a condition
+    int answer_bytes = 0;    ///< that the host reads after it (where it may choose: instead of writing data)
 };
 
 /// No code and no name twice; ranges the right way round, and no wider than the data.
@@ -28,10 +29,13 @@ constexpr Flaw commands_flaw(std::span<const CommandInfo> commands) {
         for (std::size_t j = 0; j < i; ++j)
             if (commands[j].code == command.code)
                 return {"the commands ", commands[j].name, " and ", command.name, " have one code"};
-        if (command.data_bytes < 0 || command.data_bytes > 4)
-            return {"the command ", command.name, " does not have 0 to 4 bytes of data"};
+        const bool table = command.data_bytes > 4;
+        if (command.data_bytes < 0 || command.data_bytes > 1024 || command.answer_bytes < 0 || command.answer_bytes > 1024)
+            return {"the command ", command.name, " does not have 0 to 1024 bytes of data or answer"};
+        if (table && (command.least != 0 || command.greatest != 0))
+            return {"the command ", command.name, " has a table of data, which has no range"};
         if (command.least > command.greatest) return {"the range of the command ", command.name, " is upside down"};
-        const std::int64_t values = std::int64_t{1} << (8 * command.data_bytes);
+        const std::int64_t values = std::int64_t{1} << (table ? 0 : 8 * command.data_bytes);
         const std::int64_t least = command.data_bytes == 0 ? 0 : -values / 2;
         if (command.least < least || command.greatest >= values)
             return {"the range of the command ", command.name, " does not fit its bytes of data"};

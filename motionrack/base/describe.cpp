@@ -34,8 +34,15 @@ std::string grouped(std::int64_t number) {
 }
 
 std::string range_text(const CommandInfo& command) {
-    if (command.data_bytes == 0) return "";
+    if (command.data_bytes == 0 || command.data_bytes > 4) return "";
     return fmt::format("{} .. {}", grouped(command.least), grouped(command.greatest));
+}
+
+/// What is written with it and read after it.
+std::string data_text(const CommandInfo& command) {
+    if (command.answer_bytes == 0) return command.data_bytes ? fmt::format("{} bytes", command.data_bytes) : "-";
+    if (command.data_bytes == 0) return fmt::format("{} bytes back", command.answer_bytes);
+    return fmt::format("{} bytes, or {} back", command.data_bytes, command.answer_bytes);
 }
 
 /// The meaning with what limits it.
@@ -111,9 +118,10 @@ std::string json(const RegisterInfo& reg) {
 std::string json(const CommandInfo& command) {
     return fmt::format(
         R"(  {{"name": {}, "code": {}, "data_bytes": {}, "least": {}, "greatest": {}, "unit": {}, "variant": {}, )"
-        R"("reproduced": {}, "meaning": {}}})",
+        R"("reproduced": {}, "answer_bytes": {}, "meaning": {}}})",
         quoted(command.name), command.code, command.data_bytes, command.least, command.greatest, quoted(command.unit),
-        quoted(command.variant), command.reproduced, quoted(command.meaning));
+        quoted(command.variant), command.reproduced, command.answer_bytes,
+        quoted(command.meaning));
 }
 
 std::string json(const StateInfo& state) {
@@ -156,8 +164,8 @@ std::string describe_text(const CardMap& map) {
     }
     out += "\nCommands\n";
     for (const CommandInfo& command : map.commands)
-        out += fmt::format("  {:02X}h  {:<30} {:<32} {}\n", command.code, command.name, range_text(command),
-                           remarked(command));
+        out += fmt::format("  {:02X}h  {:<30} {:<32} {}{}\n", command.code, command.name, range_text(command),
+                           remarked(command), command.answer_bytes ? fmt::format(" ({})", data_text(command)) : "");
     for (const MachineInfo& machine : map.machines) {
         out += fmt::format("\n{}: {}\n", machine.name, machine.meaning);
         for (const StateInfo& state : machine.states) {
@@ -184,8 +192,7 @@ std::string describe_markdown(const CardMap& map) {
     out += "\n## Commands\n\n| code | name | data | range | unit | meaning |\n|---|---|---|---|---|---|\n";
     for (const CommandInfo& command : map.commands)
         out += fmt::format("| {:02X}h | {} | {} | {} | {} | {} |\n", command.code, command.name,
-                           command.data_bytes ? fmt::format("{} bytes", command.data_bytes) : "-", range_text(command),
-                           cell(command.unit), cell(remarked(command)));
+                           data_text(command), range_text(command), cell(command.unit), cell(remarked(command)));
     for (const MachineInfo& machine : map.machines) add_markdown(out, machine);
     out +=
         "\n## Pins\n\n`*` stands for the axis letter.\n\n| pin | direction | active | meaning |\n|---|---|---|---|\n";

@@ -5,34 +5,26 @@
 
 namespace motionrack::sim {
 
-VirtualPort::VirtualPort(Kernel& kernel, RegisterDevice& device, DeviceId id, WireId interrupt, Duration access, InputLog* log)
-    : kernel_(kernel), device_(device), id_(id), interrupt_(interrupt), access_(access), log_(log) {}
+// ---- time -------------------------------------------------------------------------------------------------------------------
 
-void VirtualPort::write(std::uint32_t offset, std::uint16_t value) {
+VirtualHost::VirtualHost(Kernel& kernel, DeviceId id, WireId interrupt, int active, Duration access, InputLog* log)
+    : kernel_(kernel), id_(id), interrupt_(interrupt), active_(active), access_(access), log_(log) {}
+
+void VirtualHost::begin_access(InputKind kind, std::uint32_t offset, std::uint16_t value) {
     run_to(kernel_.now() + access_, false);
-    if (log_) log_->add({kernel_.now(), InputKind::register_write, static_cast<std::uint16_t>(id_), offset, value});
-    device_.write(offset, value);
-    kernel_.settle();
+    if (log_) log_->add({kernel_.now(), kind, static_cast<std::uint16_t>(id_), offset, value});
 }
 
-std::uint16_t VirtualPort::read(std::uint32_t offset) {
-    run_to(kernel_.now() + access_, false);
-    if (log_) log_->add({kernel_.now(), InputKind::register_read, static_cast<std::uint16_t>(id_), offset, 0});
-    const std::uint16_t value = device_.read(offset);
-    kernel_.settle();
-    return value;
-}
-
-bool VirtualPort::wait(Duration timeout) {
+bool VirtualHost::wait(Duration timeout) {
     run_to(kernel_.now() + timeout, true);
-    return kernel_.level(interrupt_) == 0;
+    return kernel_.level(interrupt_) == active_;
 }
 
-void VirtualPort::pass(Duration duration) { run_to(kernel_.now() + duration, false); }
+void VirtualHost::pass(Duration duration) { run_to(kernel_.now() + duration, false); }
 
-void VirtualPort::run_to(Instant until, bool until_interrupt) {
+void VirtualHost::run_to(Instant until, bool until_interrupt) {
     while (true) {
-        if (until_interrupt && (kernel_.level(interrupt_) == 0 || stop_requested())) return;
+        if (until_interrupt && (kernel_.level(interrupt_) == active_ || stop_requested())) return;
         const Instant stop = on_slice_ ? std::min(until, std::max(next_slice_, kernel_.now())) : until;
         const RunEnd end = kernel_.run_until(stop);
         if (on_slice_ && (end == RunEnd::broken || kernel_.now() >= next_slice_)) {  // broken: perhaps a full buffer
@@ -41,6 +33,40 @@ void VirtualPort::run_to(Instant until, bool until_interrupt) {
         }
         if (kernel_.now() >= until) return;
     }
+}
+
+// ---- accesses ---------------------------------------------------------------------------------------------------------------
+
+VirtualPort::VirtualPort(Kernel& kernel, RegisterDevice& device, DeviceId id, WireId interrupt, Duration access, InputLog* log)
+    : VirtualHost(kernel, id, interrupt, 0, access, log), device_(device) {}
+
+void VirtualPort::write(std::uint32_t offset, std::uint16_t value) {
+    begin_access(InputKind::register_write, offset, value);
+    device_.write(offset, value);
+    kernel_.settle();
+}
+
+std::uint16_t VirtualPort::read(std::uint32_t offset) {
+    begin_access(InputKind::register_read, offset, 0);
+    const std::uint16_t value = device_.read(offset);
+    kernel_.settle();
+    return value;
+}
+
+VirtualBytePort::VirtualBytePort(Kernel& kernel, ByteDevice& device, DeviceId id, WireId interrupt, Duration access, InputLog* log)
+    : VirtualHost(kernel, id, interrupt, 1, access, log), device_(device) {}
+
+void VirtualBytePort::out(std::uint8_t port, std::uint8_t value) {
+    begin_access(InputKind::register_write, port, value);
+    device_.out(port, value);
+    kernel_.settle();
+}
+
+std::uint8_t VirtualBytePort::in(std::uint8_t port) {
+    begin_access(InputKind::register_read, port, 0);
+    const std::uint8_t value = device_.in(port);
+    kernel_.settle();
+    return value;
 }
 
 }  // namespace motionrack::sim

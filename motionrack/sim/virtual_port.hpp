@@ -1,22 +1,22 @@
 // The bus and interrupt line of a virtual card: every access takes bus time, waiting lets the world run.
+//
+//   driver ──► VirtualPort (16-bit registers) ──┐
+//   driver ──► VirtualBytePort (8-bit ports) ───┴─► VirtualHost ──► Kernel::run_until
 #pragma once
 
 #include <atomic>
 #include <functional>
 #include <motionrack/base/port.hpp>
+#include <motionrack/sim/byte_device.hpp>
 #include <motionrack/sim/input_log.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/register_device.hpp>
 
 namespace motionrack::sim {
 
-class VirtualPort final : public RegisterPort, public Interrupt {
+/// A host's time and interrupt input.
+class VirtualHost : public Interrupt {
   public:
-    /// `access`: the time one register access takes (0 or more). `interrupt`: the card's line, active low. `log` may be nullptr.
-    VirtualPort(Kernel& kernel, RegisterDevice& device, DeviceId id, WireId interrupt, Duration access, InputLog* log = nullptr);
-
-    void write(std::uint32_t offset, std::uint16_t value) override;
-    std::uint16_t read(std::uint32_t offset) override;
     bool wait(Duration timeout) override;
     void pass(Duration duration) override;
     Instant now() const override { return kernel_.now(); }
@@ -27,19 +27,51 @@ class VirtualPort final : public RegisterPort, public Interrupt {
     /// Called between runs at least every `slice` of virtual time: progress, draining of recorders.
     void on_slice(Duration slice, std::function<void()> call) { slice_ = slice, on_slice_ = std::move(call); }
 
+  protected:
+    /// `interrupt`: the card's line, `active`: its level when an interrupt is asked for. `access`: the time one access takes (0 or
+    /// more). `log` may be nullptr.
+    VirtualHost(Kernel& kernel, DeviceId id, WireId interrupt, int active, Duration access, InputLog* log);
+    /// Lets the time of an access pass and notes it.
+    void begin_access(InputKind kind, std::uint32_t offset, std::uint16_t value);
+
+    Kernel& kernel_;
+
   private:
     void run_to(Instant until, bool until_interrupt);
 
-    Kernel& kernel_;
-    RegisterDevice& device_;
     DeviceId id_;
     WireId interrupt_;
+    int active_;
     Duration access_;
     InputLog* log_;
     const std::atomic<bool>* stop_ = nullptr;
     Duration slice_ = milliseconds(50);
     Instant next_slice_{};
     std::function<void()> on_slice_;
+};
+
+/// A 16-bit register bus; its interrupt line is active low.
+class VirtualPort final : public RegisterPort, public VirtualHost {
+  public:
+    VirtualPort(Kernel& kernel, RegisterDevice& device, DeviceId id, WireId interrupt, Duration access, InputLog* log = nullptr);
+
+    void write(std::uint32_t offset, std::uint16_t value) override;
+    std::uint16_t read(std::uint32_t offset) override;
+
+  private:
+    RegisterDevice& device_;
+};
+
+/// An 8-bit port space; its interrupt line is active high.
+class VirtualBytePort final : public BytePort, public VirtualHost {
+  public:
+    VirtualBytePort(Kernel& kernel, ByteDevice& device, DeviceId id, WireId interrupt, Duration access, InputLog* log = nullptr);
+
+    void out(std::uint8_t port, std::uint8_t value) override;
+    std::uint8_t in(std::uint8_t port) override;
+
+  private:
+    ByteDevice& device_;
 };
 
 }  // namespace motionrack::sim

@@ -84,7 +84,13 @@ TEST(CommandTables, RefuseRangesThatCannotBe) {
               "the range of the command A does not fit its bytes of data");
     EXPECT_EQ(with_commands({{"A", 1, 0, 0, 1, "", "", "a"}}),
               "the range of the command A does not fit its bytes of data");
-    EXPECT_EQ(with_commands({{"A", 1, 5, 0, 1, "", "", "a"}}), "the command A does not have 0 to 4 bytes of data");
+    EXPECT_EQ(with_commands({{"A", 1, 5, 0, 1, "", "", "a"}}),
+              "the command A has a table of data, which has no range");
+    EXPECT_EQ(with_commands({{"A", 1, 240, 0, 0, "", "", "a"}}), "");
+    EXPECT_EQ(with_commands({{"A", 1, 1025, 0, 0, "", "", "a"}}),
+              "the command A does not have 0 to 1024 bytes of data or answer");
+    EXPECT_EQ(with_commands({{"A", 1, 0, 0, 0, "", "", "a", true, -1}}),
+              "the command A does not have 0 to 1024 bytes of data or answer");
     EXPECT_EQ(with_commands({{"A", 1, 4, -2'147'483'648LL, 4'294'967'295LL, "", "", "a"}}), "");
 }
 
@@ -122,8 +128,9 @@ TEST(Flaws, KeepASentenceThatIsTooLongWithinTheirRoom) {
 // A small card with every kind of declaration and awkward characters.
 struct Sample {
     RegisterInfo registers[2] = {reg("R", 0, Access::read, good_fields), reg("W", 2, Access::write)};
-    CommandInfo commands[2] = {{"SET", 6, 4, -8'388'608, 268'435'455, "a|b", "", "sets"},
-                               {"GO", 7, 0, 0, 0, "", "As", "goes", false}};
+    CommandInfo commands[3] = {{"SET", 6, 4, -8'388'608, 268'435'455, "a|b", "", "sets"},
+                               {"GO", 7, 0, 0, 0, "", "As", "goes", false},
+                               {"BOTH", 8, 2, 0, 9, "", "", "sets or tells", true, 3}};
     StateInfo states[1] = {{"rest", "says \"no\"\n\\", true}};
     MachineInfo machines[1] = {{"m", "a machine", states, {}}};
     PinInfo pins[1] = {{"*pp", PinDirection::output, true, "pulses"}};
@@ -150,6 +157,7 @@ TEST(Descriptions, AsMarkdownGroupDigitsAndKeepTheirTablesWhole) {
     EXPECT_THAT(page, HasSubstr("| D15-D8 | HIGH | high half |\n"));
     EXPECT_THAT(page, HasSubstr("| 06h | SET | 4 bytes | -8,388,608 .. 268,435,455 | a\\|b | sets |\n"));
     EXPECT_THAT(page, HasSubstr("| 07h | GO | - |  |  | goes (As only) (not reproduced) |\n"));
+    EXPECT_THAT(page, HasSubstr("| 08h | BOTH | 2 bytes, or 3 back | 0 .. 9 |  | sets or tells |\n"));
     EXPECT_THAT(page, HasSubstr("| \\*pp | output | low | pulses |\n"));
 }
 

@@ -23,6 +23,8 @@ void ClosedFormCounter::watch(Motion& motion, int slot, std::int64_t below, std:
     const std::int64_t k = (std::int64_t{1} << shift) - 1;
     if (low != unwatched_below) low = (low + 1) * (std::int64_t{1} << shift) - k - 1;
     if (high != unwatched_above) high = high * (std::int64_t{1} << shift) - k;
+    if (low != unwatched_below) low += first_;
+    if (high != unwatched_above) high += first_;
     motion.watch(slot, low, high);
 }
 
@@ -49,8 +51,12 @@ int QuadratureDecoder::lines(std::uint8_t lines) {
         ++illegal_;
         return 0;
     }
-    if (edges_ != Edges::all && !((before ^ lines_) & 1)) change = 0;      // A stayed
-    if (edges_ == Edges::rising_a && ((before | lines_) & 2)) change = 0;  // only 00 <-> 01
+    if (edges_ != Edges::all) {
+        // The edge's number in the period, from the lower of its two phases.
+        const int lower = change > 0 ? before : lines_;
+        const int number = (lower ^ (lower >> 1)) - first_;
+        if ((number & (edges_ == Edges::both_of_a ? 1 : 3)) != 0) change = 0;
+    }
     count_ += change;
     return change;
 }

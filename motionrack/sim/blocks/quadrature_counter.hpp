@@ -36,11 +36,12 @@ constexpr std::int64_t divided(std::int64_t count, Edges edges) {
 class ClosedFormCounter {
   public:
     ClosedFormCounter() = default;
-    ClosedFormCounter(Edges edges, bool reversed) : edges_(edges), reversed_(reversed) {}
+    /// `first`: the first of the period's four edges (0: from lines 00 upwards) that is counted, where not all are.
+    ClosedFormCounter(Edges edges, bool reversed, int first = 0) : edges_(edges), reversed_(reversed), first_(first) {}
 
     std::int64_t value(const Motion& motion, Instant t) const { return from_motion(motion.count(t)); }
     std::int64_t from_motion(std::int64_t count) const {
-        const std::int64_t n = divided(count, edges_);
+        const std::int64_t n = divided(count - first_, edges_);
         return (reversed_ ? -n : n) + offset_;
     }
     /// Writes the counter.
@@ -52,6 +53,7 @@ class ClosedFormCounter {
     std::int64_t offset_ = 0;
     Edges edges_ = Edges::all;
     std::int32_t reversed_ = 0;
+    std::int64_t first_ = 0;
 };
 
 // ---- Edge by edge ---------------------------------------------------------------------------------------------------
@@ -59,7 +61,9 @@ class ClosedFormCounter {
 /// State only; trivially copyable.
 class QuadratureDecoder {
   public:
-    explicit QuadratureDecoder(Edges edges = Edges::all, std::uint8_t lines = 0) : edges_(edges), lines_(lines) {}
+    /// `first`: as for ClosedFormCounter.
+    explicit QuadratureDecoder(Edges edges = Edges::all, std::uint8_t lines = 0, int first = 0)
+        : edges_(edges), lines_(lines), first_(static_cast<std::uint8_t>(first)) {}
 
     /// The lines are now `lines` (bit 0: A, bit 1: B). Returns what that counted: -1, 0 or +1.
     int lines(std::uint8_t lines);
@@ -82,7 +86,8 @@ class QuadratureDecoder {
     Edges edges_ = Edges::all;
     std::uint8_t lines_ = 0;
     std::uint8_t index_ = 0;
-    [[maybe_unused]] std::uint16_t reserved_ = 0;
+    std::uint8_t first_ = 0;
+    [[maybe_unused]] std::uint8_t reserved_ = 0;
 };
 
 // ---- In bulk --------------------------------------------------------------------------------------------------------

@@ -1,0 +1,135 @@
+// The DataBoard 4002's ports, words, commands, states and pins as constants; model, driver, documents and tests read them
+// here. The tables are in map/.
+#pragma once
+
+#include <motionrack/base/card_map.hpp>
+#include <motionrack/cards/databoard4002/map/commands.hpp>
+#include <motionrack/cards/databoard4002/map/registers.hpp>
+
+namespace motionrack::databoard4002 {
+
+/// A port's number by its name; names that are not declared do not compile.
+consteval std::uint8_t port(std::string_view name) {
+    return static_cast<std::uint8_t>(register_named(map::registers, name).offset);
+}
+
+namespace ports {
+inline constexpr std::uint8_t DATA = port("OUT"), CS = port("CS"), C1 = port("C1"), C2 = port("C2"), C3 = port("C3");
+inline constexpr std::uint8_t C4 = port("C4"), STAT = port("STAT"), RST = port("RST");
+static_assert(port("INP") == DATA);
+}  // namespace ports
+
+/// A command's byte by its name.
+consteval std::uint8_t command(std::string_view name) {
+    return static_cast<std::uint8_t>(command_named(map::commands, name).code);
+}
+
+/// A bit of a word: bit("STAT", "READY").
+consteval std::uint8_t bit(std::string_view word, std::string_view name) {
+    return static_cast<std::uint8_t>(mask_of(register_named(map::registers, word), name));
+}
+
+namespace stat {
+inline constexpr std::uint8_t INT = bit("STAT", "INT"), EVENT = bit("STAT", "EVENT"), ZERO = bit("STAT", "ZERO");
+inline constexpr std::uint8_t REF = bit("STAT", "REF"), EMS = bit("STAT", "EMS"), ESR = bit("STAT", "ESR");
+inline constexpr std::uint8_t ESL = bit("STAT", "ESL"), READY = bit("STAT", "READY");
+}  // namespace stat
+
+/// Bits of the EVENT word and of C4, where they mean the same.
+namespace event {
+inline constexpr std::uint8_t POSITION = bit("EVENT", "POSITION"), ZERO = bit("EVENT", "ZERO");
+inline constexpr std::uint8_t REF = bit("EVENT", "REF"), STOP = bit("EVENT", "STOP");
+inline constexpr std::uint8_t WATCH_OUT = bit("EVENT", "WATCH_OUT");
+inline constexpr std::uint8_t ON_READY = bit("C4", "ON_READY"), ON_EVENT = bit("C4", "ON_EVENT");
+inline constexpr std::uint8_t maskable = POSITION | ZERO | REF | STOP;
+static_assert(bit("C4", "POSITION") == POSITION && bit("C4", "ZERO") == ZERO && bit("C4", "REF") == REF &&
+              bit("C4", "STOP") == STOP);
+}  // namespace event
+
+namespace map {
+
+inline constexpr StateInfo host_states[] = {
+    {"ready", "Ready is 1: an access is taken"},
+    {"busy", "Ready is 0: the firmware works on the access; another one is lost"},
+    {"hung", "the firmware does nothing any more (a fault); an access takes Ready away for good"},
+};
+inline constexpr TransitionInfo host_transitions[] = {
+    {"ready", "busy", "access to DATA, C2 or C4"},
+    {"busy", "ready", "the access is done"},
+    {"ready", "hung", "fault watchdog.hang"},
+    {"busy", "hung", "fault watchdog.hang"},
+    {"hung", "ready", "the watchdog after 1 s, C3, or INP 7"},
+};
+inline constexpr StateInfo move_states[] = {
+    {"standing", "0 V, no pulses"},
+    {"moving", "the output follows Rate and, in slope mode, the table"},
+    {"held at a stop", "an end stop in this direction is active: 0 V in hardware, the move is still on"},
+    {"locked", "standing, and watching the deviation"},
+    {"going back", "lock has begun a move to the requested position"},
+};
+inline constexpr TransitionInfo move_transitions[] = {
+    {"standing", "moving", "G"},
+    {"moving", "standing", "position reached or passed, Q, EMS"},
+    {"moving", "held at a stop", "ESR while going +, ESL while going -"},
+    {"held at a stop", "moving", "the stop is released, or G in the other direction"},
+    {"held at a stop", "standing", "Q, EMS"},
+    {"standing", "locked", "L, once a G has been"},
+    {"locked", "standing", "M, Q, EMS"},
+    {"locked", "moving", "G"},
+    {"locked", "going back", "the deviation is greater than D"},
+    {"going back", "locked", "position reached or passed"},
+    {"going back", "standing", "Q, EMS"},
+};
+inline constexpr StateInfo collector_states[] = {
+    {"idle", "no arguments are open"},
+    {"either", "after D, P, R: the first access to DATA decides, OUT or INP"},
+    {"collecting", "argument bytes are waited for"},
+    {"answering", "answer bytes are given out"},
+};
+inline constexpr TransitionInfo collector_transitions[] = {
+    {"idle", "either", "D, P, R"},
+    {"idle", "collecting", "N, S"},
+    {"idle", "answering", "V"},
+    {"either", "collecting", "OUT DATA"},
+    {"either", "answering", "INP DATA"},
+    {"collecting", "idle", "the last byte, or another command"},
+    {"answering", "idle", "the last byte, C4, or another command"},
+};
+inline constexpr MachineInfo machines[] = {
+    {"host", "the handshake; a reset leads to ready", host_states, host_transitions},
+    {"move", "what the motor is told; a reset leads to standing", move_states, move_transitions},
+    {"collector", "arguments and answers; a reset leads to idle", collector_states, collector_transitions},
+};
+static_assert(declared<machines_flaw(machines)>());
+
+inline constexpr PinDirection in = PinDirection::input, out = PinDirection::output;
+inline constexpr PinInfo pins[] = {
+    {"o1", in, false, "encoder track A, or down pulses"},
+    {"o2", in, false, "encoder track B, or up pulses"},
+    {"zero", in, false, "zero pulse of the encoder"},
+    {"ref", in, false, "reference; active without current"},
+    {"ems", in, false, "emergency stop; active without current"},
+    {"esr", in, false, "end stop right; active without current"},
+    {"esl", in, false, "end stop left; active without current"},
+    {"vout", out, false, "analog output behind the relay; the wire's level is in uV"},
+    {"sign", out, false, "direction: 1 is +"},
+    {"fout", out, false, "speed as a frequency, 400 kHz / (16384 - rate)"},
+    {"relay", out, false, "1: the analog output is connected, 0: shorted"},
+    {"rst", out, false, "pulse of 10 us at C3"},
+    {"int", out, false, "interrupt: 1 while one is asked for"},
+};
+static_assert(declared<pins_flaw(pins)>());
+
+inline constexpr CardMap card = {
+    "databoard4002", "Intelligent positioning card for one axis: byte commands, slope table, analog and frequency output",
+    registers,       commands,
+    machines,        pins};
+
+}  // namespace map
+
+/// The whole map, for documents, inspectors and traces.
+inline const CardMap& card_map() {
+    return map::card;
+}
+
+}  // namespace motionrack::databoard4002

@@ -1,0 +1,54 @@
+// The DataBoard bus: OUT 1 chooses one of up to 32 cards; the others neither answer nor listen.
+//
+//   host ── OUT 1 ──► chosen number                card 13 ── int ──┐
+//        ── OUT 0, 2..5, INP 0, 1 ──► that card    card 14 ── int ──┴─► BUS.int (1 while any card asks)
+//        ── INP 7 ──► all cards
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/cards/databoard4002/model/card.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::databoard4002 {
+
+class Bus final : public sim::Device, public sim::ByteDevice {
+  public:
+    static constexpr std::size_t most_cards = 32;
+
+    /// Adds the bus and its wire "<name>.int" to the kernel.
+    Bus(sim::Kernel& kernel, const std::string& name);
+    /// Puts a card on the bus under a number of its own, before the kernel starts.
+    void plug(Card& card, std::uint8_t select);
+
+    /// What no card answers reads FFh.
+    std::uint8_t in(std::uint8_t port) override;
+    void out(std::uint8_t port, std::uint8_t value) override;
+    std::uint8_t peek(std::uint8_t port) const override;
+
+    sim::DeviceId id() const { return id_; }
+    sim::WireId interrupt_wire() const { return interrupt_; }
+
+    void act(Instant now) override;
+    void on_wire(int pin, int level, Instant now) override;
+    std::span<std::byte> state() override { return sim::bytes_of(state_); }
+
+  private:
+    struct Slot {
+        Card* card = nullptr;
+        std::uint8_t select = 0;
+    };
+    struct State {
+        std::int32_t chosen = -1;  ///< the number written to port 1; -1: none yet
+    };
+    Card* chosen() const;
+
+    sim::Kernel& kernel_;
+    sim::DeviceId id_{};
+    sim::WireId interrupt_{};
+    std::vector<Slot> slots_;
+    State state_;
+};
+
+}  // namespace motionrack::databoard4002

@@ -1,0 +1,155 @@
+// Time, ports, resets: what of the card is neither firmware nor hardware at the pins.
+#include <algorithm>
+#include <motionrack/cards/databoard4002/model/card.hpp>
+
+namespace motionrack::databoard4002 {
+
+Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& settings)
+    : kernel_(kernel), settings_(settings), train_(state_.train, tick) {
+    MOTIONRACK_ASSERT(check(settings).has_value());
+    id_ = kernel.add(*this, sim::Phase::cards, name);
+    for (std::size_t i = 0; i < pin_count; ++i) {
+        const PinInfo& pin = card_map().pins[i];
+        wires_[i] = kernel.add_wire(name + "." + std::string(pin.name), static_cast<int>(i) == sign_pin);
+        if (pin.direction == PinDirection::input) kernel.listen(wires_[i], id_, static_cast<int>(i));
+    }
+    kernel.drive_lazily(wires_[fout_pin], id_, fout_pin);
+    train_.set_owner(this);
+    state_.counter.closed = settings.counting == Counting::quadrature
+                                ? sim::ClosedFormCounter(settings.folding, false, settings.first_pair)
+                                : sim::ClosedFormCounter();
+    kernel.schedule(id_, Instant{0});
+}
+
+// ---- time -----------------------------------------------------------------------------------------------------------
+
+Instant Card::pass_from(Instant t) const {
+    const std::int64_t period = settings_.pass_ticks * tick.count();
+    return Duration{(t.count() + period - 1) / period * period};
+}
+
+void Card::want_pass(Instant now) {
+    state_.pass_at = std::min(state_.pass_at, pass_from(now));
+}
+
+void Card::reschedule() {
+    if (!state_.begun) return;
+    const Instant now = kernel_.now();
+    Instant next = std::min({state_.watchdog_at, state_.reset_pulse_end, train_.next(now)});
+    if (!state_.hung) next = std::min(next, state_.pass_at);
+    if (state_.fout_wanted) next = std::min(next, state_.fout_at);
+    for (const Line& line : state_.counter.lines)
+        if (line.changes > 0) next = std::min(next, line.free_at);
+    kernel_.schedule(id_, next);
+}
+
+/// How the world is at power-up.
+void Card::begin() {
+    if (state_.begun) return;
+    const Instant now = kernel_.now();
+    state_.begun = 1;
+    for (std::size_t i = 0; i < 2; ++i) {
+        kernel_.want(wires_[i], id_, encoder_ == nullptr);
+        Line& line = state_.counter.lines[i];
+        line.raw = line.taken = kernel_.level(wires_[i]) != 0;
+    }
+    if (encoder_) rate_changed(0, encoder_->rate(now), now);
+    reset();
+}
+
+void Card::act(Instant now) {
+    begin();
+    if (state_.watchdog_at <= now) watchdog(now);
+    if (state_.reset_pulse_end <= now) {
+        state_.reset_pulse_end = never;
+        kernel_.set_wire(wires_[rst_pin], 0);
+    }
+    look_at_lines(now);
+    train_.act(now);
+    if (state_.pass_at <= now && !state_.hung) pass(now);
+    show_fout(now);
+    reschedule();
+}
+
+void Card::watchdog(Instant) {
+    report(CardCondition::watchdog_reset);
+    reset();
+}
+
+/// Power-up, C3, INP 7, watchdog.
+void Card::reset() {
+    const Instant now = kernel_.now();
+    state_.firmware = Firmware{};
+    state_.hung = 0;
+    state_.watchdog_at = never;
+    set_counter(0, now);
+    state_.firmware.stops = inputs() & (stat::ESL | stat::ESR | stat::EMS);
+    set_wants();
+    put_out(now);
+    update_interrupt();
+    state_.pass_at = pass_from(now);
+    reschedule();
+}
+
+void Card::report(CardCondition code, std::int64_t a, std::int64_t b) {
+    kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
+}
+
+// ---- ports ----------------------------------------------------------------------------------------------------------
+
+void Card::access(Work kind, std::uint8_t port, std::uint8_t value) {
+    Firmware& f = state_.firmware;
+    if (!f.ready) {
+        report(CardCondition::access_lost, port, kind == Work::in_data ? -1 : value);
+        return;
+    }
+    f.ready = 0;
+    f.access = kind;
+    f.access_value = value;
+    f.access_due = pass_from(kernel_.now() + settings_.byte_time);
+    state_.pass_at = std::min(state_.pass_at, f.access_due);
+    update_interrupt();
+    reschedule();
+}
+
+std::uint8_t Card::in(std::uint8_t port) {
+    begin();
+    const std::uint8_t value = peek(port);
+    if (port == ports::DATA) access(Work::in_data, port, 0);
+    if (port == ports::RST) reset();
+    return value;
+}
+
+std::uint8_t Card::peek(std::uint8_t port) const {
+    if (port == ports::DATA) return state_.firmware.latch;
+    return port == ports::STAT ? status() : 0xFF;
+}
+
+void Card::out(std::uint8_t port, std::uint8_t value) {
+    begin();
+    switch (port) {
+        case ports::DATA:
+            return access(Work::out_data, port, value);
+        case ports::C2:
+            return access(Work::command, port, value);
+        case ports::C4:
+            return access(Work::enables, port, value);
+        case ports::C3:
+            state_.reset_pulse_end = kernel_.now() + reset_pulse;
+            kernel_.set_wire(wires_[rst_pin], 1);
+            return reset();
+        default:
+            return;
+    }
+}
+
+std::uint8_t Card::status() const {
+    const Firmware& f = state_.firmware;
+    unsigned out = inputs();
+    if (f.ready) out |= stat::READY;
+    if (f.pending) out |= stat::EVENT;
+    if (kernel_.level(wires_[interrupt_pin]) != 0) out |= stat::INT;
+    return static_cast<std::uint8_t>(out);
+}
+
+}  // namespace motionrack::databoard4002

@@ -1,0 +1,148 @@
+// The virtual DataBoard 4002: ports in front, an 8748's firmware behind, exact to the pass (RULES.md).
+//
+//          C2, C4, DATA  ┌───────────┐ rate, dir ┌─────────┐ pulses   fout
+//   host ───────────────►│ firmware  ├──────────►│ divider ├────────►
+//          Ready, STAT   └─▲───▲───▲─┘     │     └────▲────┘
+//                          │   │   │       └─► volts ─┴─ gate ◄── esl, esr      vout, sign, relay
+//               counter ◄──┘   │   └── stops ◄──────────────────── ems
+//               o1, o2   zero, ref
+//
+// Nothing polls: between two passes that could do anything (an access is due, the counter leaves the interval of the table, a
+// wire changes) nothing happens. A move costs its slope steps, not its counts.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/cards/databoard4002/model/conditions.hpp>
+#include <motionrack/cards/databoard4002/model/settings.hpp>
+#include <motionrack/cards/databoard4002/model/state.hpp>
+#include <motionrack/sim/byte_device.hpp>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/motion.hpp>
+#include <string>
+#include <string_view>
+
+namespace motionrack::databoard4002 {
+
+class Card final : public sim::Device,
+                   public sim::ByteDevice,
+                   private sim::MotionListener,
+                   private sim::PulseTrain::Owner {
+  public:
+    /// Adds the card and its wires "<name>.<pin>" to the kernel. `settings` must pass check().
+    Card(sim::Kernel& kernel, const std::string& name, const Settings& settings = {});
+
+    // ---- the bus: the card is chosen here
+    std::uint8_t in(std::uint8_t port) override;
+    void out(std::uint8_t port, std::uint8_t value) override;
+    std::uint8_t peek(std::uint8_t port) const override;
+
+    // ---- the machine's side
+    /// FOUT as a position over time: pulses since power-up, signed by SIGN.
+    sim::Motion& pulses() { return train_; }
+    /// What turns the encoder at O1 and O2, in counts of all edges (method 1: in counts); before the kernel starts. Without it the
+    /// wires o1 and o2 are counted.
+    void connect_encoder(sim::Motion& counts);
+
+    // ---- looking inside
+    /// The counter, -8,388,608 .. 8,388,607.
+    std::int32_t position() const { return static_cast<std::int32_t>(signed24(counter(kernel_.now()))); }
+    bool moving() const { return state_.firmware.move.on != 0; }
+    bool locked() const { return state_.firmware.lock != 0; }
+    bool hung() const { return state_.hung != 0; }
+    /// Rate at the output, negative backwards; 0 while standing.
+    int output_rate() const { return state_.firmware.out_rate * state_.firmware.move.direction; }
+    /// FOUT in Hz, 0 while no pulses come.
+    double fout_hz() const { return train_.running() ? hz_of(state_.firmware.out_rate) : 0; }
+    std::uint8_t event_word() const { return state_.firmware.pending ? state_.firmware.latched : state_.firmware.event; }
+    const SlopeTable& table() const { return state_.firmware.table; }
+    const Settings& settings() const { return settings_; }
+    sim::DeviceId id() const { return id_; }
+    sim::WireId interrupt_wire() const { return wires_[interrupt_pin]; }
+
+    void act(Instant now) override;
+    void on_wire(int pin, int level, Instant now) override;
+    int level_at(int pin, Instant now) const override;
+    void wanted_changed(int pin, bool wanted, Instant now) override;
+    void sync(Instant now) override { train_.hand_over(now); }
+    std::span<std::byte> state() override { return sim::bytes_of(state_); }
+    /// watchdog.hang; esl.broken, esr.broken, ems.broken, ref.broken: the input's wire is broken while not 0, so it is active.
+    bool fault(std::string_view name, double value, Instant now) override;
+
+  private:
+    enum Pin : int { o1_pin, o2_pin, zero_pin, ref_pin, ems_pin, esr_pin, esl_pin, vout_pin, sign_pin, fout_pin, relay_pin,
+                     rst_pin, interrupt_pin, pin_count };
+
+    // card.cpp: time and ports
+    Instant pass_from(Instant t) const;
+    void want_pass(Instant now);
+    void reschedule();
+    void begin();
+    void watchdog(Instant now);
+    void access(Work kind, std::uint8_t port, std::uint8_t value);
+    std::uint8_t status() const;
+    void reset();
+    void report(CardCondition code, std::int64_t a = 0, std::int64_t b = 0);
+
+    // firmware.cpp: a pass
+    void pass(Instant now);
+    void look_at_stops(Instant now);
+    void position(Instant now);
+    int speed(Instant now) const;
+    void begin_move(std::int64_t target, Instant now);
+    void go(Instant now);
+    void aim(Instant now);
+    void note_turn(Instant now);
+
+    // commands.cpp: an access
+    void work(Instant now);
+    void take_command(std::uint8_t code, Instant now);
+    void take_argument(std::uint8_t value);
+    void arguments_complete(std::uint8_t code);
+    void next_answer();
+    void open(std::uint8_t code, Collecting collecting);
+    void open_answer(std::uint8_t code, Collecting collecting, std::int64_t value, int bytes);
+    void enable_events(std::uint8_t value);
+    void report_flaw();
+    void zero_counter(Instant now);
+
+    // hardware.cpp: wires, events, outputs
+    bool input(Pin pin, std::uint8_t stat_bit) const;
+    std::uint8_t inputs() const;
+    void raise(std::uint8_t bits);
+    void check_events();
+    void look_at_zero(Instant now);
+    bool zero_condition() const;
+    void set_wants();
+    bool gate_open() const;
+    void put_out(Instant now);
+    void update_interrupt();
+    void show_fout(Instant now);
+
+    // counter.cpp
+    std::int64_t counter(Instant t) const;
+    void set_counter(std::int64_t value, Instant now);
+    void watch_counter(std::int64_t below, std::int64_t above);
+    void line_changed(int line, int level, Instant now);
+    void take_line(int line, Instant at);
+    void look_at_lines(Instant now);
+    double limit_hz() const { return settings_.single_ended ? 50'000 : 100'000; }
+    Duration half_period() const { return microseconds(settings_.single_ended ? 10 : 5); }
+    bool too_quick(double rate) const;
+    void crossed(Instant now) override;
+    void rate_changed(double before, double rate, Instant now) override;
+
+    void train_watched() override { reschedule(); }
+    Instant train_now() const override { return kernel_.now(); }
+
+    sim::Kernel& kernel_;
+    Settings settings_;
+    sim::DeviceId id_{};
+    std::array<sim::WireId, pin_count> wires_{};
+    State state_{};
+    sim::PulseTrain train_;
+    sim::Motion* encoder_ = nullptr;
+    int encoder_slot_ = 0;
+};
+
+}  // namespace motionrack::databoard4002

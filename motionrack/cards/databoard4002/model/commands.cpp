@@ -1,0 +1,182 @@
+// What the firmware does for one access: commands, arguments, answers, event enables.
+#include <algorithm>
+#include <cstdlib>
+#include <motionrack/cards/databoard4002/model/card.hpp>
+
+namespace motionrack::databoard4002 {
+
+namespace {
+
+std::int32_t argument_bytes(std::uint8_t code) {
+    for (const CommandInfo& info : card_map().commands)
+        if (info.code == code) return info.data_bytes;
+    return 0;
+}
+
+}  // namespace
+
+void Card::work(Instant now) {
+    Firmware& f = state_.firmware;
+    const Work kind = f.access;
+    f.access = Work::none;
+    f.access_due = never;
+    f.ready = 1;
+    if (kind == Work::in_data) next_answer();
+    if (kind == Work::out_data) take_argument(f.access_value);
+    if (kind == Work::command) take_command(f.access_value, now);
+    if (kind == Work::enables) enable_events(f.access_value);
+}
+
+// ---- commands -------------------------------------------------------------------------------------------------------
+
+void Card::open(std::uint8_t code, Collecting collecting) {
+    Firmware& f = state_.firmware;
+    f.collecting = collecting;
+    f.collector = code;
+    f.collected = 0;
+    f.argument = 0;
+}
+
+/// Opens the answer `value` of that many bytes; its first byte is in the latch at once.
+void Card::open_answer(std::uint8_t code, Collecting collecting, std::int64_t value, int bytes) {
+    open(code, collecting);
+    Firmware& f = state_.firmware;
+    f.latch = static_cast<std::uint8_t>(value);
+    f.answer = static_cast<std::uint32_t>(value >> 8);
+    f.answer_left = static_cast<std::uint8_t>(bytes - 1);
+}
+
+/// The present position becomes 0; the distance that a move has travelled stays.
+void Card::zero_counter(Instant now) {
+    state_.firmware.move.start -= counter(now);
+    set_counter(0, now);
+    state_.firmware.turn = 0;
+}
+
+void Card::take_command(std::uint8_t code, Instant now) {
+    Firmware& f = state_.firmware;
+    if (f.collecting == Collecting::collecting && f.collected > 0)
+        report(CardCondition::arguments_dropped, f.collector, f.collected);
+    f.collecting = Collecting::idle;
+    f.answer_left = 0;
+    auto heard_while_moving = [&] {
+        if (f.move.on) report(CardCondition::during_move, code);
+    };
+    switch (code) {
+        case command("A"):
+            heard_while_moving();
+            zero_counter(now);
+            if (!f.move.on) f.requested = 0;
+            return;
+        case command("D"):
+            return open_answer(code, Collecting::either, signed24(counter(now) - f.requested), 3);
+        case command("G"):
+            return go(now);
+        case command("I"):
+            return;
+        case command("L"):
+            f.lock = 1;
+            return;
+        case command("M"):
+            f.sloped = f.lock = 0;
+            return;
+        case command("N"):
+        case command("S"):
+            heard_while_moving();
+            return open(code, Collecting::collecting);
+        case command("O"):
+            f.sloped = 1;
+            f.rate = most_rate;
+            return;
+        case command("P"):
+            return open_answer(code, Collecting::either, signed24(counter(now)), 3);
+        case command("Q"):
+            f.move.on = f.lock = 0;
+            return;
+        case command("R"):
+            return open_answer(code, Collecting::either, output_rate(), 2);
+        case command("V"):
+            return open_answer(code, Collecting::answering, settings_.version, 1);
+        case command("W"):
+            f.event = static_cast<std::uint8_t>(f.event & ~event::WATCH_OUT);
+            return;
+        default:
+            report(CardCondition::unknown_command, code);
+    }
+}
+
+// ---- arguments and answers ------------------------------------------------------------------------------------------
+
+void Card::take_argument(std::uint8_t value) {
+    Firmware& f = state_.firmware;
+    if (f.collecting == Collecting::either) {
+        f.collecting = Collecting::collecting;
+        f.answer_left = 0;
+    }
+    if (f.collecting != Collecting::collecting) return report(CardCondition::data_unexpected, value);
+    if (f.collector == command("S"))
+        f.table.set_byte(f.collected, value);
+    else
+        f.argument |= std::uint32_t{value} << (8 * f.collected);
+    if (++f.collected == argument_bytes(f.collector)) {
+        f.collecting = Collecting::idle;
+        arguments_complete(f.collector);
+    }
+}
+
+void Card::arguments_complete(std::uint8_t code) {
+    Firmware& f = state_.firmware;
+    switch (code) {
+        case command("D"):
+            f.window = std::abs(signed24(f.argument));
+            return;
+        case command("N"):
+            f.number = signed24(f.argument);
+            f.relative = 1;
+            return;
+        case command("P"):
+            if (f.move.on) report(CardCondition::during_move, code);
+            f.target = signed24(f.argument);
+            f.relative = 0;
+            return;
+        case command("R"):
+            f.rate = static_cast<std::int32_t>(f.argument) & rate_mask;
+            return;
+        default:
+            return;
+    }
+}
+
+void Card::next_answer() {
+    Firmware& f = state_.firmware;
+    if (f.collecting == Collecting::either) f.collecting = Collecting::answering;
+    if (f.collecting != Collecting::answering) return;
+    if (f.answer_left == 0) {
+        f.collecting = Collecting::idle;
+        return;
+    }
+    f.latch = static_cast<std::uint8_t>(f.answer);
+    f.answer >>= 8;
+    --f.answer_left;
+}
+
+// ---- C4 -------------------------------------------------------------------------------------------------------------
+
+void Card::enable_events(std::uint8_t value) {
+    Firmware& f = state_.firmware;
+    const std::uint8_t shown = event_word();
+    f.latch = shown;
+    f.event = static_cast<std::uint8_t>(f.event & ~(shown & ~event::WATCH_OUT));
+    f.pending = 0;
+    f.enables = value & event::maskable;
+    f.interrupts = value & (event::ON_READY | event::ON_EVENT);
+    f.armed = value & (event::ZERO | event::REF);
+    f.armed_condition = zero_condition();
+    f.answer_left = 0;
+    if (f.collecting == Collecting::answering) f.collecting = Collecting::idle;
+    if (f.collecting == Collecting::either) f.collecting = Collecting::collecting;
+    set_wants();
+    check_events();
+}
+
+}  // namespace motionrack::databoard4002

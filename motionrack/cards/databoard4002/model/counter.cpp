@@ -1,0 +1,103 @@
+// The counter: in closed form behind a motion that is connected as a whole, edge by edge behind the wires o1 and o2.
+#include <motionrack/cards/databoard4002/model/card.hpp>
+
+namespace motionrack::databoard4002 {
+
+void Card::connect_encoder(sim::Motion& counts) {
+    MOTIONRACK_ASSERT(encoder_ == nullptr && !state_.begun);
+    encoder_ = &counts;
+    encoder_slot_ = counts.listen(*this);
+}
+
+std::int64_t Card::counter(Instant t) const {
+    if (!encoder_ || state_.counter.frozen) return state_.counter.count;
+    return state_.counter.closed.value(*encoder_, t);
+}
+
+void Card::set_counter(std::int64_t value, Instant now) {
+    state_.counter.count = value;
+    if (encoder_) state_.counter.closed.set(value, *encoder_, now);
+}
+
+void Card::watch_counter(std::int64_t below, std::int64_t above) {
+    if (!encoder_) return;  // every counted edge asks for a pass
+    if (state_.counter.frozen)
+        encoder_->watch(encoder_slot_, sim::unwatched_below, sim::unwatched_above);
+    else
+        state_.counter.closed.watch(*encoder_, encoder_slot_, below, above);
+}
+
+void Card::crossed(Instant now) {
+    encoder_->watch(encoder_slot_, sim::unwatched_below, sim::unwatched_above);
+    want_pass(now);
+    reschedule();
+}
+
+// ---- the limit of a motion ------------------------------------------------------------------------------------------
+
+bool Card::too_quick(double rate) const {
+    const double counts = rate < 0 ? -rate : rate;
+    return (settings_.counting == Counting::quadrature ? counts / 4 : counts) > limit_hz();
+}
+
+void Card::rate_changed(double, double rate, Instant now) {
+    CounterState& c = state_.counter;
+    const bool quick = too_quick(rate);
+    if (quick == (c.frozen != 0)) return;
+    const std::int64_t count = encoder_->count(now);
+    if (quick) {
+        c.count = counter(now);
+        c.frozen_from = count;
+        c.frozen = 1;
+        report(CardCondition::rate_exceeded, static_cast<std::int64_t>((rate < 0 ? -rate : rate) + 0.5));
+    } else {
+        c.frozen = 0;
+        report(CardCondition::counts_lost, c.closed.from_motion(count) - c.closed.from_motion(c.frozen_from));
+        c.closed.set(c.count, *encoder_, now);
+    }
+    want_pass(now);
+    reschedule();
+}
+
+// ---- lines driven as wires ------------------------------------------------------------------------------------------
+
+void Card::line_changed(int line, int level, Instant now) {
+    Line& l = state_.counter.lines[static_cast<std::size_t>(line)];
+    if (encoder_ || l.raw == (level != 0)) return;
+    if (l.changes > 0 && l.free_at <= now) look_at_lines(now);
+    l.raw = level != 0;
+    if (now < l.free_at)
+        ++l.changes;
+    else
+        take_line(line, now);
+}
+
+void Card::look_at_lines(Instant now) {
+    for (int i = 0; i < 2; ++i) {
+        Line& l = state_.counter.lines[static_cast<std::size_t>(i)];
+        if (l.changes == 0 || l.free_at > now) continue;
+        if (l.changes > 1) report(CardCondition::line_too_quick, i + 1);
+        l.changes = 0;
+        if (l.raw != l.taken) take_line(i, l.free_at);
+    }
+}
+
+/// The line's level is counted; for half a period of the limit it is not looked at then.
+void Card::take_line(int line, Instant at) {
+    auto& lines = state_.counter.lines;
+    const auto before = static_cast<std::uint8_t>(lines[0].taken | lines[1].taken << 1);
+    Line& l = lines[static_cast<std::size_t>(line)];
+    l.taken = l.raw;
+    l.free_at = at + half_period();
+    int change = 0;
+    if (settings_.counting == Counting::up_down) {
+        if (l.taken) change = line == o2_pin ? 1 : -1;
+    } else {
+        sim::QuadratureDecoder decoder(settings_.folding, before, settings_.first_pair);
+        change = decoder.lines(static_cast<std::uint8_t>(lines[0].taken | lines[1].taken << 1));
+    }
+    state_.counter.count += change;
+    if (change != 0) want_pass(kernel_.now());
+}
+
+}  // namespace motionrack::databoard4002

@@ -1,0 +1,135 @@
+// One pass of the firmware, and when the next one can matter.
+#include <algorithm>
+#include <cstdlib>
+#include <motionrack/cards/databoard4002/model/card.hpp>
+
+namespace motionrack::databoard4002 {
+
+namespace {
+
+constexpr std::int64_t half_turn = std::int64_t{1} << 23, whole_turn = std::int64_t{1} << 24;
+
+std::int64_t turn_of(std::int64_t counter) {
+    return (counter + half_turn) >> 24;
+}
+
+}  // namespace
+
+void Card::pass(Instant now) {
+    Firmware& f = state_.firmware;
+    state_.pass_at = never;
+    if (f.access_due <= now) work(now);
+    look_at_stops(now);
+    position(now);
+    note_turn(now);
+    f.out_rate = speed(now);
+    put_out(now);
+    update_interrupt();
+    aim(now);
+}
+
+void Card::look_at_stops(Instant now) {
+    Firmware& f = state_.firmware;
+    const auto active = static_cast<std::uint8_t>(inputs() & (stat::ESL | stat::ESR | stat::EMS));
+    const bool risen = (active & ~f.stops) != 0;
+    f.stops = active;
+    if (risen) raise(event::STOP);
+    if (!(active & stat::EMS)) return;
+    if (f.move.on) report(CardCondition::move_aborted, signed24(counter(now)), f.move.target);
+    f.move.on = 0;
+    f.lock = 0;
+}
+
+void Card::position(Instant now) {
+    Firmware& f = state_.firmware;
+    const std::int64_t u = counter(now);
+    if (f.move.on) {
+        if (signed24(f.move.target - u) * f.move.direction > 0) return;
+        f.move.on = 0;
+        raise(event::POSITION);
+    } else if (f.lock && f.went && std::abs(signed24(u - f.requested)) > f.window) {
+        begin_move(f.requested, now);
+    }
+}
+
+int Card::speed(Instant now) const {
+    const Firmware& f = state_.firmware;
+    if (!f.move.on) return 0;
+    if (!f.move.sloped) return f.rate;
+    const std::int64_t u = counter(now);
+    const std::int64_t to_go = signed24(f.move.target - u) * f.move.direction;
+    const std::int64_t travelled = signed24(u - f.move.start) * f.move.direction;
+    return std::min({f.rate, f.move.table.decelerating(to_go).rate,
+                     f.move.table.accelerating(std::max<std::int64_t>(0, travelled)).rate});
+}
+
+void Card::go(Instant now) {
+    Firmware& f = state_.firmware;
+    const std::int64_t here = signed24(counter(now));
+    const std::int64_t target = f.relative ? here + f.number : f.target;
+    if (target != signed24(target) || std::abs(target - here) > longest_move)
+        return report(CardCondition::move_refused, target, here);
+    if (inputs() & stat::EMS) return report(CardCondition::go_in_emergency, here);
+    if (f.move.on) report(CardCondition::during_move, 'G');
+    if (f.sloped) report_flaw();
+    f.event = static_cast<std::uint8_t>(f.event & ~event::POSITION);
+    f.lock = 0;
+    f.went = 1;
+    f.requested = target;
+    begin_move(target, now);
+}
+
+void Card::report_flaw() {
+    int interval = 0;
+    const SlopeFlaw flaw = state_.firmware.table.flaw(interval);
+    if (flaw != SlopeFlaw::none) report(CardCondition::table_flawed, static_cast<std::int64_t>(flaw), interval);
+}
+
+void Card::begin_move(std::int64_t target, Instant now) {
+    Firmware& f = state_.firmware;
+    const std::int64_t u = counter(now);
+    f.move.target = target;
+    f.move.start = u;
+    f.move.direction = target >= signed24(u) ? 1 : -1;
+    f.move.on = 1;
+    f.move.sloped = f.sloped;
+    if (f.sloped) f.move.table = f.table;
+}
+
+void Card::note_turn(Instant now) {
+    const std::int64_t u = counter(now), turn = turn_of(u);
+    if (turn == state_.firmware.turn) return;
+    state_.firmware.turn = turn;
+    report(CardCondition::position_wrapped, u);
+}
+
+/// Watches the counter for the next place where a pass does something, and asks for the next pass that does so anyway.
+void Card::aim(Instant now) {
+    const Firmware& f = state_.firmware;
+    if (f.access != Work::none) state_.pass_at = std::min(state_.pass_at, f.access_due);
+    const std::int64_t u = counter(now);
+    std::int64_t below = f.turn * whole_turn - half_turn - 1, above = (f.turn + 1) * whole_turn - half_turn;
+    if (f.move.on) {
+        const Move& move = f.move;
+        const std::int64_t to_go = signed24(move.target - u) * move.direction;
+        std::int64_t forward = to_go, back = half_turn - to_go;  // further back the 24-bit difference changes its sign
+        if (move.sloped) {
+            const std::int64_t travelled = signed24(u - move.start) * move.direction;
+            const SlopeTable::Step slower = move.table.decelerating(to_go);
+            const SlopeTable::Step faster = move.table.accelerating(std::max<std::int64_t>(0, travelled));
+            forward = std::min({forward, to_go - slower.least + 1, faster.greatest + 1 - travelled, half_turn - travelled});
+            back = std::min({back, slower.greatest + 1 - to_go, travelled + half_turn + 1});
+            if (faster.least > 0) back = std::min(back, travelled - faster.least + 1);
+        }
+        above = std::min(above, u + (move.direction > 0 ? forward : back));
+        below = std::max(below, u - (move.direction > 0 ? back : forward));
+    } else if (f.lock && f.went) {
+        const std::int64_t deviation = signed24(u - f.requested);
+        if (std::abs(deviation) > f.window) want_pass(now + Duration{1});
+        above = std::min(above, u + f.window + 1 - deviation);
+        below = std::max(below, u - (deviation + f.window + 1));
+    }
+    watch_counter(std::min(below, u - 1), std::max(above, u + 1));
+}
+
+}  // namespace motionrack::databoard4002

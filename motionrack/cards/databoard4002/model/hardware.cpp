@@ -1,0 +1,154 @@
+// The pins: inputs, events and zeroing, the gate, the outputs.
+//
+//   rate ─► divider ─► fout            sign: direction of the last move
+//        └► volts ─► relay ─► vout     gate: shut while an end stop in this direction is active
+#include <motionrack/cards/databoard4002/model/card.hpp>
+
+namespace motionrack::databoard4002 {
+
+// ---- inputs ---------------------------------------------------------------------------------------------------------
+
+/// An opto-isolated input is active without current, so a broken wire is active.
+bool Card::input(Pin pin, std::uint8_t stat_bit) const {
+    return (state_.broken & stat_bit) != 0 || kernel_.level(wires_[pin]) != 0;
+}
+
+/// The STAT bits of the inputs.
+std::uint8_t Card::inputs() const {
+    unsigned out = 0;
+    if (kernel_.level(wires_[zero_pin]) != 0) out |= stat::ZERO;
+    if (input(ref_pin, stat::REF)) out |= stat::REF;
+    if (input(ems_pin, stat::EMS)) out |= stat::EMS;
+    if (input(esr_pin, stat::ESR)) out |= stat::ESR;
+    if (input(esl_pin, stat::ESL)) out |= stat::ESL;
+    return static_cast<std::uint8_t>(out);
+}
+
+/// A zero pulse that nobody waits for is not asked for, so that an encoder's costs nothing.
+void Card::set_wants() {
+    kernel_.want(wires_[zero_pin], id_, (state_.firmware.armed & event::ZERO) != 0);
+}
+
+void Card::on_wire(int pin, int level, Instant now) {
+    begin();
+    if (pin == o1_pin || pin == o2_pin) line_changed(pin, level, now);
+    if (pin == zero_pin || pin == ref_pin) look_at_zero(now);
+    if (pin == ems_pin || pin == esr_pin || pin == esl_pin) {
+        put_out(now);
+        want_pass(now);
+    }
+    show_fout(now);
+    reschedule();
+}
+
+bool Card::fault(std::string_view name, double value, Instant now) {
+    begin();
+    if (name == "watchdog.hang") {
+        const std::int64_t period = settings_.pass_ticks * tick.count();
+        const bool hang = value != 0;
+        if (hang && !state_.hung) state_.watchdog_at = Duration{now.count() / period * period} + watchdog_time;
+        if (!hang) state_.watchdog_at = never;
+        state_.hung = hang;
+        state_.pass_at = pass_from(now);
+        reschedule();
+        return true;
+    }
+    constexpr struct {
+        std::string_view name;
+        std::uint8_t bit;
+    } wires[] = {{"esl.broken", stat::ESL}, {"esr.broken", stat::ESR}, {"ems.broken", stat::EMS}, {"ref.broken", stat::REF}};
+    for (const auto& wire : wires) {
+        if (wire.name != name) continue;
+        state_.broken = static_cast<std::uint8_t>(value != 0 ? state_.broken | wire.bit : state_.broken & ~wire.bit);
+        look_at_zero(now);
+        put_out(now);
+        want_pass(now);
+        reschedule();
+        return true;
+    }
+    return false;
+}
+
+// ---- events ---------------------------------------------------------------------------------------------------------
+
+void Card::raise(std::uint8_t bits) {
+    state_.firmware.event |= bits;
+    check_events();
+}
+
+void Card::check_events() {
+    Firmware& f = state_.firmware;
+    if (f.pending || !(f.event & f.enables)) return;
+    f.latched = f.event;
+    f.pending = 1;
+}
+
+bool Card::zero_condition() const {
+    const std::uint8_t armed = state_.firmware.armed;
+    if ((armed & event::ZERO) && kernel_.level(wires_[zero_pin]) == 0) return false;
+    return armed != 0 && (!(armed & event::REF) || input(ref_pin, stat::REF));
+}
+
+void Card::look_at_zero(Instant now) {
+    Firmware& f = state_.firmware;
+    if (!f.armed) return;
+    const bool condition = zero_condition();
+    if (!condition || f.armed_condition) {
+        f.armed_condition = condition;
+        return;
+    }
+    const std::uint8_t seen = f.armed;
+    f.armed = 0;
+    if (settings_.zeroing) zero_counter(now);
+    raise(seen);
+    set_wants();
+    update_interrupt();
+    want_pass(now);
+}
+
+void Card::update_interrupt() {
+    const Firmware& f = state_.firmware;
+    const bool asked = ((f.interrupts & event::ON_READY) && f.ready) || ((f.interrupts & event::ON_EVENT) && f.pending);
+    if (asked && kernel_.level(wires_[interrupt_pin]) == 0) kernel_.break_run();
+    kernel_.set_wire(wires_[interrupt_pin], asked);
+}
+
+// ---- outputs --------------------------------------------------------------------------------------------------------
+
+bool Card::gate_open() const {
+    return state_.firmware.move.direction > 0 ? !input(esr_pin, stat::ESR) : !input(esl_pin, stat::ESL);
+}
+
+void Card::put_out(Instant now) {
+    const Firmware& f = state_.firmware;
+    const int rate = f.out_rate, direction = f.move.direction;
+    const bool driven = rate > 0 && gate_open();
+    const bool relay = f.rate != 0 && !input(ems_pin, stat::EMS);
+    kernel_.set_wire(wires_[sign_pin], direction > 0);
+    kernel_.set_wire(wires_[relay_pin], relay);
+    kernel_.set_wire(wires_[vout_pin], driven && relay ? direction * microvolts_of(rate, settings_.trim) : 0);
+    if (driven)
+        train_.run(divisor_of(rate), direction, now);
+    else
+        train_.stop(now);
+    if (state_.fout_wanted) state_.fout_at = now;
+}
+
+int Card::level_at(int, Instant now) const {
+    return train_.level(now);
+}
+
+void Card::wanted_changed(int, bool wanted, Instant now) {
+    state_.fout_wanted = wanted;
+    state_.fout_at = now;
+    reschedule();
+}
+
+/// Sets the wire fout, if anybody follows it.
+void Card::show_fout(Instant now) {
+    if (!state_.fout_wanted || state_.fout_at > now) return;
+    kernel_.set_wire(wires_[fout_pin], train_.level(now));
+    state_.fout_at = train_.next_edge(now);
+}
+
+}  // namespace motionrack::databoard4002

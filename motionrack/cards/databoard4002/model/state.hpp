@@ -1,0 +1,100 @@
+// All that the card remembers; a trivially copyable whole, so that a snapshot is an assignment.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/base/time.hpp>
+#include <motionrack/cards/databoard4002/map.hpp>
+#include <motionrack/cards/databoard4002/slope_table.hpp>
+#include <motionrack/sim/blocks/pulse_train.hpp>
+#include <motionrack/sim/blocks/quadrature_counter.hpp>
+#include <type_traits>
+
+namespace motionrack::databoard4002 {
+
+inline constexpr Duration tick = Duration{25'000};  ///< one period of the 400 kHz clock
+inline constexpr Duration watchdog_time = whole_seconds(1);
+inline constexpr Duration reset_pulse = microseconds(10);
+
+/// An access that the firmware has not worked on yet.
+enum class Work : std::uint8_t { none, in_data, out_data, command, enables };
+
+/// What the next access to DATA means.
+enum class Collecting : std::uint8_t { idle, either, collecting, answering };
+
+struct Move {
+    std::int64_t target = 0;  ///< -8,388,608 .. 8,388,607
+    std::int64_t start = 0;   ///< of the counter
+    std::int32_t direction = 1;
+    std::uint8_t on = 0;
+    std::uint8_t sloped = 0;
+    std::uint16_t reserved = 0;
+    SlopeTable table;
+};
+
+/// What a reset clears.
+struct Firmware {
+    // handshake and collector
+    std::uint8_t ready = 1;
+    Work access = Work::none;
+    std::uint8_t access_value = 0;
+    std::uint8_t latch = 0;  ///< what INP DATA gives
+    Collecting collecting = Collecting::idle;
+    std::uint8_t collector = 0;   ///< the command whose arguments or answer are open
+    std::uint8_t answer_left = 0; ///< bytes still to be put into the latch
+    std::uint8_t reserved0 = 0;
+    std::int32_t collected = 0;   ///< argument bytes so far
+    std::uint32_t argument = 0;
+    std::uint32_t answer = 0;     ///< what is left of it
+    std::int32_t reserved1 = 0;
+    Instant access_due = never;
+    // registers
+    std::int64_t target = 0, number = 0, window = 0, requested = 0;
+    std::int32_t rate = 0;
+    std::uint8_t relative = 0, sloped = 0, lock = 0, went = 0;  ///< went: a G has been done
+    SlopeTable table;
+    Move move;
+    // events
+    std::uint8_t event = event::WATCH_OUT, latched = 0, pending = 0, enables = 0;
+    std::uint8_t interrupts = 0, armed = 0, armed_condition = 0, stops = 0;  ///< stops: STAT bits of ESL, ESR, EMS at the last pass
+    // what the last pass put out
+    std::int32_t out_rate = 0;
+    std::int32_t reserved2 = 0;
+    std::int64_t turn = 0;  ///< in which interval of 2^24 counts the counter was
+};
+
+/// A line O1 or O2 that is driven as a wire.
+struct Line {
+    std::uint8_t taken = 0;    ///< the level as counted
+    std::uint8_t raw = 0;      ///< the wire's
+    std::uint16_t changes = 0; ///< since the line was last taken
+    std::uint32_t reserved = 0;
+    Instant free_at{};         ///< from here on it is looked at again
+};
+
+struct CounterState {
+    sim::ClosedFormCounter closed;  ///< behind a motion
+    std::int64_t count = 0;         ///< behind wires; or while frozen
+    std::int64_t frozen_from = 0;   ///< the motion's count when it became too quick
+    std::uint64_t frozen = 0;
+    std::array<Line, 2> lines{};
+};
+
+struct State {
+    Firmware firmware;
+    CounterState counter;
+    sim::PulseTrainState train;
+    Instant pass_at = never;      ///< the next pass that may do something
+    Instant watchdog_at = never;  ///< the firmware hangs until then
+    Instant reset_pulse_end = never;
+    Instant fout_at = never;      ///< the next edge of the followed wire fout
+    std::uint8_t broken = 0;      ///< STAT bits of inputs whose wire is broken
+    std::uint8_t hung = 0;
+    std::uint8_t fout_wanted = 0;
+    std::uint8_t begun = 0;
+    std::uint32_t reserved = 0;
+};
+
+static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
+
+}  // namespace motionrack::databoard4002

@@ -1,0 +1,125 @@
+// Running a random program on the event-driven card.
+#include <memory>
+#include <motionrack/cards/databoard4002/model/card.hpp>
+#include <motionrack/cards/databoard4002/test/program.hpp>
+#include <motionrack/sim/test/fake_pulses.hpp>
+
+namespace motionrack::databoard4002::twin {
+
+namespace {
+
+constexpr Duration slice_time = nanoseconds(500);
+
+Settings settings_of(const Strapping& s) {
+    Settings out;
+    out.pass_ticks = s.pass_ticks;
+    out.byte_time = slice_time * s.byte_slices;
+    out.version = static_cast<std::uint8_t>(s.version);
+    out.zeroing = s.zeroing;
+    out.counting = s.up_down ? Counting::up_down : Counting::quadrature;
+    out.folding = static_cast<sim::Edges>(s.folding);
+    out.first_pair = s.first_pair;
+    out.single_ended = s.single_ended;
+    return out;
+}
+
+/// Follows a wire.
+class Follower final : public sim::Device {
+  public:
+    explicit Follower(sim::Kernel& kernel) : id(kernel.add(*this, sim::Phase::observers, "follower")) {}
+    void act(Instant) override {}
+    void on_wire(int, int level, Instant now) override {
+        if (level && now == last) ++doubled;
+        last = now;
+    }
+    sim::DeviceId id;
+    Instant last{-1};
+    int doubled = 0;
+};
+
+struct World final : sim::Kernel::WireObserver {
+    explicit World(const Program& program) : pulses(kernel, {}), card(kernel, "c", settings_of(program.strapping)), follower(kernel) {
+        if (program.strapping.source == Strapping::Source::laws) card.connect_encoder(pulses);
+        if (program.strapping.source == Strapping::Source::own_output) card.connect_encoder(card.pulses());
+        for (int i = 0; i < 7; ++i) inputs[i] = kernel.find_wire("c." + std::string(card_map().pins[i].name));
+        for (const char* name : {"c.vout", "c.sign", "c.relay", "c.rst", "c.int"}) outputs.push_back(kernel.find_wire(name));
+        kernel.listen(kernel.find_wire("c.fout"), follower.id, 0);
+        kernel.observe_wires(this);
+        kernel.start();
+    }
+    void wire_changed(sim::WireId wire, int level, Instant now) override {
+        for (std::size_t i = 0; i < outputs.size(); ++i)
+            if (outputs[i] == wire) raw.push_back({now / slice_time, static_cast<int>(i), level});
+    }
+    void run(Instant until) {
+        while (kernel.run_until(until) == sim::RunEnd::broken) {
+        }
+    }
+    Sight apply(const Op& op) {
+        Sight sight;
+        const Instant now = kernel.now();
+        switch (op.kind) {
+            case Op::out:
+                card.out(static_cast<std::uint8_t>(op.a), static_cast<std::uint8_t>(op.b));
+                break;
+            case Op::in:
+                sight.value = card.in(static_cast<std::uint8_t>(op.a));
+                break;
+            case Op::wire:
+                kernel.set_wire(inputs[op.a], static_cast<int>(op.b));
+                break;
+            case Op::law:
+                pulses.drive(Duration{op.a}, op.b);
+                break;
+            case Op::hang:
+                card.fault("watchdog.hang", static_cast<double>(op.a), now);
+                break;
+            case Op::broken:
+                constexpr const char* names[] = {"", "", "", "ref.broken", "ems.broken", "esr.broken", "esl.broken"};
+                card.fault(names[op.a], static_cast<double>(op.b), now);
+                break;
+        }
+        run(now);
+        sight.status = card.peek(ports::STAT);
+        sight.latch = card.peek(ports::DATA);
+        sight.position = card.position();
+        sight.pulses = card.pulses().count(now);
+        return sight;
+    }
+    sim::Kernel kernel;
+    sim::FakePulses pulses;
+    Card card;
+    Follower follower;
+    sim::WireId inputs[7];
+    std::vector<sim::WireId> outputs;
+    std::vector<Change> raw;
+};
+
+}  // namespace
+
+Outcome run_on_card(const Program& program, const Way& way) {
+    World world(program);
+    Outcome out;
+    if (!way.follow_fout) world.kernel.want(world.kernel.find_wire("c.fout"), world.follower.id, false);
+    world.run(Instant{0});
+    if (way.follow_fout) world.kernel.want(world.kernel.find_wire("c.fout"), world.follower.id, true);
+    for (std::size_t i = 0; i < program.ops.size(); ++i) {
+        world.run(slice_time * program.ops[i].slice);
+        out.sights.push_back(world.apply(program.ops[i]));
+        if (way.snapshot_at == 0 || i != way.snapshot_at) continue;
+        const sim::Snapshot saved = world.kernel.snapshot();
+        const std::size_t seen = world.raw.size();
+        world.card.out(ports::C3, 0);
+        world.run(world.kernel.now() + milliseconds(3));
+        world.card.out(ports::C2, 'O');
+        world.run(world.kernel.now() + milliseconds(3));
+        world.kernel.restore(saved);
+        world.raw.resize(seen);
+    }
+    out.changes = settled(world.raw);
+    for (const sim::Condition& c : world.kernel.conditions()) out.notes.push_back({c.at / slice_time, c.code, c.a, c.b});
+    out.events = world.kernel.events();
+    return out;
+}
+
+}  // namespace motionrack::databoard4002::twin

@@ -1,0 +1,134 @@
+// The card's map: what is declared is what the card does, and the reference page is made from it.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <motionrack/base/describe.hpp>
+#include <motionrack/cards/databoard4002/test/host.hpp>
+#include <set>
+#include <sstream>
+
+namespace motionrack::databoard4002 {
+namespace {
+
+TEST(Databoard4002Map, TheCardKnowsTheDeclaredCommandsAndNoOthers) {
+    std::set<std::uint32_t> declared;
+    for (const CommandInfo& command : card_map().commands) declared.insert(command.code);
+    Host host;
+    host.start();
+    for (int code = 0; code < 256; ++code) {
+        const std::size_t before = host.kernel.conditions().size();
+        host.command(static_cast<char>(code));
+        EXPECT_TRUE(host.wait_ready());
+        EXPECT_EQ(host.kernel.conditions().size() == before, declared.count(static_cast<std::uint32_t>(code)) == 1) << code;
+    }
+}
+
+TEST(Databoard4002Map, EveryAnswerAndArgumentHasItsDeclaredBytes) {
+    for (const CommandInfo& info : card_map().commands) {
+        if (info.data_bytes > 0) {
+            Host host;
+            host.start();
+            host.command(static_cast<char>(info.code));
+            for (int i = 0; i < info.data_bytes; ++i) host.out(ports::DATA, 1);
+            host.wait_ready();
+            EXPECT_TRUE(host.conditions().empty()) << info.name;
+            host.out(ports::DATA, 1);  // one too many
+            host.wait_ready();
+            EXPECT_EQ(host.conditions(), std::vector{CardCondition::data_unexpected}) << info.name;
+        }
+        if (info.answer_bytes > 0) {
+            Host host;
+            host.start();
+            host.out(ports::C4, 0);
+            host.command(static_cast<char>(info.code));
+            for (int i = 0; i < info.answer_bytes; ++i) host.in(ports::DATA);
+            host.out(ports::DATA, 1);  // the answer is over, no argument is waited for
+            host.wait_ready();
+            EXPECT_EQ(host.conditions(), std::vector{CardCondition::data_unexpected}) << info.name;
+        }
+    }
+}
+
+TEST(Databoard4002Map, TheCardHasThePinsOfTheMap) {
+    Host host;
+    for (const PinInfo& pin : card_map().pins)
+        EXPECT_NE(host.kernel.find_wire("c1." + std::string(pin.name)), sim::WireId::none) << pin.name;
+    EXPECT_EQ(host.kernel.wire_count(), card_map().pins.size() + 1);  // and the bus' interrupt line
+}
+
+TEST(Databoard4002Map, TheReferencePageIsCurrent) {
+    std::ifstream file(std::string(MOTIONRACK_SOURCE_DIR) + "/docs/reference/databoard4002.md");
+    std::stringstream stored;
+    stored << file.rdbuf();
+    EXPECT_EQ(stored.str(), describe_markdown(card_map()))
+        << "make it anew: motionrack describe databoard4002 --markdown > docs/reference/databoard4002.md";
+}
+
+TEST(Databoard4002Arithmetic, PositionsAreTwosComplementOf24Bits) {
+    EXPECT_EQ(signed24(0x7FFFFF), 8'388'607);
+    EXPECT_EQ(signed24(0x800000), -8'388'608);
+    EXPECT_EQ(signed24(-8'388'609), 8'388'607);
+    EXPECT_EQ(signed24(0xFFFFFF), -1);
+    EXPECT_EQ(signed24(-1), -1);
+}
+
+TEST(Databoard4002Arithmetic, TheFrequencyFitsTheFourLimitsOfTheDescription) {
+    EXPECT_NEAR(hz_of(13'568), 142, 0.1);
+    EXPECT_DOUBLE_EQ(hz_of(16'344), 10'000);
+    EXPECT_DOUBLE_EQ(hz_of(16'380), 100'000);
+    EXPECT_DOUBLE_EQ(hz_of(384), 25);
+    EXPECT_EQ(hz_of(0), 0);
+}
+
+TEST(Databoard4002Arithmetic, TheVoltageGoesThroughTheTrimTableAndRises) {
+    for (int i = 0; i < default_trim.size; ++i) {
+        const TrimRow& row = default_trim.rows[static_cast<std::size_t>(i)];
+        EXPECT_EQ(microvolts_of(row.rate, default_trim), row.microvolts);
+    }
+    EXPECT_EQ(microvolts_of(0, default_trim), 0);
+    for (int rate = 1; rate < most_rate; ++rate)
+        EXPECT_LE(microvolts_of(rate, default_trim), microvolts_of(rate + 1, default_trim)) << rate;
+    EXPECT_EQ(microvolts_of(most_rate, default_trim), 10'000'000);
+}
+
+TEST(Databoard4002SlopeTable, FindsTheIntervalAndWhereItEnds) {
+    SlopeTable table;
+    for (int i = 0; i < 24; ++i) {
+        table.set(i, {1'000 + i, 100 * (i + 1)});
+        table.set(24 + i, {2'000 + i, 10 * (i + 1)});
+    }
+    table.set(5, {999, 450});  // ends before the one in front of it (500): never used
+    EXPECT_EQ(table.decelerating(1).rate, 1'000);
+    EXPECT_EQ(table.decelerating(100).rate, 1'000);
+    EXPECT_EQ(table.decelerating(101).rate, 1'001);
+    EXPECT_EQ(table.decelerating(501).rate, 1'006);
+    EXPECT_EQ(table.decelerating(501).least, 501);
+    EXPECT_EQ(table.decelerating(501).greatest, 700);
+    EXPECT_EQ(table.decelerating(2'401).rate, 2'023);
+    EXPECT_EQ(table.accelerating(0).rate, 2'000);
+    EXPECT_EQ(table.accelerating(9).rate, 2'000);
+    EXPECT_EQ(table.accelerating(10).rate, 2'001);
+    EXPECT_EQ(table.accelerating(240).rate, 2'023);
+    int interval = -1;
+    EXPECT_EQ(table.flaw(interval), SlopeFlaw::descending);
+    EXPECT_EQ(interval, 5);
+    EXPECT_EQ(SlopeTable{}.flaw(interval), SlopeFlaw::speed_zero);
+}
+
+TEST(Databoard4002Settings, OutOfRangeAreRefusedWithTheNumberSeen) {
+    Settings s;
+    EXPECT_TRUE(check(s));
+    s.first_pair = 1;
+    EXPECT_FALSE(check(s));
+    s.folding = sim::Edges::both_of_a;
+    EXPECT_TRUE(check(s));
+    s.byte_time = nanoseconds(100);
+    ASSERT_FALSE(check(s));
+    EXPECT_NE(check(s).error().message.find("100 ns"), std::string::npos);
+    s = {};
+    s.trim.rows[3].rate = 1;
+    EXPECT_FALSE(check(s));
+}
+
+}  // namespace
+}  // namespace motionrack::databoard4002

@@ -1,0 +1,266 @@
+// Making random programs, and running them on the twin.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/cards/databoard4002/test/program.hpp>
+#include <random>
+#include <utility>
+
+namespace motionrack::databoard4002::twin {
+
+namespace {
+
+class Maker {
+  public:
+    Maker(std::uint64_t seed, std::uint64_t number) : random_(seed * 1'000'003 + number) {
+        program_.seed = seed;
+        program_.number = number;
+        Strapping& s = program_.strapping;
+        s.pass_ticks = pick({1, 1, 1, 2, 7, 40});
+        s.byte_slices = pick({5, 20, 20, 200});
+        s.zeroing = !one_in(5);
+        s.up_down = one_in(4);
+        s.folding = pick({4, 4, 2, 1});
+        s.first_pair = static_cast<int>(below(static_cast<std::uint64_t>(4 / s.folding)));
+        s.single_ended = one_in(4);
+        s.source = static_cast<Strapping::Source>(pick({0, 1, 1, 2, 2, 2}));
+    }
+
+    Program make() {
+        const int actions = 12 + static_cast<int>(below(30));
+        if (one_in(3)) table();
+        for (int i = 0; i < actions; ++i) action();
+        wait(2'000 + below(40'000));
+        read(1);
+        return std::move(program_);
+    }
+
+  private:
+    std::uint64_t below(std::uint64_t n) { return random_() % n; }
+    bool one_in(std::uint64_t n) { return below(n) == 0; }
+    int pick(std::initializer_list<int> of) { return of.begin()[below(of.size())]; }
+
+    void wait(std::uint64_t slices) { slice_ += static_cast<std::int64_t>(slices); }
+    void add(Op::Kind kind, std::int64_t a, std::int64_t b) {
+        if (slice_ % slices_of_tick == 0) ++slice_;  // passes are at whole ticks
+        program_.ops.push_back({kind, slice_, a, b});
+    }
+    /// Mostly long enough for Ready.
+    void after_access() {
+        const Strapping& s = program_.strapping;
+        const std::uint64_t busy = static_cast<std::uint64_t>(s.byte_slices + s.pass_ticks * slices_of_tick) + 1;
+        wait(one_in(40) ? below(busy) : busy + (one_in(4) ? below(300) : 0));
+    }
+    void write(int port, std::int64_t value) {
+        add(Op::out, port, value & 0xFF);
+        after_access();
+    }
+    void read(int port) {
+        add(Op::in, port, 0);
+        if (port != 1) after_access();
+    }
+    void number(std::int64_t value, int bytes) {
+        for (int i = 0; i < bytes; ++i) {
+            write(0, value >> (8 * i));
+            if (one_in(150)) return;  // cut short
+            if (one_in(100)) disturbance();
+        }
+    }
+    std::int64_t distance() {
+        const auto size = static_cast<std::int64_t>(one_in(10) ? below(1 << 23) : below(1u << (2 + below(10))));
+        return one_in(2) ? size : -size;
+    }
+    int speed() { return one_in(8) ? static_cast<int>(below(65'536)) : 16'384 - (1 + static_cast<int>(below(1u << (1 + below(9))))); }
+
+    void table() {
+        write(3, 'S');
+        std::int64_t place[2] = {0, 0};
+        const std::uint64_t stride = 1u << below(8);
+        for (int i = 0; i < 48; ++i) {
+            std::int64_t& here = place[i / 24];
+            here += static_cast<std::int64_t>(below(stride));
+            if (one_in(60)) here -= static_cast<std::int64_t>(below(stride));
+            if (one_in(300)) here = static_cast<std::int64_t>(below(1 << 24));
+            const int slow = 1 + (47 - i % 24 * 2) * static_cast<int>(1 + below(8));
+            const int rate = one_in(400) ? 0 : 16'384 - slow;
+            number(rate, 2);
+            number(here < 0 ? 0 : here, 3);
+        }
+        write(3, 'O');
+    }
+
+    void action() {
+        switch (below(22)) {
+            case 0: case 1: case 2:
+                write(3, 'P'), number(distance(), 3);
+                break;
+            case 3: case 4:
+                write(3, 'N'), number(distance(), 3);
+                break;
+            case 5: case 6:
+                write(3, 'R'), number(speed(), 2);
+                break;
+            case 7: case 8: case 9: case 10:
+                write(3, 'G');
+                wait(below(4) * below(20'000));
+                break;
+            case 11:
+                write(3, "PDRPDR"[below(6)]);
+                for (std::uint64_t i = below(5); i > 0; --i) read(0);
+                break;
+            case 12: case 13: case 14:
+                write(5, pick({0x01, 0x21, 0x81, 0xE7, 0x27, 0x02, 0x04, 0x06, 0x40, static_cast<int>(below(256))}));
+                if (one_in(2)) read(0);
+                break;
+            case 15:
+                write(3, 'D'), number(distance() / 8, 3), write(3, 'L');
+                wait(below(30'000));
+                break;
+            case 16:
+                write(3, "AQMOVWILLQ"[below(10)]);
+                if (one_in(2)) read(0);
+                break;
+            case 17:
+                write(static_cast<int>(below(8)), static_cast<std::int64_t>(below(256)));
+                break;
+            case 18:
+                if (one_in(6)) read(7);
+                else if (one_in(4)) write(4, 0);
+                else if (one_in(4)) table();
+                else read(static_cast<int>(below(3)));
+                break;
+            default:
+                for (std::uint64_t i = below(6); i > 0; --i) disturbance();
+        }
+    }
+
+    /// The machine and the hands.
+    void disturbance() {
+        const Strapping& s = program_.strapping;
+        wait(1 + below(400));
+        if (one_in(60)) return add(Op::hang, one_in(5) ? 0 : 1, 0), wait(one_in(8) ? 2'100'000 : 10);
+        if (one_in(30)) return add(Op::broken, 3 + static_cast<std::int64_t>(below(4)), one_in(3));
+        if (s.source == Strapping::Source::laws && !one_in(3)) {
+            const std::int64_t period = 20'000 + static_cast<std::int64_t>(below(1u << (12 + below(12))));
+            return add(Op::law, one_in(10) ? period / 8 : period, pick({-1, 0, 1, 1}));
+        }
+        if (s.source == Strapping::Source::wires && !one_in(4)) {
+            for (std::uint64_t i = 1 + below(30); i > 0; --i) {
+                const int pin = one_in(3) ? static_cast<int>(below(2)) : last_pin_ ^= 1;
+                level_[pin] ^= 1;
+                add(Op::wire, pin, level_[pin]);
+                wait(one_in(20) ? below(12) : 12 + below(20));
+            }
+            return;
+        }
+        const int pin = 2 + static_cast<int>(below(5));
+        level_[pin] = one_in(3) ? static_cast<int>(below(2)) : 0;
+        add(Op::wire, pin, level_[pin] ^= one_in(2));
+    }
+
+    std::mt19937_64 random_;
+    Program program_;
+    std::int64_t slice_ = 1;
+    int level_[7] = {};
+    int last_pin_ = 0;
+};
+
+void note_outputs(const Twin& twin, std::array<int, out_count>& last, std::vector<Change>& changes) {
+    const auto now = twin.outputs();
+    for (int i = 0; i < out_count; ++i) {
+        if (now[i] == last[i]) continue;
+        changes.push_back({twin.now(), i, now[i]});
+        last[i] = now[i];
+    }
+}
+
+}  // namespace
+
+std::vector<Change> settled(std::vector<Change> raw) {
+    std::stable_sort(raw.begin(), raw.end(), [](const Change& a, const Change& b) {
+        return a.slice != b.slice ? a.slice < b.slice : a.wire < b.wire;
+    });
+    std::vector<Change> out;
+    std::array<int, out_count> last = {0, 1, 0, 0, 0};
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+        if (i + 1 < raw.size() && raw[i + 1].slice == raw[i].slice && raw[i + 1].wire == raw[i].wire) continue;
+        if (last[raw[i].wire] == raw[i].level) continue;
+        last[raw[i].wire] = raw[i].level;
+        out.push_back(raw[i]);
+    }
+    return out;
+}
+
+Program make_program(std::uint64_t seed, std::uint64_t number) {
+    return Maker(seed, number).make();
+}
+
+Outcome run_on_twin(const Program& program) {
+    Twin twin(program.strapping);
+    Outcome out;
+    auto last = twin.outputs();
+    for (const Op& op : program.ops) {
+        while (twin.now() < op.slice) {
+            twin.slice();
+            note_outputs(twin, last, out.changes);
+        }
+        Sight sight;
+        switch (op.kind) {
+            case Op::out:
+                twin.write(static_cast<int>(op.a), static_cast<int>(op.b));
+                break;
+            case Op::in:
+                sight.value = twin.read(static_cast<int>(op.a));
+                break;
+            case Op::wire:
+                twin.set(static_cast<In>(op.a), static_cast<int>(op.b));
+                break;
+            case Op::law:
+                twin.law(op.a, static_cast<int>(op.b));
+                break;
+            case Op::hang:
+                twin.hang(op.a != 0);
+                break;
+            case Op::broken:
+                twin.break_wire(static_cast<In>(op.a), op.b != 0);
+                break;
+        }
+        sight.status = twin.status();
+        sight.latch = twin.latch();
+        sight.position = twin.position();
+        sight.pulses = twin.output_pulses();
+        out.sights.push_back(sight);
+        note_outputs(twin, last, out.changes);
+    }
+    out.changes = settled(std::move(out.changes));
+    out.notes = twin.notes();
+    return out;
+}
+
+std::string difference(const Program& program, const Outcome& twin, const Outcome& card) {
+    for (std::size_t i = 0; i < twin.sights.size(); ++i) {
+        const Sight &a = twin.sights[i], &b = card.sights[i];
+        if (a == b) continue;
+        const Op& op = program.ops[i];
+        return fmt::format("after op {} (kind {}, {} {}) at slice {}: twin value {:02X} status {:02X} latch {:02X} position {} pulses {}, "
+                           "card {:02X} {:02X} {:02X} {} {}\n", i, static_cast<int>(op.kind), op.a, op.b, op.slice, a.value, a.status,
+                           a.latch, a.position, a.pulses, b.value, b.status, b.latch, b.position, b.pulses);
+    }
+    for (std::size_t i = 0; i < twin.changes.size() || i < card.changes.size(); ++i) {
+        const Change a = i < twin.changes.size() ? twin.changes[i] : Change{-1, 0, 0};
+        const Change b = i < card.changes.size() ? card.changes[i] : Change{-1, 0, 0};
+        if (!(a == b))
+            return fmt::format("change {} of the outputs: twin wire {} = {} at slice {}, card wire {} = {} at slice {}\n", i, a.wire,
+                               a.level, a.slice, b.wire, b.level, b.slice);
+    }
+    for (std::size_t i = 0; i < twin.notes.size() || i < card.notes.size(); ++i) {
+        const Note a = i < twin.notes.size() ? twin.notes[i] : Note{-1, 0, 0, 0};
+        const Note b = i < card.notes.size() ? card.notes[i] : Note{-1, 0, 0, 0};
+        if (!(a == b))
+            return fmt::format("condition {}: twin {} ({}, {}) at slice {}, card {} ({}, {}) at slice {}\n", i, a.code, a.a, a.b, a.slice,
+                               b.code, b.a, b.b, b.slice);
+    }
+    return {};
+}
+
+}  // namespace motionrack::databoard4002::twin

@@ -1,0 +1,155 @@
+// The closed forms of a divided clock.
+#include <algorithm>
+#include <motionrack/base/result.hpp>
+#include <motionrack/sim/blocks/pulse_train.hpp>
+
+namespace motionrack::sim {
+
+std::int64_t PulseTrain::pulses(Instant t) const {
+    if (!running()) return 0;
+    const Duration after_first = t - state_.origin - clock_ * state_.first;
+    return after_first < Duration{0} ? 0 : 1 + after_first / (clock_ * state_.then);
+}
+
+Instant PulseTrain::pulse_instant(std::int64_t n) const {
+    return state_.origin + clock_ * (state_.first + (n - 1) * state_.then);
+}
+
+/// Moves the origin to the last pulse.
+void PulseTrain::bring_to(Instant now) {
+    const std::int64_t n = pulses(now);
+    if (n == 0) return;
+    state_.count += n * state_.direction;
+    state_.origin = pulse_instant(n);
+    state_.first = state_.then;
+    state_.pulse_at_origin = 1;
+}
+
+void PulseTrain::tell_rate(double before, Instant now) {
+    const double after = rate(now);
+    if (after == before) return;
+    for (int i = 0; i < listener_count_; ++i) listeners_[static_cast<std::size_t>(i)]->rate_changed(before, after, now);
+}
+
+void PulseTrain::run(std::int64_t divisor, int direction, Instant now) {
+    MOTIONRACK_ASSERT(divisor > 0);
+    if (running() && direction == state_.direction && divisor == state_.then) return;
+    hand_over(now);
+    const double before = rate(now);
+    bring_to(now);
+    if (!running() || direction != state_.direction) {
+        state_.origin = now;
+        state_.first = divisor;
+        state_.pulse_at_origin = 0;
+    }
+    state_.direction = direction;
+    state_.then = divisor;
+    tell_rate(before, now);
+}
+
+void PulseTrain::stop(Instant now) {
+    if (!running()) return;
+    hand_over(now);
+    const double before = rate(now);
+    bring_to(now);
+    state_.first = state_.then = 0;
+    tell_rate(before, now);
+}
+
+// ---- Motion ---------------------------------------------------------------------------------------------------------
+
+std::int64_t PulseTrain::count(Instant t) const {
+    return state_.count + pulses(t) * state_.direction;
+}
+
+double PulseTrain::rate(Instant) const {
+    if (!running()) return 0;
+    return static_cast<double>(state_.direction) * 1e10 / static_cast<double>((clock_ * state_.then).count());
+}
+
+void PulseTrain::watch(int slot, std::int64_t below, std::int64_t above) {
+    state_.watches[static_cast<std::size_t>(slot)] = {below, above};
+    if (owner_) owner_->train_watched();
+}
+
+int PulseTrain::listen(MotionListener& listener) {
+    MOTIONRACK_ASSERT(listener_count_ < max_listeners);
+    listeners_[static_cast<std::size_t>(listener_count_)] = &listener;
+    return listener_count_++;
+}
+
+Instant PulseTrain::next(Instant now) const {
+    const std::int64_t here = count(now);
+    Instant next = never;
+    for (int i = 0; i < listener_count_; ++i) {
+        const auto& watch = state_.watches[static_cast<std::size_t>(i)];
+        const bool no_below = watch.below == unwatched_below, no_above = watch.above == unwatched_above;
+        if ((!no_below && here <= watch.below) || (!no_above && here >= watch.above)) return now;
+        if (!running() || (state_.direction > 0 ? no_above : no_below)) continue;
+        const std::int64_t n = (state_.direction > 0 ? watch.above - state_.count : state_.count - watch.below);
+        if (n < 1'000'000'000) next = std::min(next, pulse_instant(n));
+    }
+    return next;
+}
+
+void PulseTrain::act(Instant now) {
+    for (int i = 0; i < listener_count_; ++i) {
+        auto& watch = state_.watches[static_cast<std::size_t>(i)];
+        const std::int64_t here = count(now);
+        const bool low = watch.below != unwatched_below && here <= watch.below;
+        const bool high = watch.above != unwatched_above && here >= watch.above;
+        if (!low && !high) continue;
+        watch = {};
+        listeners_[static_cast<std::size_t>(i)]->crossed(now);
+    }
+}
+
+// ---- the line and its edges -----------------------------------------------------------------------------------------
+
+int PulseTrain::level(Instant now) const {
+    if (!running()) return 0;
+    const std::int64_t n = pulses(now);
+    if (n == 0 && !state_.pulse_at_origin) return 0;
+    const Instant since = n == 0 ? state_.origin : pulse_instant(n);
+    return 2 * (now - since) < clock_ * (n == 0 ? state_.first : state_.then);
+}
+
+Instant PulseTrain::next_edge(Instant now) const {
+    if (!running()) return never;
+    const std::int64_t n = pulses(now);
+    if (level(now) == 0) return pulse_instant(n + 1);
+    const Instant since = n == 0 ? state_.origin : pulse_instant(n);
+    const std::int64_t ticks = (clock_ * (n == 0 ? state_.first : state_.then)).count();
+    return since + Duration{(ticks + 1) / 2};
+}
+
+void PulseTrain::listen_edges(EdgeListener* listener) {
+    if (owner_) state_.handed = owner_->train_now();
+    edges_ = listener;
+}
+
+void PulseTrain::hand_over_edges() {
+    if (owner_) hand_over(owner_->train_now());
+}
+
+void PulseTrain::hand_over(Instant now) {
+    const Instant from = state_.handed;
+    state_.handed = now;
+    if (!edges_ || !running()) return;
+    const std::int64_t last = pulses(now);
+    std::int64_t n = from < state_.origin ? 0 : pulses(from);
+    while (n < last) {
+        batch_.origin = pulse_instant(n + 1);
+        // Edge i of the batch is i periods after its first; the first period may be another one, so it is in a batch of its own.
+        const std::int64_t most = n == 0 && state_.first != state_.then ? 1 : std::int64_t{EdgeBatch::capacity};
+        batch_.tick = clock_ * state_.then;
+        batch_.step = state_.direction;
+        batch_.first_count = state_.count + (n + 1) * state_.direction;
+        batch_.size = static_cast<std::uint32_t>(std::min(last - n, most));
+        for (std::uint32_t i = 0; i < batch_.size; ++i) batch_.at[i] = i;
+        n += batch_.size;
+        edges_->edges(batch_);
+    }
+}
+
+}  // namespace motionrack::sim
