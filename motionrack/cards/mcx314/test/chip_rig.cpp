@@ -63,6 +63,24 @@ class Requests final : public sim::Kernel::WireObserver {
     std::vector<Request> list;
 };
 
+// Wants the changes of output pins, as a part that is wired to them does, and writes them down.
+class Follower final : public sim::Device {
+  public:
+    Follower(sim::Kernel& kernel, std::vector<Change>& changes)
+        : kernel_(kernel), id_(kernel.add(*this, sim::Phase::parts, "follower")), changes_(changes) {}
+    void listen(sim::WireId wire, int axis, int pin) { kernel_.listen(wire, id_, 16 * axis + pin); }
+    void want(sim::WireId wire) { kernel_.want(wire, id_, true); }
+    void act(Instant) override {}
+    void on_wire(int pin, int level, Instant now) override {
+        changes_.push_back({now / (one_tick / 2), pin / 16, pin % 16, level != 0});
+    }
+
+  private:
+    sim::Kernel& kernel_;
+    sim::DeviceId id_;
+    std::vector<Change>& changes_;
+};
+
 // Watches range after range of one axis' count.
 class Watcher final : public sim::MotionListener {
   public:
@@ -106,10 +124,17 @@ class Bench {
                 output_wires_[a][p] = kernel_.find_wire(std::string("c.") + "xyzu"[a] + outputs[p]);
         emgn_ = kernel_.find_wire("c.emgn");
         step_ = kernel_.find_wire("c.expls_n");
+        for (int a = 0; a < axis_count; ++a)
+            for (int line = 0; line < 2; ++line)
+                encoder_wires_[a][line] = kernel_.find_wire(std::string("c.") + "xyzu"[a] + (line == 0 ? "eca" : "ecb"));
         requests_.wire = chip_.interrupt_wire();
         kernel_.observe_wires(&requests_);
         for (int a = 0; a < axis_count && way.watch; ++a) watchers_[a].begin(chip_.pulses(a), a);
+        for (int a = 0; a < axis_count && way.follow; ++a)
+            for (int p = 0; p < output_count; ++p) follower_.listen(output_wires_[a][p], a, p);
         kernel_.start();
+        for (int a = 0; a < axis_count && way.follow; ++a)
+            for (const sim::WireId wire : output_wires_[a]) follower_.want(wire);
         for (int a = 0; a < axis_count && way.watch; ++a) watchers_[a].watch(0);
         for (int a = 0; a < axis_count && way.listen; ++a)
             chip_.pulses(a).listen_edges(&edges_[static_cast<std::size_t>(a)]);
@@ -123,6 +148,7 @@ class Bench {
             if (i + 1 >= way_.snapshot_at && way_.snapshot_at != 0 && !disturbed_ && hand_.idle()) disturb(op);
         }
         sort_pulses(out_.pulses);
+        sort_changes(out_.changes);
         out_.requests = std::move(requests_.list);
         out_.conditions = kernel_.conditions().size() + kernel_.dropped_conditions();
         for (int a = 0; a < axis_count; ++a) out_.crossings[a] = std::move(watchers_[a].list);
@@ -146,12 +172,22 @@ class Bench {
 
     static Instant instant_of(const Op& op) { return op.tick * one_tick + (op.between ? one_tick / 2 : Duration{0}); }
 
+    sim::WireId wire_of(const Op& op) const {
+        switch (op.kind) {
+            case Op::Kind::emergency:
+                return emgn_;
+            case Op::Kind::step:
+                return step_;
+            case Op::Kind::encoder:
+                return encoder_wires_[op.axis][op.offset];
+            default:
+                return wires_[op.axis][static_cast<int>(op.pin)];
+        }
+    }
+
     // `more`: the next op moves a wire at the same instant, so that the tick must not be worked off yet.
     Sight move_wire(const Op& op, bool more) {
-        const sim::WireId wire = op.kind == Op::Kind::emergency ? emgn_
-                                 : op.kind == Op::Kind::step    ? step_
-                                                                : wires_[op.axis][static_cast<int>(op.pin)];
-        hand_.move(wire, op.value, instant_of(op));
+        hand_.move(wire_of(op), op.value, instant_of(op));
         if (!more) run_to(instant_of(op));
         return {};
     }
@@ -187,13 +223,14 @@ class Bench {
     void disturb(const Op& op) {
         disturbed_ = true;
         const sim::Snapshot snapshot = kernel_.snapshot();
-        const std::size_t pulses = out_.pulses.size(), requests = requests_.list.size();
+        const std::size_t pulses = out_.pulses.size(), requests = requests_.list.size(), changes = out_.changes.size();
         chip_.write(14, 0), chip_.write(12, 100), chip_.write(0, 0x0F06), chip_.write(0, 0x0F20);
         run_on(kernel_.now() + 5000 * one_tick);
         chip_.write(0, 0x0F27);
         run_on(kernel_.now() + one_tick * (1 + op.tick % 700));
         kernel_.restore(snapshot);
         out_.pulses.resize(pulses);
+        out_.changes.resize(changes);
         requests_.list.resize(requests);
     }
 
@@ -205,10 +242,12 @@ class Bench {
     sim::Kernel kernel_;
     Hand hand_{kernel_};
     Chip chip_{kernel_, "c"};
+    Follower follower_{kernel_, out_.changes};
     std::array<Edges, axis_count> edges_{Edges{out_.pulses, 0}, Edges{out_.pulses, 1}, Edges{out_.pulses, 2},
                                          Edges{out_.pulses, 3}};
     std::array<std::array<sim::WireId, pin_count>, axis_count> wires_{};
     std::array<std::array<sim::WireId, output_count>, axis_count> output_wires_{};
+    std::array<std::array<sim::WireId, 2>, axis_count> encoder_wires_{};
     std::array<Watcher, axis_count> watchers_;
     sim::WireId emgn_{}, step_{};
     bool disturbed_ = false;

@@ -20,16 +20,17 @@ std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
 
 // How much was compared.
 struct Compared {
-    std::int64_t ticks = 0, pulses = 0, ops = 0, requests = 0;
+    std::int64_t ticks = 0, pulses = 0, ops = 0, requests = 0, changes = 0;
 };
 
 std::string fault(const Program& program, const Way& way, Compared* compared = nullptr) {
-    const Outcome twin = run_on_twin(program);
+    const Outcome twin = run_on_twin(program, way.follow);
     if (compared) {
         compared->ticks += program.ops.back().tick;
         compared->pulses += static_cast<std::int64_t>(twin.pulses.size());
         compared->ops += static_cast<std::int64_t>(program.ops.size());
         compared->requests += static_cast<std::int64_t>(twin.requests.size());
+        compared->changes += static_cast<std::int64_t>(twin.changes.size());
     }
     return difference(program, twin, run_on_chip(program, way), way);
 }
@@ -49,22 +50,27 @@ void compare(std::uint64_t first, std::uint64_t count, const WayOf& way_of) {
                << fault(small, way) << to_text(small);
     }
     std::cout << compared.ops << " accesses and wire changes, " << compared.ticks << " ticks, " << compared.pulses
-              << " pulses, " << compared.requests << " changes of the interrupt line" << std::endl;
+              << " pulses, " << compared.requests << " changes of the interrupt line, " << compared.changes
+              << " of output pins" << std::endl;
 }
 
 TEST(Mcx314Oracle, RandomProgramsLookTheSameOnTheChipAndOnItsTwin) {
     compare(0, from_environment("MOTIONRACK_PROGRAMS", 10'000), [](const Program& p) {
-        return Way{p.number % 2 == 0, p.number % 4 >= 2, 0, 0};
+        return Way{p.number % 2 == 0, p.number % 4 >= 2, false, 0, 0};
     });
 }
 
+TEST(Mcx314Oracle, FollowedOutputPinsChangeAtTheSameInstants) {
+    compare(3'000'000, 600, [](const Program& p) { return Way{p.number % 2 == 0, false, true, 0, 0}; });
+}
+
 TEST(Mcx314Oracle, ARunCutIntoSlicesGivesTheSame) {
-    compare(1'000'000, 400, [](const Program& p) { return Way{p.number % 2 == 0, p.number % 4 >= 2, p.number, 0}; });
+    compare(1'000'000, 400, [](const Program& p) { return Way{p.number % 2 == 0, p.number % 4 >= 2, p.number % 3 == 0, p.number, 0}; });
 }
 
 TEST(Mcx314Oracle, ARestoredSnapshotGivesTheSameRest) {
     compare(2'000'000, 400, [](const Program& p) {
-        return Way{p.number % 2 == 0, false, 0, 1 + p.number % (p.ops.size() - 1)};
+        return Way{p.number % 2 == 0, false, p.number % 3 == 0, 0, 1 + p.number % (p.ops.size() - 1)};
     });
 }
 

@@ -180,6 +180,7 @@ class Maker : private Paths {
     }
     void wire() {
         const int axis = static_cast<int>(random_.between(0, 3));
+        if (random_.one_in(4)) return encoder(axis);
         if (random_.one_in(25)) {
             Op op;
             op.tick = now_, op.between = between_, op.kind = Op::Kind::emergency, op.value = 0;
@@ -190,6 +191,15 @@ class Maker : private Paths {
         }
         const Pin pin = static_cast<Pin>(random_.between(0, pin_count - 1));
         pull(axis, pin, random_.one_in(3) ? program_.ticks / 8 : 20);
+    }
+    // EP moves, perhaps across what it is compared with.
+    void encoder(int axis) {
+        if (random_.one_in(3)) {
+            mode(1u << axis, 2, 0x20 | random_.between(0, 7) << 9 | (random_.one_in(2) ? random_.between(0, 3) : 0));
+            data(1u << axis, 0x0A, random_.between(-4, 4));
+            data(1u << axis, 0x0B + static_cast<int>(random_.between(0, 1)), random_.between(-8, 8));
+        }
+        turn(axis);
     }
     void external() {
         const int axis = static_cast<int>(random_.between(0, 3));
@@ -209,7 +219,7 @@ class Maker : private Paths {
                 break;
             }
             case 1: {
-                std::int64_t bits = random_.between(0, 0xFFFF) & 0xE7E7 & ~0x5018;
+                std::int64_t bits = random_.between(0, 0xFFFF) & 0xEFE7 & ~0x5018;
                 if (random_.one_in(12)) bits |= random_.between(0, 0xFFFF) & 0x5018;
                 mode(some, 2, bits);
                 break;

@@ -11,11 +11,11 @@ namespace motionrack::mcx314::twin {
 /// One thing that happens to the chip. An access with `between` = false is at the very instant of `tick` (and so comes
 /// after it), else half a tick later. A wire that changes at the very instant counts for that tick.
 struct Op {
-    enum class Kind : std::uint8_t { write, read, write_byte, read_byte, input, emergency, step };
+    enum class Kind : std::uint8_t { write, read, write_byte, read_byte, input, emergency, step, encoder };
     std::int64_t tick = 0;
     bool between = false;
     Kind kind = Kind::read;
-    std::uint8_t offset = 0;  ///< register or port, for accesses
+    std::uint8_t offset = 0;  ///< register or port, for accesses; encoder line, 0 A, 1 B
     std::uint16_t value = 0;  ///< what is written, or the level of the input
     std::int8_t axis = 0;     ///< of the input
     Pin pin = Pin::in0;
@@ -24,7 +24,7 @@ struct Op {
     std::int64_t order() const {
         return tick * 4 + (between ? 2 : 0) + (is_wire() ? 0 : 1);
     }
-    bool is_wire() const { return kind == Kind::input || kind == Kind::emergency || kind == Kind::step; }
+    bool is_wire() const { return kind == Kind::input || kind == Kind::emergency || kind == Kind::step || kind == Kind::encoder; }
     bool is_read() const { return kind == Kind::read || kind == Kind::read_byte; }
 };
 

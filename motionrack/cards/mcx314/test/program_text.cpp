@@ -88,6 +88,8 @@ std::string to_text(const Program& program) {
                 std::snprintf(line + n, rest(), "%c%s = %d", "XYZU"[op.axis], pins[static_cast<int>(op.pin)], op.value);
         } else if (op.kind == Op::Kind::emergency) {
             n += std::snprintf(line + n, rest(), "EMGN = %d", op.value);
+        } else if (op.kind == Op::Kind::encoder) {
+            n += std::snprintf(line + n, rest(), "%cEC%c = %d", "XYZU"[op.axis], op.offset == 0 ? 'A' : 'B', op.value);
         } else if (op.kind == Op::Kind::step) {
             n += std::snprintf(line + n, rest(), "EXPLSN = %d", op.value);
         } else if (op.kind == Op::Kind::write_byte) {

@@ -63,6 +63,22 @@ class Traffic : protected Values {
     unsigned axes() {
         return random_.one_in(2) ? 1u << random_.between(0, 3) : static_cast<unsigned>(random_.between(1, 15));
     }
+    // The encoder of an axis goes a few edges one way, or a line flickers.
+    void turn(int axis) {
+        const std::int64_t pause = random_.one_in(3) ? program_.ticks / 100 : 2;
+        const int direction = random_.one_in(2) ? 1 : -1;
+        for (std::int64_t n = random_.between(1, 20); n > 0; --n) {
+            now_ += random_.between(0, pause);
+            if (between_) ++now_;
+            between_ = !between_;
+            const int before = phase_[axis], after = before + direction;
+            const int line = random_.one_in(30) ? 0 : ((before ^ before >> 1) ^ (after ^ after >> 1)) >> 1 & 1;
+            phase_[axis] = after;
+            add(Op::Kind::encoder, line, (after ^ after >> 1) >> line & 1);
+            program_.ops.back().axis = static_cast<std::int8_t>(axis);
+        }
+    }
+
     // Low for a while, sometimes for ever.
     void pull(int axis, Pin pin, std::int64_t most) {
         input(axis, pin, false);
@@ -85,6 +101,7 @@ class Traffic : protected Values {
         data(some, 0x07, pulses());
     }
 
+    int phase_[4] = {2, 2, 2, 2};  // of the encoders: both lines High
     std::int64_t now_ = 0;
     bool between_ = false;
     bool bytes_ = false;  // an 8-bit bus

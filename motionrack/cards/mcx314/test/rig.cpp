@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <motionrack/cards/mcx314/test/rig.hpp>
+#include <utility>
 
 namespace motionrack::mcx314::twin {
 
@@ -12,7 +13,41 @@ void sort_pulses(std::vector<Pulse>& pulses) {
     });
 }
 
+void sort_changes(std::vector<Change>& changes) {
+    std::stable_sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) {
+        if (a.half_tick != b.half_tick) return a.half_tick < b.half_tick;
+        return a.axis != b.axis ? a.axis < b.axis : a.pin < b.pin;
+    });
+}
+
 namespace {
+
+// Writes down the changes of the twin's output pins.
+class Pins {
+  public:
+    Pins(const Twin& twin, std::vector<Change>& changes) : twin_(twin), changes_(changes) {}
+    void look(std::int64_t half_tick) {
+        for (int a = 0; a < axis_count; ++a) {
+            const unsigned now = twin_.outputs(a), before = std::exchange(levels_[a], now);
+            // A pulse that comes while the one before still lasts begins with a change to rest.
+            const bool pulse = std::exchange(made_[a], twin_.made(a)) != twin_.made(a);
+            const unsigned rest = twin_.outputs_at_rest(a);
+            for (int pin = 0; pin < 10; ++pin) {
+                const bool level = (now >> pin & 1u) != 0;
+                if (((before ^ now) >> pin & 1u) != 0)
+                    changes_.push_back({half_tick, a, pin, level});
+                else if (pulse && ((now ^ rest) >> pin & 1u) != 0)
+                    changes_.insert(changes_.end(), {{half_tick, a, pin, !level}, {half_tick, a, pin, level}});
+            }
+        }
+    }
+
+  private:
+    const Twin& twin_;
+    std::vector<Change>& changes_;
+    std::array<unsigned, axis_count> levels_{};
+    std::array<std::int64_t, axis_count> made_{};
+};
 
 // Where watched ranges are left, from the pulses.
 void find_crossings(Outcome& out) {
@@ -29,9 +64,10 @@ void find_crossings(Outcome& out) {
 
 }  // namespace
 
-Outcome run_on_twin(const Program& program) {
+Outcome run_on_twin(const Program& program, bool follow) {
     Twin twin;
     Outcome out;
+    Pins pins(twin, out.changes);
     bool requested = false;
     const auto note_request = [&](std::int64_t half_tick) {
         if (twin.interrupt() == requested) return;
@@ -42,6 +78,7 @@ Outcome run_on_twin(const Program& program) {
         while (twin.now() < tick) {
             twin.tick();
             note_request(2 * twin.now());
+            if (follow) pins.look(2 * twin.now());
         }
     };
     out.sights.reserve(program.ops.size());
@@ -64,6 +101,9 @@ Outcome run_on_twin(const Program& program) {
             case Op::Kind::read_byte:
                 sight.value = twin.read_byte(op.offset);
                 break;
+            case Op::Kind::encoder:
+                twin.set_encoder(op.axis, op.offset, op.value != 0);
+                break;
             case Op::Kind::step:
                 twin.set_step(op.value != 0);
                 break;
@@ -74,17 +114,20 @@ Outcome run_on_twin(const Program& program) {
                 twin.set_emergency(op.value != 0);
                 break;
         }
+        if (wire && (&op == &program.ops.back() || (&op)[1].order() != op.order())) twin.hear_encoders();
         if (!wire) {
             sight.interrupt = twin.interrupt();
             for (int a = 0; a < axis_count; ++a) sight.count[a] = twin.count(a), sight.outputs[a] = twin.outputs(a);
         }
         note_request(2 * op.tick + op.between);
+        if (follow && !wire) pins.look(2 * op.tick + op.between);
         out.sights.push_back(sight);
     }
     if (!program.ops.empty()) run_to(program.ops.back().tick);
     out.pulses = twin.pulses();
     out.conditions = twin.conditions();
     sort_pulses(out.pulses);
+    sort_changes(out.changes);
     find_crossings(out);
     return out;
 }
@@ -114,6 +157,19 @@ std::string first_request_difference(const std::vector<Request>& twin, const std
            (b == chip.end() ? "no more" : text(*b)) + "\n";
 }
 
+std::string first_change_difference(const std::vector<Change>& twin, const std::vector<Change>& chip) {
+    const auto [a, b] = std::mismatch(twin.begin(), twin.end(), chip.begin(), chip.end());
+    if (a == twin.end() && b == chip.end()) return "";
+    const auto text = [](const Change& c) {
+        static constexpr const char* pins[] = {"PP",   "PM",   "OUT4", "OUT5", "OUT6",
+                                               "OUT7", "OUT0", "OUT1", "OUT2", "OUT3"};
+        return std::string(1, "XYZU"[c.axis]) + pins[c.pin] + (c.level ? " High" : " Low") + " at tick " +
+               std::to_string(c.half_tick / 2) + (c.half_tick & 1 ? ".5" : "");
+    };
+    return "output pin: twin " + (a == twin.end() ? "no more" : text(*a)) + ", chip " +
+           (b == chip.end() ? "no more" : text(*b)) + "\n";
+}
+
 std::string first_crossing_difference(const std::vector<Crossing>& twin, const std::vector<Crossing>& chip) {
     const auto [a, b] = std::mismatch(twin.begin(), twin.end(), chip.begin(), chip.end());
     if (a == twin.end() && b == chip.end()) return "";
@@ -131,6 +187,7 @@ std::string difference(const Program& program, const Outcome& twin, const Outcom
     for (int a = 0; a < axis_count && way.watch; ++a)
         out += first_crossing_difference(twin.crossings[a], chip.crossings[a]);
     if (way.listen) out = first_pulse_difference(twin.pulses, chip.pulses);
+    if (way.follow) out += first_change_difference(twin.changes, chip.changes);
     out += first_request_difference(twin.requests, chip.requests);
     for (std::size_t i = 0; i < program.ops.size(); ++i) {
         const Sight &t = twin.sights[i], &c = chip.sights[i];

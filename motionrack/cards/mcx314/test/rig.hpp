@@ -33,6 +33,15 @@ struct Crossing {
     friend bool operator==(const Crossing&, const Crossing&) = default;
 };
 
+/// A change of an output pin that somebody follows.
+struct Change {
+    std::int64_t half_tick = 0;
+    int axis = 0;
+    int pin = 0;  ///< nPP, nPM, nOUT4..7, nOUT0..3
+    bool level = false;
+    friend bool operator==(const Change&, const Change&) = default;
+};
+
 /// How far the watched range number `n` of an axis reaches to both sides of the count at which it is set.
 constexpr std::int64_t reach(int axis, std::size_t n) {
     return 1 + static_cast<std::int64_t>((n * 29 + static_cast<std::size_t>(axis) * 7) % 61);
@@ -43,6 +52,7 @@ struct Outcome {
     std::vector<Pulse> pulses;  ///< by tick, then axis; only if they were listened to
     std::vector<Request> requests;
     std::array<std::vector<Crossing>, axis_count> crossings;  ///< only if somebody watched
+    std::vector<Change> changes;  ///< by instant, axis, pin; only if somebody followed
     std::uint64_t conditions = 0;                             ///< reported since the start
 };
 
@@ -50,6 +60,7 @@ struct Outcome {
 struct Way {
     bool listen = true;           ///< somebody listens to the edges
     bool watch = false;           ///< somebody watches ranges of the counts
+    bool follow = false;          ///< somebody follows the output pins
     std::uint64_t slices = 0;     ///< seed of random cuts of the run between ops; 0: none
     std::size_t snapshot_at = 0;  ///< after this op the chip is saved, disturbed and restored; 0: never
 };
@@ -57,7 +68,10 @@ struct Way {
 /// By tick, then axis.
 void sort_pulses(std::vector<Pulse>& pulses);
 
-Outcome run_on_twin(const Program& program);
+/// `follow`: with the changes of the output pins.
+Outcome run_on_twin(const Program& program, bool follow = false);
+/// By instant, axis, pin.
+void sort_changes(std::vector<Change>& changes);
 
 /// The first difference in words, or "" if there is none; of pulses and crossings only if they were listened to.
 std::string difference(const Program& program, const Outcome& twin, const Outcome& chip, const Way& way);

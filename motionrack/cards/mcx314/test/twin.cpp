@@ -225,6 +225,7 @@ void Twin::move(int a, int direction) {
     Axis& axis = axes_[a];
     axis.lp = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.lp) + static_cast<std::uint32_t>(direction));
     count_[a] += direction;
+    ++made_[a];
     axis.flags |= axis.wr1 >> 8 & flag_pulse;
     axis.pulse_direction = direction;
     axis.pulse_end = now_ + 1;

@@ -63,6 +63,7 @@ struct Axis {
     std::uint16_t flags = 0;     ///< RR3
     unsigned compared = 0;       ///< the four comparisons as they were, in the bits of RR3
     bool waits_position = false;
+    std::array<bool, 2> lines{true, true}, heard{true, true};  ///< encoder lines A and B, and as they were counted
     std::array<int, 2> low{3, 3};  ///< ticks, up to 3, since nEXPP, nEXPM were seen High
     std::int64_t pulse_end = 0;    ///< the tick at which the last pulse on its wire is over
     int pulse_direction = +1;
@@ -89,6 +90,9 @@ class Twin {
     void set_input(int axis, Pin pin, bool level) { axes_[axis].pin[static_cast<int>(pin)] = level; }
     void set_emergency(bool level) { emgn_ = level; }
     void set_step(bool level) { expls_ = level; }
+    /// Encoder line 0 (A) or 1 (B); counted once all wires of the instant are set.
+    void set_encoder(int axis, int line, bool level) { axes_[axis].lines[line] = level; }
+    void hear_encoders();
 
     void tick();
     void run(std::int64_t ticks) {
@@ -101,10 +105,14 @@ class Twin {
     bool any_driving() const;
     /// Net pulses of an axis since the start, + minus -.
     std::int64_t count(int a) const { return count_[a]; }
+    /// Pulses of both directions since the start.
+    std::int64_t made(int a) const { return made_[a]; }
     /// True: an interrupt is requested (INTN Low).
     bool interrupt() const;
     /// Levels of output pins: nPP, nPM, nOUT4..7, nOUT0..3.
-    unsigned outputs(int a) const;
+    unsigned outputs(int a) const { return outputs(a, now_ < axes_[a].pulse_end); }
+    /// The same without a pulse.
+    unsigned outputs_at_rest(int a) const { return outputs(a, false); }
     /// Conditions since the start: commands that were ignored, and patterns whose data ran out.
     std::uint64_t conditions() const { return conditions_; }
 
@@ -169,13 +177,14 @@ class Twin {
     void ask_stop(unsigned axes, bool immediate);
     void reset();
     int selected() const;
+    unsigned outputs(int a, bool pulse) const;
     std::uint16_t main_status() const;
     std::uint16_t status1(int a) const;
     std::uint16_t status2(int a) const;
     std::uint16_t levels(int a) const;
 
     std::array<Axis, axis_count> axes_;
-    std::array<std::int64_t, axis_count> count_{};
+    std::array<std::int64_t, axis_count> count_{}, made_{};
     std::int64_t now_ = 0;
     bool emgn_ = true;
     unsigned selected_ = 1;

@@ -17,6 +17,8 @@ void Twin::reset() {
     for (Axis& axis : axes_) {
         Axis fresh;
         fresh.pin = axis.pin;
+        fresh.lines = axis.lines;
+        fresh.heard = axis.heard;
         fresh.pulse_end = axis.pulse_end;
         fresh.pulse_direction = axis.pulse_direction;
         axis = fresh;

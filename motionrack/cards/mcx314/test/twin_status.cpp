@@ -104,9 +104,9 @@ std::uint16_t Twin::levels(int a) const {
 // ---- output pins ----------------------------------------------------------------------------------------------------
 
 // nPP, nPM, nOUT4..7, nOUT0..3 of an axis.
-unsigned Twin::outputs(int a) const {
+unsigned Twin::outputs(int a, bool pulse) const {
     const Axis& axis = axes_[a];
-    const bool pulse = now_ < axis.pulse_end, negative = bit(axis.wr2, 7);
+    const bool negative = bit(axis.wr2, 7);
     bool pp = pulse && axis.pulse_direction > 0, pm = pulse && axis.pulse_direction < 0;
     if (bit(axis.wr2, 6)) {
         pp = pulse != negative;

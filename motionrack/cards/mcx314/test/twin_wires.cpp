@@ -44,6 +44,27 @@ void Twin::write_wr3(Axis& axis, std::uint16_t value) {
     if (axis.external >= 0 && (value & 0x18) != 0x08) axis.gen.ask_decelerating = true;
 }
 
+// What the encoder lines that have changed count.
+void Twin::hear_encoders() {
+    for (int a = 0; a < axis_count; ++a) {
+        Axis& axis = axes_[a];
+        const auto [line_a, line_b] = axis.lines;
+        const bool a_changed = line_a != axis.heard[0], b_changed = line_b != axis.heard[1];
+        axis.heard = axis.lines;
+        int change = 0;
+        if (bit(axis.wr2, 9)) {
+            change = (a_changed && line_a ? 1 : 0) - (b_changed && line_b ? 1 : 0);
+        } else if (a_changed != b_changed) {
+            const bool up = a_changed ? line_a != line_b : line_a == line_b;  // A leads B
+            const int division = axis.wr2 >> 10 & 3;
+            const bool counted = division == 1 ? a_changed : division == 2 ? a_changed && !line_b : true;
+            if (counted) change = up ? 1 : -1;
+        }
+        axis.ep = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.ep) + static_cast<std::uint32_t>(change));
+        if (change != 0) compare(a);
+    }
+}
+
 // Asked by 3Ah or by EXPLSN; false: nothing waits for it.
 bool Twin::ask_step(Segment::Steps by) {
     if (chain_ == 0 || step_under_way_ || (path_.segment().steps & by) == 0) return false;
