@@ -125,7 +125,7 @@ std::unique_ptr<Card> make(sim::Kernel& kernel, const RackCard& config, sim::Inp
 }
 
 constexpr CardKind kinds[] = {
-    {"mcx314", &mcx314::card_map, &make<Mcx314Card>},
+    {"mcx314", &mcx314::card_map, &make<Mcx314Card>, &view_mcx314},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <motionrack/base/card_map.hpp>
 #include <motionrack/control/path_axes.hpp>
 #include <motionrack/rack/config.hpp>
+#include <motionrack/rack/register_view.hpp>
 #include <motionrack/sim/input_log.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/motion.hpp>
@@ -67,6 +68,8 @@ struct CardKind {
     std::string_view type;          ///< as a rack file calls it
     const CardMap& (*map)();        ///< its registers, commands, states and pins
     std::unique_ptr<Card> (*make)(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log);
+    /// Reads its registers through a port, of a virtual or a real card; nullptr if nobody has said how.
+    RegisterView (*view)(RegisterPort& port, bool clearing) = nullptr;
 };
 
 std::span<const CardKind> card_kinds();

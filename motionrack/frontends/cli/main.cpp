@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
     add_check(app, chosen);
     add_new(app, chosen);
     add_describe(app, chosen);
+    add_registers(app, chosen);
     add_trace(app, chosen);
     add_canon(app, chosen);
     add_bench(app, chosen);

@@ -12,6 +12,8 @@ class ContractPort {
     virtual ~ContractPort() = default;
     virtual RegisterPort& registers() = 0;
     virtual Interrupt& interrupt() = 0;
+    /// False if its interrupts do not reach this program: waits then only let time pass.
+    virtual bool has_interrupt_line() const { return true; }
 };
 
 /// A card for one test; the test begins with a reset. nullptr: there is none, the tests are skipped.

@@ -1,0 +1,83 @@
+// registers: what the registers of a card say, of a virtual one or of a real one.
+#include <fmt/format.h>
+
+#include <memory>
+#include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/live/port.hpp>
+#include <motionrack/rack/catalogue.hpp>
+#include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/register_view.hpp>
+
+namespace motionrack::cli {
+
+namespace {
+
+struct RegistersOptions {
+    std::string card, rack, live;
+    bool clear = false, all = false, json = false;
+};
+
+void print(const rack::RegisterView& view, const RegistersOptions& options) {
+    fmt::print("{}", options.json ? rack::view_json(view) : rack::view_text(view, options.all));
+}
+
+int live_registers(const RegistersOptions& options) {
+    const rack::CardKind* const kind = rack::find_card_kind(options.card.empty() ? "mcx314" : options.card);
+    if (!kind || !kind->view) {
+        print_error(fmt::format("The registers of a real '{}' cannot be read; those of an mcx314 can. Nothing was opened.", options.card));
+        return exit_usage;
+    }
+    const auto spec = live::read_port_spec(options.live);
+    if (!spec) return report(spec.error());
+    const auto port = live::Port::open(*spec, kind->map());
+    if (!port) return report(port.error());
+    const rack::RegisterView view = kind->view(**port, options.clear);
+    if ((*port)->trouble()) return report(*(*port)->trouble());
+    print(view, options);
+    if (view.answered()) return exit_done;
+    print_error(fmt::format("Every register reads FFFFh: no card answers at {}. Check the region, offset and stride.", options.live));
+    return exit_io;
+}
+
+int virtual_registers(const RegistersOptions& options) {
+    int code = exit_done;
+    const auto config = load_rack(options.rack, code);
+    if (!config) return code;
+    rack::Rack rack(*config);
+    rack.start();
+    std::string known;
+    for (std::size_t i = 0; i < rack.cards().size(); ++i) {
+        rack::Card& card = *rack.cards()[i];
+        known += (known.empty() ? "" : ", ") + card.name();
+        if (!options.card.empty() && options.card != card.name()) continue;
+        const rack::CardKind* const kind = rack::find_card_kind(config->cards[i].type);
+        if (!kind || !kind->view) continue;
+        print(kind->view(card.port(), options.clear), options);
+        return exit_done;
+    }
+    print_error(fmt::format("The rack has no card '{}' whose registers can be shown; its cards are: {}.", options.card, known));
+    return exit_usage;
+}
+
+}  // namespace
+
+void add_registers(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<RegistersOptions>();
+    CLI::App* command = app.add_subcommand("registers", "Read a card's registers and tell what they mean; nothing moves");
+    command->add_option("CARD", options->card, "name of a card in the rack (default: the first); with --live its type (default: mcx314)");
+    auto* rack = command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
+    command->add_option("--live", options->live, "a real card: " + std::string(live::port_spec_form()))->excludes(rack);
+    command->add_flag("--clear", options->clear, "read RR3 too, which clears it");
+    command->add_flag("--all", options->all, "fields that are 0 too");
+    command->add_flag("--json", options->json, "as JSON");
+    command->footer("Example: motionrack registers --live uio:/dev/uio0\nOf a real card WR0 is written, with NOP and read commands: no other "
+                    "program may use it meanwhile.");
+    command->callback([options, &chosen] {
+        chosen = [options] { return options->live.empty() ? virtual_registers(*options) : live_registers(*options); };
+    });
+}
+
+}  // namespace motionrack::cli

@@ -1,0 +1,48 @@
+// Linux' monotonic clock; sleeps until an instant, so that what signals interrupt is slept to its end.
+#include <motionrack/live/clock.hpp>
+
+#include <cerrno>
+#include <ctime>
+#include <poll.h>
+
+namespace motionrack::live {
+
+namespace {
+
+constexpr Duration worth_a_sleep = microseconds(50);
+
+Instant since_boot() {
+    timespec time{};
+    ::clock_gettime(CLOCK_MONOTONIC, &time);
+    return whole_seconds(time.tv_sec) + nanoseconds(time.tv_nsec);
+}
+
+/// Rounded up: a wait is never too short.
+timespec timespec_of(Duration duration) {
+    const std::int64_t ns = (duration.count() + 9) / 10;
+    return {static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
+}
+
+}  // namespace
+
+MonotonicClock::MonotonicClock() : start_(since_boot()) {}
+
+Instant MonotonicClock::now() const { return since_boot() - start_; }
+
+void MonotonicClock::sleep(Duration duration) {
+    const Instant end = since_boot() + duration;
+    if (duration < worth_a_sleep) {
+        while (since_boot() < end) continue;
+        return;
+    }
+    const timespec until = timespec_of(end);
+    while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) continue;
+}
+
+bool MonotonicClock::wait_readable(int descriptor, Duration timeout) {
+    pollfd file{descriptor, POLLIN, 0};
+    const timespec most = timespec_of(timeout < Duration{0} ? Duration{0} : timeout);
+    return ::ppoll(&file, 1, &most, nullptr) == 1 && (file.revents & POLLIN) != 0;
+}
+
+}  // namespace motionrack::live

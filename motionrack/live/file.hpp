@@ -1,0 +1,27 @@
+// An open file that closes itself, and sentences for what Linux refuses.
+#pragma once
+
+#include <motionrack/base/result.hpp>
+#include <string>
+#include <utility>
+
+namespace motionrack::live {
+
+class File {
+  public:
+    /// For reading and writing. Errors: io, with the remedy.
+    static Result<File> open(const std::string& path, int flags = 0);
+    File(File&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+    File& operator=(File&& other) noexcept {
+        std::swap(descriptor_, other.descriptor_);
+        return *this;
+    }
+    ~File();
+    int descriptor() const { return descriptor_; }
+
+  private:
+    explicit File(int descriptor) : descriptor_(descriptor) {}
+    int descriptor_;
+};
+
+}  // namespace motionrack::live

@@ -1,0 +1,31 @@
+// Sixteen-bit words at a card: in mapped memory, or in a file that takes them one by one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <motionrack/base/result.hpp>
+#include <motionrack/live/port_spec.hpp>
+
+namespace motionrack::live {
+
+/// One word is one access of 16 bits, or two of 8: the high byte first, because the low byte of a command register carries it out.
+class Words {
+  public:
+    virtual ~Words() = default;
+    /// `at`: bytes from the first register's place. 0, or the errno of what was refused.
+    virtual int write(std::uint64_t at, std::uint16_t value) = 0;
+    virtual int read(std::uint64_t at, std::uint16_t& value) = 0;
+};
+
+/// `length`: bytes from the first register's start to the last one's end. Errors: io, refused.
+Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t length);
+
+/// A map of a UIO node, as its folder in /sys tells it (maps/map0/size and offset).
+struct UioMap {
+    std::uint64_t size = 0;    ///< bytes of the card's region
+    std::uint64_t offset = 0;  ///< where in the mapping's first page it begins
+};
+Result<UioMap> read_uio_map(const std::filesystem::path& folder, int map);
+
+}  // namespace motionrack::live

@@ -1,0 +1,92 @@
+// The registers of a card as people see them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <motionrack/cards/mcx314/map.hpp>
+#include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/template.hpp>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace motionrack::rack {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// A slot with nothing in it.
+class Empty final : public RegisterPort {
+  public:
+    void write(std::uint32_t offset, std::uint16_t value) override { writes.emplace_back(offset, value); }
+    std::uint16_t read(std::uint32_t offset) override { return reads.push_back(offset), 0xFFFF; }
+    std::vector<std::pair<std::uint32_t, std::uint16_t>> writes;
+    std::vector<std::uint32_t> reads;
+};
+
+/// A virtual card that has driven.
+class RegisterViews : public testing::Test {
+  protected:
+    RegisterViews() : rack_(*read_rack_text(*rack_template("router")).config) {
+        rack_.start();
+        RegisterPort& port = rack_.cards()[0]->port();
+        command(port, mcx314::cmd::R, 800'000);
+        command(port, mcx314::cmd::SV, 100);
+        command(port, mcx314::cmd::V, 100);
+        command(port, mcx314::cmd::P, 30);
+        port.write(mcx314::reg::WR0, 0x010F);
+        port.write(mcx314::reg::WR1, 0x8000);
+        port.write(mcx314::reg::WR0, 0x0121);
+        rack_.cards()[0]->port().pass(whole_seconds(1));
+    }
+    static void command(RegisterPort& port, unsigned code, std::uint32_t value) {
+        port.write(mcx314::reg::WR7, static_cast<std::uint16_t>(value >> 16));
+        port.write(mcx314::reg::WR6, static_cast<std::uint16_t>(value));
+        port.write(mcx314::reg::WR0, static_cast<std::uint16_t>(0x0100 | code));
+    }
+    RegisterView view(bool clearing) { return find_card_kind("mcx314")->view(rack_.cards()[0]->port(), clearing); }
+
+    Rack rack_;
+};
+
+TEST_F(RegisterViews, ShowCountersOfEachAxis) {
+    const RegisterView seen = view(false);
+    ASSERT_EQ(seen.values.size(), 16u);
+    EXPECT_EQ(seen.values[0].name, "LP");
+    EXPECT_EQ(seen.values[0].axis, "X");
+    EXPECT_EQ(seen.values[0].value, -30);
+    EXPECT_EQ(seen.values[4].axis, "Y");
+    EXPECT_EQ(seen.values[4].value, 0);
+    EXPECT_TRUE(seen.answered());
+    EXPECT_THAT(view_text(seen, false), HasSubstr("LP   X  -30 "));
+}
+
+TEST_F(RegisterViews, ReadWhatClearsOnlyWhereThatIsAsked) {
+    EXPECT_THAT(view_text(view(false), true), Not(HasSubstr("RR3")));
+    EXPECT_THAT(view_text(view(true), false), HasSubstr("DEND   1 "));
+    EXPECT_THAT(view_text(view(true), false), Not(HasSubstr("DEND")));
+    EXPECT_THAT(view_text(view(true), true), HasSubstr("DEND   0 "));
+}
+
+TEST_F(RegisterViews, AreReadByProgramsAsJson) {
+    const auto json = nlohmann::json::parse(view_json(view(true)));
+    int with_end = 0;
+    for (const auto& reg : json["registers"])
+        if (reg["name"] == "RR3" && reg["axis"] == "X") with_end += reg["fields"]["DEND"].get<int>();
+    EXPECT_EQ(with_end, 1);
+    EXPECT_EQ(json["values"][0]["value"], -30);
+}
+
+TEST_F(RegisterViews, WriteNothingButNopsAndReadCommands) {
+    Empty slot;
+    const RegisterView seen = view_mcx314(slot, false);
+    EXPECT_FALSE(seen.answered());
+    for (const auto& [offset, value] : slot.writes) {
+        EXPECT_EQ(offset, mcx314::reg::WR0);
+        const unsigned code = value & 0xFFu;
+        EXPECT_TRUE(code == mcx314::cmd::NOP || (code >= mcx314::cmd::READ_LP && code <= mcx314::cmd::READ_CA)) << code;
+    }
+    EXPECT_THAT(slot.reads, Not(testing::Contains(mcx314::reg::RR3)));
+}
+
+}  // namespace
+}  // namespace motionrack::rack
