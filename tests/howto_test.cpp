@@ -51,7 +51,7 @@ TEST_P(HowTo, ShowsTheProgramItsOutputAndItsPicture) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pages, HowTo,
-                         testing::Values("trapezoid", "s_curve", "asymmetric", "line", "arc", "contour"));
+                         testing::Values("trapezoid", "s_curve", "asymmetric", "line", "arc", "contour", "bit_pattern"));
 
 }  // namespace
 }  // namespace motionrack

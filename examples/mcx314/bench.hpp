@@ -59,5 +59,6 @@ Result<void> asymmetric(mcx314::Driver& card);
 Result<void> line(mcx314::Driver& card);
 Result<void> arc(mcx314::Driver& card);
 Result<void> contour(mcx314::Driver& card);
+Result<void> bit_pattern(mcx314::Driver& card);
 
 }  // namespace howto

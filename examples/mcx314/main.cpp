@@ -12,13 +12,14 @@ namespace {
 
 using namespace howto;
 
-constexpr std::array<Page, 6> pages = {{
+constexpr std::array<Page, 7> pages = {{
     {"trapezoid", trapezoid, [](Bench& bench) { return bench.speeds("X speed", axis_x); }},
     {"s_curve", s_curve, [](Bench& bench) { return bench.speeds("X and Y speed", axis_x | axis_y); }},
     {"asymmetric", asymmetric, [](Bench& bench) { return bench.speeds("X speed", axis_x); }},
     {"line", line, [](Bench& bench) { return bench.speeds("Speeds along the line", axis_x | axis_y | axis_z); }},
     {"arc", arc, [](Bench& bench) { return bench.path("Arc"); }},
     {"contour", contour, [](Bench& bench) { return bench.path("Contour"); }},
+    {"bit_pattern", bit_pattern, [](Bench& bench) { return bench.path("Bit pattern"); }},
 }};
 
 int run(const Page& page, const char* picture) {

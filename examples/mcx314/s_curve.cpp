@@ -10,9 +10,8 @@ Result<void> s_curve(mcx314::Driver& card) {
     MOTIONRACK_CHECK(card.SetMultiple(axis_x | axis_y, 10));
     for (const unsigned axis : {axis_x, axis_y}) {
         data.A = axis == axis_x ? 8000 : 80;  // out of reach: a full S; 80: straight in the middle
-        data.AO = 0;
+        MOTIONRACK_TRY(data.AO, mcx314::best_offset(data));  // what the fall takes more than the rise
         MOTIONRACK_TRY(const mcx314::CurvePlan plan, mcx314::plan_drive(data));
-        data.AO = mcx314::fall_pulses(data, plan.top_v) - plan.rise.pulses;  // what the fall takes more than the rise
         fmt::print("A {}: {} S, {:.4f} s and {} pulses up, at most {:.0f} pulses/s2, AO {}\n", data.A,
                    plan.full_s ? "full" : "partial", to_seconds(plan.rise.time()), plan.rise.pulses,
                    plan.peak_acceleration(plan.rise), data.AO);
