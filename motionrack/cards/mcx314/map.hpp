@@ -101,12 +101,15 @@ inline constexpr TransitionInfo drive_transitions[] = {
     {"idle", "held", "drive command after HOLD"},
     {"held", "starting", "START"},
     {"held", "idle", "stop command"},
+    {"held", "driving", "another axis' interpolation names it"},
+    {"idle", "driving", "a segment that is queued names it"},
     {"starting", "driving", "two ticks have passed"},
     {"driving", "final", "remaining pulses, DP, decelerating stop"},
     {"driving", "in_position", "P pulses are out, the segment's last pulse with nothing queued, or an immediate stop"},
     {"final", "in_position", "P pulses are out, or SV is reached by a stop"},
     {"in_position", "idle", "nINPOS active or not enabled"},
     {"in_position", "starting", "drive command"},
+    {"in_position", "driving", "a segment that is queued names it"},
     {"in_position", "held", "drive command after HOLD"},
 };
 inline constexpr StateInfo chain_states[] = {

@@ -184,6 +184,14 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     int pattern_counter() const;
     double pattern_share(int i) const;
 
+    // machines.cpp: the present states of the map's state machines
+    int drive_state(int a) const;
+    int queue_state() const;
+    int pattern_state() const;
+    int stack_state() const;
+    int step_state() const;
+    int wire_state(int a, int minus) const;
+
     // external.cpp: drives and single steps by wire
     void set_external(int a, std::uint16_t before);
     void hear_external(int pin);
@@ -267,6 +275,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void free_held(unsigned axes);
     void ask_stop(unsigned axes, bool immediate);
     bool driving(int a) const;
+    bool waits_for_position(int a) const;
     int first_selected() const;
     std::uint16_t main_status() const;
     std::uint16_t status1(int a) const;

@@ -62,6 +62,14 @@ std::span<const Chip::Inspected> Chip::Inspected::table() {
         {"CV", each,
          [](const Chip&, const Axis& x, int) -> std::int64_t { return x.gen.drive == Drive::idle ? 0 : x.gen.speed; }},
         {"CA", each, [](const Chip&, const Axis& x, int) -> std::int64_t { return x.gen.rate; }},
+        // Places in the tables of map.hpp's state machines.
+        {"DRIVE_STATE", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.drive_state(a); }},
+        {"EXPP_STATE", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.wire_state(a, 0); }},
+        {"EXPM_STATE", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.wire_state(a, 1); }},
+        {"QUEUE_STATE", once, [](const Chip& c, const Axis&, int) -> std::int64_t { return c.queue_state(); }},
+        {"PATTERN_STATE", once, [](const Chip& c, const Axis&, int) -> std::int64_t { return c.pattern_state(); }},
+        {"STACK_STATE", once, [](const Chip& c, const Axis&, int) -> std::int64_t { return c.stack_state(); }},
+        {"STEP_STATE", once, [](const Chip& c, const Axis&, int) -> std::int64_t { return c.step_state(); }},
     };
     return rows;
 }

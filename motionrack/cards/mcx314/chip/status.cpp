@@ -59,12 +59,17 @@ std::uint16_t Chip::peek(std::uint32_t offset) const {
     }
 }
 
+/// The drive is over, and nINPOS is enabled and not active.
+bool Chip::waits_for_position(int a) const {
+    const Axis& axis = state_.axis[a];
+    return bit(state_.in_place, a) && bit(axis.wr2, 15) && level(axis, Pin::in_position) != bit(axis.wr2, 14);
+}
+
 std::uint16_t Chip::main_status() const {
     unsigned v = 0;
     for (int a = 0; a < axes_of_chip; ++a) {
         const Axis& axis = state_.axis[a];
-        const bool out_of_position = bit(axis.wr2, 15) && level(axis, Pin::in_position) != bit(axis.wr2, 14);
-        if (driving(a) || ((state_.in_place >> a & 1u) && out_of_position)) v |= 1u << a;
+        if (driving(a) || waits_for_position(a)) v |= 1u << a;
         if ((status2(a) & 0x3Fu) != 0 || (axis.finished & 0xF000u) != 0) v |= 1u << (4 + a);
     }
     if (state_.chain != 0) {

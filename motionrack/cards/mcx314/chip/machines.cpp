@@ -1,0 +1,61 @@
+// In which of its declared states (map.hpp) each state machine of the chip is, seen from its working state.
+#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/map.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+consteval const MachineInfo& machine(std::string_view name) {
+    for (const MachineInfo& each : map::machines)
+        if (each.name == name) return each;
+    throw "there is no state machine of this name";
+}
+/// The place of a state in its machine's table; a name that is not there does not compile.
+consteval int place(std::string_view machine_name, std::string_view name) {
+    const int index = state_index(machine(machine_name), name);
+    if (index < 0) throw "the state machine has no state of this name";
+    return index;
+}
+
+}  // namespace
+
+int Chip::drive_state(int a) const {
+    const Axis& axis = state_.axis[a];
+    const Generator& gen = state_.axis[bit(state_.chain, a) ? state_.master : a].gen;
+    if (driving(a)) {
+        if (tick_of(kernel_.now()) - gen.at < gen.wait) return place("drive", "starting");
+        return gen.final ? place("drive", "final") : place("drive", "driving");
+    }
+    if (axis.held_command != 0) return place("drive", "held");
+    return waits_for_position(a) ? place("drive", "in_position") : place("drive", "idle");
+}
+
+int Chip::queue_state() const {
+    if (state_.chain == 0) return place("continuous interpolation", "idle");
+    return state_.queued ? place("continuous interpolation", "queued") : place("continuous interpolation", "running");
+}
+
+int Chip::pattern_state() const {
+    if (state_.chain != 0 && state_.path.command.pattern() && state_.pattern.place < Pattern::length)
+        return place("bit pattern", "running");
+    return state_.pattern.place < Pattern::length ? place("bit pattern", "stopped") : place("bit pattern", "idle");
+}
+
+int Chip::stack_state() const {
+    return state_.pattern.stacked;
+}
+
+int Chip::step_state() const {
+    if (state_.chain == 0 || !by_steps(state_.master)) return place("single steps", "free");
+    return state_.stepping ? place("single steps", "stepping") : place("single steps", "waiting");
+}
+
+int Chip::wire_state(int a, int minus) const {
+    static constexpr int by_low_ticks[] = {place("drive by wire", "high"), place("drive by wire", "falling"),
+                                           place("drive by wire", "low")};
+    const Axis& axis = state_.axis[a];
+    return drives_by_wire(axis.wr3) ? by_low_ticks[axis.external_low[minus]] : place("drive by wire", "off");
+}
+
+}  // namespace motionrack::mcx314
