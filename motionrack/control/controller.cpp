@@ -8,7 +8,7 @@ namespace motionrack::control {
 namespace {
 
 PlannerSettings with_joints(PlannerSettings settings, const PathAxes& axes) {
-    settings.joints = axes.joint_rule();
+    settings.drive = axes.drive_rule();
     return settings;
 }
 

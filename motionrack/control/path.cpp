@@ -27,7 +27,7 @@ bool all_finite(const Move& move) {
 }  // namespace
 
 Planner::Planner(const MachineLimits& limits, const Point& start, PlannerSettings settings)
-    : limits_(limits), joints_(settings.joints), position_(start) {
+    : limits_(limits), drive_(settings.drive), position_(start) {
     const auto window = static_cast<std::uint64_t>(std::clamp(settings.window, 1, widest_window));
     chunk_ = std::max<std::uint64_t>(1, window / 4);
     batch_ = window + chunk_;
@@ -96,8 +96,8 @@ Result<void> Planner::push(const Move& move) {
     double joint = 0;
     if (tail_ != ready_) {
         joint = limits_.joint_squared(last_, last_along_.speed, path, along.speed, last_path_, last_tolerance_mm_);
-        if (joint > 0 && joints_) {
-            const double speed = joints_->joint_speed(last_, path);
+        if (joint > 0 && drive_) {
+            const double speed = drive_->joint_speed(last_, path);
             joint = std::min(joint, speed * speed);
         }
         if (joint == 0) flush();
@@ -127,7 +127,7 @@ void Planner::append(const Move& move, const Geometry& path, const AlongPath& al
     planned.length = path.length;
     planned.accel = along.accel;
     planned.jerk = along.jerk;
-    node(tail_) = {joint, 2 * along.accel * path.length, along.speed * along.speed, 0};
+    node(tail_) = {joint, 2 * along.accel * (path.length - (drive_ ? drive_->spent_length(path) : 0)), along.speed * along.speed, 0};
     ++tail_;
     position_ = move.end;
     last_ = path;

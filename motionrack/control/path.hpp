@@ -20,12 +20,14 @@
 
 namespace motionrack::control {
 
-/// What the hardware that drives the path asks of joints beside what the machine does.
-class JointRule {
+/// What the hardware that drives the path asks of it beside what the machine does.
+class DriveRule {
   public:
-    virtual ~JointRule() = default;
+    virtual ~DriveRule() = default;
     /// The greatest speed along the path at the joint of two moves, mm/s (degrees/s); infinity if there is no limit.
     virtual double joint_speed(const Geometry& before, const Geometry& after) const = 0;
+    /// The part of a move, mm (degrees), on which the hardware can neither speed up nor slow down; 0 .. its length.
+    virtual double spent_length(const Geometry& path) const = 0;
 };
 
 struct PlannerSettings {
@@ -33,7 +35,7 @@ struct PlannerSettings {
     /// 1'000'000.
     int window = 1024;
     /// May be null; must outlive the planner.
-    const JointRule* joints = nullptr;
+    const DriveRule* drive = nullptr;
 };
 
 /// Plans a path for a machine. Allocates only when it is made and for the text of an error.
@@ -84,7 +86,7 @@ class Planner {
     void forward(std::uint64_t until);
 
     PathLimits limits_;
-    const JointRule* joints_ = nullptr;
+    const DriveRule* drive_ = nullptr;
     std::vector<PlannedMove> slots_;
     std::vector<Node> nodes_;
     std::uint64_t mask_ = 0;

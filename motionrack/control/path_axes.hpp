@@ -30,7 +30,7 @@ class PathAxes {
     /// Prepares a new path from where the axes stand. Blocks count from 0 again.
     virtual Result<void> begin() = 0;
     /// What the card asks of joints; null: nothing.
-    virtual const JointRule* joint_rule() const { return nullptr; }
+    virtual const DriveRule* drive_rule() const { return nullptr; }
     /// Takes the next move; returns when the card has room for another one. Errors: Trouble::machine where the motion was stopped by a
     /// limit, an alarm or lost contact (nothing more is driven), Trouble::stopped where the user asked to stop.
     virtual Result<void> follow(const PlannedMove& move) = 0;

@@ -9,6 +9,8 @@ namespace motionrack::rack {
 
 namespace {
 constexpr std::size_t most_blocks = 20'000;
+// Pulses: a piece begins and ends at whole pulses of its own axis and of the one that leads it.
+constexpr double most_rounding = 2;
 }
 
 void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
@@ -32,7 +34,12 @@ void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
         follower += std::clamp(present - follower, -explained, explained);
         explained = 0;
     }
-    if (!ramp) ++jumps;
+    if (!ramp) {
+        ++jumps;
+        const double piece = std::max(to_seconds(now - piece_since), 1e-9);
+        rounding = std::max(pending ? rounding : 0, most_rounding / piece);
+        piece_since = now;
+    }
     present = rate;
     since = now;
     const double step = std::fabs(rate - good);
@@ -48,7 +55,7 @@ void Monitor::Ear::rate_changed(double before, double rate, Instant now) {
 
 void Monitor::Ear::settle() {
     if (!pending) return;
-    jump = std::max(jump, std::min(std::fabs(present - good), std::fabs(present - follower)));
+    jump = std::max(jump, std::min(std::fabs(present - good), std::fabs(present - follower)) - rounding);
     top = std::max(top, std::fabs(present));
     good = present;
     pending = false;

@@ -104,9 +104,11 @@ class Monitor final : public sim::Device {
         double follower = 0;   // the same, but following small jumps as fast as the acceleration limit lets it
         double present = 0;    // what the pulses have now
         double away = 0;       // pulses that `present` has led away from `good`
+        double rounding = 0;   // change that the whole pulses of the shortest piece since then, or before it, may make
         double explained = 0;  // change of the rate that the acceleration limit allows since the last jump
         bool pending = false;
         Instant since{};
+        Instant piece_since{};
         double top = 0;
         double jump = 0;
         double jump_hz = 1;

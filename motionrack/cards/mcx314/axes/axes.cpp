@@ -18,7 +18,6 @@ constexpr std::uint16_t wr1_drive_end = 0x8000;
 constexpr std::uint16_t wr2_software_limits = 0x0003;
 constexpr std::uint16_t wr2_limit_slows = 0x0004;
 constexpr std::uint16_t wr2_pulse_and_direction = 0x0040;
-constexpr std::int64_t no_deceleration_point = 268'435'455;
 constexpr Duration joint_timeout = whole_seconds(3600);
 
 }  // namespace
@@ -47,7 +46,7 @@ Result<void> Axes::set_up(const control::Point& position) {
 }
 
 /// At a joint the generator's rate goes on, but a basic pulse is another length of path on each side: the speed of every axis jumps by
-/// the difference, which its start speed must allow.
+/// the difference, which its start speed must allow. The first chord of an arc points a little beside the arc.
 double Axes::joint_speed(const control::Geometry& before, const control::Geometry& after) const {
     // An axis that is steered stands before it is interpolated, or the other way round: its registers are those of one drive only.
     const int steered = drawing_of(map_, before).companion;
@@ -58,12 +57,23 @@ double Axes::joint_speed(const control::Geometry& before, const control::Geometr
     const double a = basic_pulses_along(map_, drawing_of(map_, before), before.tangent_out);
     const double b = basic_pulses_along(map_, drawing_of(map_, after), after.tangent_in);
     constexpr double reserve = 0.95;  // for whole speed units
+    const double turn_before = turn_of_first_chord(map_, before), turn_after = turn_of_first_chord(map_, after);
     double speed = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < map_.channel.size(); ++i) {
-        const double jump = std::fabs(before.tangent_out[i] / a - after.tangent_in[i] / b) * std::min(a, b);
+        double jump = std::fabs(before.tangent_out[i] / a - after.tangent_in[i] / b) * std::min(a, b);
+        if (i == before.first || i == before.second) jump += turn_before;
+        if (i == after.first || i == after.second) jump += turn_after;
         if (map_.channel[i] >= 0 && jump > 1e-9) speed = std::min(speed, reserve * map_.limits[i].start_speed / jump);
     }
     return speed;
+}
+
+/// The speed changes at whole pulses, and the host writes it a little after the joint.
+double Axes::spent_length(const control::Geometry& path) const {
+    constexpr double pulses = 2;
+    const Drawing drawing = drawing_of(map_, path);
+    const double leading = std::min(basic_pulses_along(map_, drawing, path.tangent_in), basic_pulses_along(map_, drawing, path.tangent_out));
+    return std::min(path.length, pulses / leading);
 }
 
 Result<void> Axes::begin() {
@@ -96,15 +106,13 @@ Result<void> Axes::finish() {
 Result<void> Axes::play_ready(std::size_t keep) {
     while (segmenter_->ready() > keep) {
         const Segment segment = (*segmenter_)[0];
-        const Segment next = segmenter_->ready() > 1 ? (*segmenter_)[1] : Segment{};
-        const bool has_next = segmenter_->ready() > 1;
         segmenter_->pop();
-        MOTIONRACK_CHECK(play(segment, has_next ? &next : nullptr));
+        MOTIONRACK_CHECK(play(segment));
     }
     return {};
 }
 
-Result<void> Axes::play(const Segment& segment, const Segment* next) {
+Result<void> Axes::play(const Segment& segment) {
     if (driver_.interrupt().stop_requested()) return stopped_by_user();
     if (segment.kind == SegmentKind::pause) return play_pause(segment);
     ++segments_;
@@ -116,7 +124,7 @@ Result<void> Axes::play(const Segment& segment, const Segment* next) {
         MOTIONRACK_CHECK(wait_for_joint());
         MOTIONRACK_CHECK(write_speed(segment));
     }
-    MOTIONRACK_CHECK(begin_segment(segment, next));
+    MOTIONRACK_CHECK(begin_segment(segment));
     chain_running_ = !segment.ends_chain;
     return {};
 }
@@ -200,17 +208,16 @@ Result<void> Axes::write_speed(const Segment& segment) {
     return {};
 }
 
-Result<void> Axes::begin_segment(const Segment& segment, const Segment* next) {
+Result<void> Axes::begin_segment(const Segment& segment) {
     if (segment.block != last_block_) starts_.push_back({segment.block, segment.line, driver_.interrupt().now()});
     last_block_ = segment.block;
     current_line_ = segment.line;
     for (std::size_t i = 0; i < segment.axis_count; ++i) expected_[segment.axes[i]] += segment.moves[i];
-    if (segment.companion_channel >= 0) MOTIONRACK_CHECK(steer_companion(segment, next));
+    if (segment.companion_channel >= 0) MOTIONRACK_CHECK(steer_companion(segment));
     return {};
 }
 
-Result<void> Axes::wait_for_standstill() {
-    chain_running_ = false;
+Result<void> Axes::wait_until_all_stand() {
     while (true) {
         const MainStatus status = driver_.status();
         if (!status.driving(all_axes) && !status.interpolating()) break;
@@ -218,94 +225,19 @@ Result<void> Axes::wait_for_standstill() {
         if (driver_.interrupt().wait(joint_timeout)) clear_interrupts();
     }
     clear_interrupts();
-    companion_ = -1;
-    for (int c = 0; c < channel_count; ++c)
-        if (driver_.ReadLPS(c) != expected_[static_cast<std::size_t>(c)]) return stopped_by_machine();
     return {};
 }
 
-// ---- the fourth axis ------------------------------------------------------------------------------------------------------------
-
-/// About how long the segment takes: from the present speed to its own, then on.
-double Axes::segment_seconds(const Segment& segment) {
-    std::int64_t pulses = 0;
-    for (std::size_t i = 0; i < segment.axis_count; ++i)
-        pulses = std::max<std::int64_t>(pulses, segment.finish[i] < 0 ? -segment.finish[i] : segment.finish[i]);
-    const double length = static_cast<double>(pulses) * range_ / 8e6;  // in V units * seconds
-    const double v0 = std::max(1, driver_.ReadCV(generator_)), v1 = segment.speed, slope = 125.0 * segment.acceleration;
-    const double ramp = std::fabs(v1 - v0) / slope, ramp_length = ramp * (v0 + v1) / 2;
-    if (ramp_length <= length) return ramp + (length - ramp_length) / v1;
-    const double end = std::sqrt(std::max(1.0, v0 * v0 + (v1 > v0 ? 2 : -2) * slope * length));
-    return 2 * length / (v0 + end);
-}
-
-Result<void> Axes::steer_companion(const Segment& segment, const Segment* next) {
-    const int c = segment.companion_channel;
-    const std::int64_t at = driver_.ReadLPS(c);
-    if (companion_ != c) {
-        companion_ = c;
-        companion_target_ = at;
-        companion_from_ = at;
+Result<void> Axes::wait_for_standstill() {
+    chain_running_ = false;
+    MOTIONRACK_CHECK(wait_until_all_stand());
+    if (companion_ >= 0) {
+        MOTIONRACK_CHECK(finish_companion());
+        MOTIONRACK_CHECK(wait_until_all_stand());
     }
-    companion_target_ += segment.companion_pulses;
-    expected_[static_cast<std::size_t>(c)] = companion_target_;
-    const std::int64_t left = companion_target_ - at;
-    if (left == 0) return {};
-    // The next segment's pulses are promised too, so that it does not stop at the joint.
-    std::int64_t beyond = 0;
-    if (next && !next->starts_chain && next->companion_channel == c && (next->companion_pulses < 0) == (left < 0))
-        beyond = next->companion_pulses;
-    // Where these are few it must not come to their end before the joint, which it would not brake for.
-    const bool few = beyond != 0 && 3 * std::llabs(beyond) < std::llabs(left);
-    const double hertz = std::fabs(static_cast<double>(left)) / segment_seconds(segment) * (few ? 0.85 : 1);
-    double top = 8'000;
-    for (std::size_t i = 0; i < map_.channel.size(); ++i)
-        if (map_.channel[i] == c) top = std::min(top, map_.limits[i].max_speed * map_.limits[i].pulses_per_unit * range_ / 8e6);
-    const auto v = static_cast<std::int32_t>(std::clamp(std::floor(hertz * range_ / 8e6 + 0.5), 1.0, std::floor(top)));
-    const bool driving = driver_.status().driving(1u << c);
-    if (!driving || companion_negative_ != (left < 0)) {
-        std::int64_t from = at;
-        if (driving) {  // it ends its way in the other direction first
-            MOTIONRACK_CHECK(driver_.wait_until_stopped(1u << c, whole_seconds(1)));
-            from = driver_.ReadLPS(c);
-        }
-        companion_from_ = from;
-        companion_negative_ = left < 0;
-        return start_companion(c, companion_target_ - from + beyond, v, beyond == 0);
-    }
-    const std::int64_t pulses = companion_target_ + beyond - companion_from_;
-    MOTIONRACK_CHECK(driver_.Pulse(1u << c, pulses));
-    MOTIONRACK_CHECK(driver_.SetDecPoint(1u << c, companion_fall_from(pulses, v, beyond == 0)));
-    return driver_.SetV(1u << c, v);
-}
-
-/// The pulse from which the companion's speed falls to its start speed, if its drive ends with this segment.
-std::int64_t Axes::companion_fall_from(std::int64_t pulses, std::int32_t v, bool ends) const {
-    if (!ends || v <= companion_start_speed_) return no_deceleration_point;
-    const double top = v, low = companion_start_speed_;
-    const double phase = 64'000.0 / companion_acceleration_ * (top * (top + 1) - low * (low + 1)) / 2;
-    return std::max<std::int64_t>(0, (pulses < 0 ? -pulses : pulses) - static_cast<std::int64_t>(phase / range_) - 2);
-}
-
-Result<void> Axes::start_companion(int channel, std::int64_t pulses, std::int32_t v, bool ends) {
-    const unsigned axis = 1u << channel;
-    double acceleration = 8'000, start = 1;
-    for (std::size_t i = 0; i < map_.channel.size(); ++i) {
-        if (map_.channel[i] != channel) continue;
-        const control::AxisLimits& limits = map_.limits[i];
-        acceleration = limits.max_accel * limits.pulses_per_unit * range_ / 8e6 / 125;
-        start = 0.5 * limits.start_speed * limits.pulses_per_unit * range_ / 8e6;
-    }
-    MOTIONRACK_CHECK(driver_.WriteRange(axis, range_));
-    companion_start_speed_ = static_cast<std::int32_t>(std::clamp(std::floor(start), 1.0, 8'000.0));
-    companion_acceleration_ = static_cast<std::int32_t>(std::clamp(std::floor(acceleration), 1.0, 8'000.0));
-    MOTIONRACK_CHECK(driver_.SetSV(axis, companion_start_speed_));
-    MOTIONRACK_CHECK(driver_.SetA(axis, companion_acceleration_));
-    MOTIONRACK_CHECK(driver_.SetV(axis, v));
-    driver_.SetSCurve(axis, false);
-    MOTIONRACK_CHECK(driver_.ManualDec(axis, companion_fall_from(pulses, v, ends)));
-    MOTIONRACK_CHECK(driver_.Pulse(axis, pulses));
-    driver_.Drive(axis, pulses < 0);
+    companion_ = -1;
+    for (int c = 0; c < channel_count; ++c)
+        if (driver_.ReadLPS(c) != expected_[static_cast<std::size_t>(c)]) return stopped_by_machine();
     return {};
 }
 

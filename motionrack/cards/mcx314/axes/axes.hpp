@@ -14,7 +14,7 @@
 
 namespace motionrack::mcx314 {
 
-class Axes final : public control::PathAxes, private control::JointRule {
+class Axes final : public control::PathAxes, private control::DriveRule {
   public:
     /// Part of each axis' acceleration that the planner must keep back, because the chip's speeds and accelerations are whole numbers.
     static constexpr double kept_back = 0.03;
@@ -29,7 +29,7 @@ class Axes final : public control::PathAxes, private control::JointRule {
     Result<void> begin() override;
     Result<void> follow(const control::PlannedMove& move) override;
     Result<void> finish() override;
-    const control::JointRule* joint_rule() const override { return this; }
+    const control::DriveRule* drive_rule() const override { return this; }
     void stop(bool immediate) override;
     control::Point commanded_position() override;
     std::vector<control::PathNote> take_notes() override;
@@ -42,8 +42,9 @@ class Axes final : public control::PathAxes, private control::JointRule {
 
   private:
     double joint_speed(const control::Geometry& before, const control::Geometry& after) const override;
+    double spent_length(const control::Geometry& path) const override;
     Result<void> play_ready(std::size_t keep);
-    Result<void> play(const Segment& segment, const Segment* next);
+    Result<void> play(const Segment& segment);
     Result<void> play_pause(const Segment& segment);
     Result<void> start_chain(const Segment& segment);
     Result<void> queue(const Segment& segment);
@@ -51,10 +52,13 @@ class Axes final : public control::PathAxes, private control::JointRule {
     Result<void> wait_for_standstill();
     Result<void> write_speed(const Segment& segment);
     Result<void> command(const Segment& segment);
-    Result<void> begin_segment(const Segment& segment, const Segment* next);
-    Result<void> steer_companion(const Segment& segment, const Segment* next);
-    Result<void> start_companion(int channel, std::int64_t pulses, std::int32_t v, bool ends);
-    std::int64_t companion_fall_from(std::int64_t pulses, std::int32_t v, bool ends) const;
+    Result<void> begin_segment(const Segment& segment);
+    Result<void> wait_until_all_stand();
+    Result<void> take_companion(int channel, std::int64_t at);
+    Result<void> steer_companion(const Segment& segment);
+    Result<void> drive_companion(std::int64_t from, std::int64_t to, std::int32_t v);
+    Result<void> finish_companion();
+    std::int64_t companion_fall_from(std::int64_t pulses, std::int32_t v) const;
     double segment_seconds(const Segment& segment);
     tl::unexpected<Error> stopped_by_machine();
     tl::unexpected<Error> stopped_by_user();
@@ -78,11 +82,13 @@ class Axes final : public control::PathAxes, private control::JointRule {
     std::int64_t segments_ = 0;
     // The companion's present drive.
     int companion_ = -1;
-    std::int32_t companion_start_speed_ = 1;   ///< SV and A it drives with
+    std::int32_t companion_start_speed_ = 1;   ///< SV, A and the greatest V that it drives with
     std::int32_t companion_acceleration_ = 1;
+    std::int32_t companion_top_speed_ = 1;
     bool companion_negative_ = false;
-    std::int64_t companion_from_ = 0;    ///< its counter where the drive began
-    std::int64_t companion_target_ = 0;  ///< where it should be at the end of the present segment
+    std::int64_t companion_from_ = 0;       ///< its counter where the drive began
+    std::int64_t companion_target_ = 0;     ///< where it should be at the end of the present segment
+    std::int64_t companion_brakes_at_ = 0;  ///< pulse of the drive
 };
 
 }  // namespace motionrack::mcx314

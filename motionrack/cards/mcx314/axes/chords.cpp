@@ -13,26 +13,38 @@ namespace {
 constexpr double companion_share = 0.3;
 // Part of an axis' start speed that its speed jumps by from chord to chord of an arc, as long as the chords have so
 // many pulses.
-constexpr double joint_share = 0.75, shortest_chord = 16;
+constexpr double joint_share = 0.7, shortest_chord = 16, greatest_angle = 0.5;
 
 double squared(double x) {
     return x * x;
 }
 
+/// The middle of a chord is r (1 - cos(angle / 2)) inside the arc: angle = sqrt(8 tolerance / r).
+double tolerated_angle(const AxisMap& map, double radius) {
+    return std::min(greatest_angle, std::sqrt(8 * map.arc_tolerance_mm / radius));
+}
+
+double shortest_angle(const AxisMap& map, const control::Geometry& arc) {
+    const double scale = std::max(map.limits[arc.first].pulses_per_unit, map.limits[arc.second].pulses_per_unit);
+    return std::min(greatest_angle, shortest_chord / scale / arc.radius);
+}
+
 }  // namespace
+
+double turn_of_first_chord(const AxisMap& map, const control::Geometry& path) {
+    if (path.shape != control::PathShape::arc || drawing_of(map, path).constant_vector) return 0;
+    return std::max(tolerated_angle(map, path.radius), shortest_angle(map, path)) / 2;
+}
 
 void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
     const bool arc = work.path.shape == control::PathShape::arc;
     double count = 1, deviation = 0;
     if (arc) {
-        // The middle of a chord is r (1 - cos(angle / 2)) inside the arc: angle = sqrt(8 tolerance / r), cut into equal
-        // parts. From chord to chord the axes' speeds jump by speed * angle, too.
-        const control::AxisLimits &a = map_.limits[work.path.first], &b = map_.limits[work.path.second];
-        const double jump = joint_share * std::min(a.start_speed, b.start_speed);
-        const double angle =
-            std::min({0.5, std::sqrt(8 * map_.arc_tolerance_mm / work.path.radius), jump / work.move.cruise});
-        const double shortest = shortest_chord / std::max(a.pulses_per_unit, b.pulses_per_unit) / work.path.radius;
-        count = std::ceil(std::fabs(work.path.sweep) / std::max(angle, std::min(0.5, shortest)));
+        // From chord to chord the axes' speeds jump by speed * angle.
+        const double jump =
+            joint_share * std::min(map_.limits[work.path.first].start_speed, map_.limits[work.path.second].start_speed);
+        const double angle = std::min(tolerated_angle(map_, work.path.radius), jump / work.move.cruise);
+        count = std::ceil(std::fabs(work.path.sweep) / std::max(angle, shortest_angle(map_, work.path)));
         const double half = std::fabs(work.path.sweep) / count / 2;
         deviation = work.path.radius * (1 - sin_cos(half).cos);
     } else {
@@ -77,16 +89,21 @@ void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
     chords.back().v = std::min<double>(chords.back().v, speeds.exit);
     for (std::size_t i = chords.size() - 1; i > 0; --i) {
         const Chord& after = chords[i];
+        Pulses4 way = {};
         std::int64_t pulses = 0;
-        for (std::size_t c = 0; c < after.at.size(); ++c)
-            if (static_cast<int>(c) != work.companion)
-                pulses = std::max<std::int64_t>(pulses, std::llabs(after.at[c] - chords[i - 1].at[c]));
+        for (std::size_t c = 0; c < way.size(); ++c) {
+            if (static_cast<int>(c) == work.companion) continue;
+            way[c] = after.at[c] - chords[i - 1].at[c];
+            pulses = std::max<std::int64_t>(pulses, std::llabs(way[c]));
+        }
         const double share = work.companion >= 0 ? companion_share : 1;
         // V units squared; less the steps of whole units and the register accesses before the new speed counts.
         const double slope = 125.0 * after.acceleration * share,
                      spent = latency_seconds_ + 64'000.0 / after.acceleration / 8e6 * 2;
         const double room = std::max(0.0, (static_cast<double>(pulses) - 2) / pulses_per_v_ - spent * chords[i - 1].v);
-        chords[i - 1].v = std::min(chords[i - 1].v, std::floor(std::sqrt(squared(after.v) + 2 * slope * room)));
+        // It begins with the speed of the chord before it.
+        const double most = most_on(way, work.constant_vector).speed;
+        chords[i - 1].v = std::min({chords[i - 1].v, most, std::floor(std::sqrt(squared(after.v) + 2 * slope * room))});
     }
     for (const Chord& chord : chords)
         emit_line(work, chord.at, std::max(static_cast<std::int32_t>(chord.v), std::min(speeds.exit, speeds.top)),

@@ -32,6 +32,9 @@ struct Drawing {
 Drawing drawing_of(const AxisMap& map, const control::Geometry& path);
 double basic_pulses_along(const AxisMap& map, const Drawing& drawing, const control::Point& tangent);
 
+/// Radians between an arc's tangent at its ends and the first or last of the chords that it is drawn with, at most; 0: not with chords.
+double turn_of_first_chord(const AxisMap& map, const control::Geometry& path);
+
 /// An arc of less than a turn, wanted from the chip: absolute pulses of two axes with the same length of a pulse.
 struct ArcRequest {
     std::array<std::int64_t, 2> start = {};

@@ -150,7 +150,13 @@ void Segmenter::close_chain() {
 
 void Segmenter::emit_straight(const Work& work, const Speeds& speeds) {
     if (work.companion >= 0) return emit_chords(work, speeds);
-    if (speeds.fall_from > 0) emit_line(work, pulses_at(work, speeds.fall_from), speeds.top, speeds.acceleration);
+    if (speeds.fall_from > 0) {
+        const Pulses4 middle = pulses_at(work, speeds.fall_from);
+        Pulses4 fall = {};
+        for (std::size_t c = 0; c < fall.size(); ++c) fall[c] = work.to[c] - middle[c];
+        // The fall begins with the speed of the piece before it.
+        emit_line(work, middle, std::min(speeds.top, most_on(fall, work.constant_vector).speed), speeds.acceleration);
+    }
     emit_line(work, work.to, speeds.exit, speeds.acceleration);
 }
 
@@ -256,7 +262,9 @@ void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, s
         longest = std::max(longest, delta < 0 ? -delta : delta);
     }
     if (count == 0) return;  // less than half a pulse; a companion's pulses stay for the next piece
-    if (count > 3) {  // a pulse or two that an arc left beside its end: they wait for a piece with room, at the latest for the standstill
+    // A pulse or two that an arc left beside its end wait for a piece with room, at the latest for the standstill. Beside two axes
+    // with constant vector speed is no room: with a third axis a basic pulse would be another length of path.
+    if (count > (work.constant_vector ? 2 : 3)) {
         int least = 0;
         auto size = [&](int i) { return std::llabs(to[static_cast<std::size_t>(moving[static_cast<std::size_t>(i)])] - at_[static_cast<std::size_t>(moving[static_cast<std::size_t>(i)])]); };
         for (int i = 1; i < count; ++i)
@@ -291,26 +299,33 @@ void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, s
     segment.moves = segment.finish;
     segment.speed = v;
     segment.acceleration = acceleration;
-    keep_limits(segment);
+    Pulses4 way = {};
+    for (std::size_t i = 0; i < segment.axis_count; ++i) way[segment.axes[i]] = segment.finish[i];
+    const Most most = most_on(way, segment.constant_vector);
+    segment.speed = std::min(segment.speed, most.speed);
+    segment.acceleration = std::min(segment.acceleration, most.acceleration);
     append(segment, work, to);
 }
 
-/// No axis of a line passes its limits: in a short line rounding gives it more than its share.
-void Segmenter::keep_limits(Segment& line) const {
-    double longest = 0, second = 0;
-    for (const std::int32_t pulses : line.finish) {
-        second = std::max(second, std::min<double>(longest, std::abs(pulses)));
-        longest = std::max<double>(longest, std::abs(pulses));
+/// The most that no axis' limits are passed with on this way: in a short line rounding gives an axis more than its share.
+Segmenter::Most Segmenter::most_on(const Pulses4& way, bool constant_vector) const {
+    double basic = 0, second = 0;
+    for (const std::int64_t pulses : way) {
+        const auto size = static_cast<double>(std::llabs(pulses));
+        second = std::max(second, std::min(basic, size));
+        basic = std::max(basic, size);
     }
-    if (line.constant_vector) longest += both_axes_extra * second;
-    for (std::size_t i = 0; i < map_.channel.size(); ++i)
-        for (std::size_t k = 0; k < line.axis_count; ++k) {
-            if (map_.channel[i] != line.axes[k] || line.finish[k] == 0) continue;
-            const double units = map_.limits[i].pulses_per_unit * longest / std::abs(line.finish[k]) / pulses_per_v_;
-            auto at_most = [](double value) { return static_cast<std::int32_t>(std::clamp(std::floor(value), 1.0, 8'000.0)); };
-            line.speed = std::min(line.speed, at_most(map_.limits[i].max_speed * units));
-            line.acceleration = std::min(line.acceleration, at_most(map_.limits[i].max_accel * units / 125));
-        }
+    if (constant_vector) basic += both_axes_extra * second;
+    Most most;
+    for (std::size_t i = 0; i < map_.channel.size(); ++i) {
+        if (map_.channel[i] < 0 || way[static_cast<std::size_t>(map_.channel[i])] == 0) continue;
+        const auto own = static_cast<double>(std::llabs(way[static_cast<std::size_t>(map_.channel[i])]));
+        const double units = map_.limits[i].pulses_per_unit * basic / own / pulses_per_v_;
+        auto at_most = [](double value) { return static_cast<std::int32_t>(std::clamp(std::floor(value), 1.0, 8'000.0)); };
+        most.speed = std::min(most.speed, at_most(map_.limits[i].max_speed * units));
+        most.acceleration = std::min(most.acceleration, at_most(map_.limits[i].max_accel * units / 125));
+    }
+    return most;
 }
 
 void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
@@ -329,6 +344,19 @@ void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
     }
     at_ = to;
     ready_.push_back(segment);
+}
+
+std::int64_t Segmenter::companion_pulses_ahead(int channel, int direction) const {
+    std::int64_t sum = 0;
+    for (const Segment& segment : ready_) {
+        if (segment.starts_chain || segment.companion_channel != channel || segment.companion_pulses * direction < 0) return sum;
+        sum += segment.companion_pulses;
+        if (segment.ends_chain) return sum;
+    }
+    if (!chain_open_ || !waiting_ || waiting_->companion != channel) return sum;
+    const auto c = static_cast<std::size_t>(channel);
+    const std::int64_t last = waiting_->to[c] - at_[c];
+    return last * direction < 0 ? sum : sum + last;
 }
 
 void Segmenter::note_split(const Work& work, const char* why, double deviation_mm) {

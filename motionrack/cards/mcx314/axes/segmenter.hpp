@@ -35,6 +35,10 @@ class Segmenter {
     const Segment& operator[](std::size_t i) const { return ready_[i]; }
     void pop() { ready_.pop_front(); }
 
+    /// Pulses that this channel's companion has before it in the present chain, as far as they are known and go on in one direction:
+    /// 1 or -1.
+    std::int64_t companion_pulses_ahead(int channel, int direction) const;
+
     /// Notes since the last call, oldest first.
     std::vector<control::PathNote> take_notes() { return std::exchange(notes_, {}); }
 
@@ -63,6 +67,12 @@ class Segmenter {
         std::int32_t acceleration = 1;
     };
 
+    /// In V and A units.
+    struct Most {
+        std::int32_t speed = 8'000;
+        std::int32_t acceleration = 8'000;
+    };
+
     Work classify(const control::PlannedMove& move);
     void emit(const Work& work, std::optional<double> next_units);
     void emit_pause(const Work& work);
@@ -80,7 +90,7 @@ class Segmenter {
     double fall_length(double units, const Speeds& speeds) const;
     std::int32_t speed_units(double units, double speed) const;
     std::int32_t acceleration_units(double units, double acceleration) const;
-    void keep_limits(Segment& line) const;
+    Most most_on(const Pulses4& way, bool constant_vector) const;
     double start_speed(const control::Point& tangent) const;
 
     AxisMap map_;

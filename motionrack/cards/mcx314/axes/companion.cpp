@@ -1,0 +1,106 @@
+// The fourth axis: steered on its own speed generator beside three interpolated ones.
+//
+//   speed      ___   ____                 one V a segment, so that it is where it should be at the segment's end
+//          ___/   \_/    \__              pulses: all that are known; from `brakes at` on the chip falls to SV by itself
+//        |  1  | 2 | 3 |  4 |
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <motionrack/cards/mcx314/axes/axes.hpp>
+
+namespace motionrack::mcx314 {
+
+/// Sets a channel up as the companion; it stands.
+Result<void> Axes::take_companion(int channel, std::int64_t at) {
+    companion_ = channel;
+    companion_target_ = companion_from_ = at;
+    double acceleration = 8'000, start = 1, top = 8'000;
+    for (std::size_t i = 0; i < map_.channel.size(); ++i) {
+        if (map_.channel[i] != channel) continue;
+        const control::AxisLimits& limits = map_.limits[i];
+        const double units = limits.pulses_per_unit * range_ / 8e6;
+        acceleration = limits.max_accel * units / 125;
+        start = 0.5 * limits.start_speed * units;
+        top = limits.max_speed * units;
+    }
+    auto whole = [](double x) { return static_cast<std::int32_t>(std::clamp(std::floor(x), 1.0, 8'000.0)); };
+    companion_start_speed_ = whole(start);
+    companion_acceleration_ = whole(acceleration);
+    companion_top_speed_ = whole(top);
+    const unsigned axis = 1u << channel;
+    MOTIONRACK_CHECK(driver_.WriteRange(axis, range_));
+    MOTIONRACK_CHECK(driver_.SetSV(axis, companion_start_speed_));
+    MOTIONRACK_CHECK(driver_.SetA(axis, companion_acceleration_));
+    driver_.SetSCurve(axis, false);
+    return {};
+}
+
+/// About how long the segment takes: from the present speed to its own, then on.
+double Axes::segment_seconds(const Segment& segment) {
+    std::int64_t pulses = 0;
+    for (std::size_t i = 0; i < segment.axis_count; ++i)
+        pulses = std::max<std::int64_t>(pulses, segment.finish[i] < 0 ? -segment.finish[i] : segment.finish[i]);
+    const double length = static_cast<double>(pulses) * range_ / 8e6;  // in V units * seconds
+    const double v0 = std::max(1, driver_.ReadCV(generator_)), v1 = segment.speed, slope = 125.0 * segment.acceleration;
+    const double ramp = std::fabs(v1 - v0) / slope, ramp_length = ramp * (v0 + v1) / 2;
+    if (ramp_length <= length) return ramp + (length - ramp_length) / v1;
+    const double end = std::sqrt(std::max(1.0, v0 * v0 + (v1 > v0 ? 2 : -2) * slope * length));
+    return 2 * length / (v0 + end);
+}
+
+Result<void> Axes::steer_companion(const Segment& segment) {
+    const int c = segment.companion_channel;
+    const std::int64_t at = driver_.ReadLPS(c);
+    if (companion_ != c) MOTIONRACK_CHECK(take_companion(c, at));
+    companion_target_ += segment.companion_pulses;
+    expected_[static_cast<std::size_t>(c)] = companion_target_;
+    const bool driving = driver_.status().driving(1u << c);
+    const std::int64_t left = companion_target_ - at;
+    if (!driving && left != 0) companion_negative_ = left < 0;  // it turns round only at a standstill
+    const int direction = companion_negative_ ? -1 : 1;
+    const std::int64_t goal = companion_target_ + segmenter_->companion_pulses_ahead(c, direction);
+    if (direction * (goal - at) <= 0) return {};
+    const double hertz = std::max(0.0, static_cast<double>(direction * left)) / segment_seconds(segment);
+    const auto v = static_cast<std::int32_t>(std::clamp(std::floor(hertz * range_ / 8e6 + 0.5), 1.0, double{companion_top_speed_}));
+    if (!driving) return drive_companion(at, goal, v);
+    // Once it brakes it goes on to the end that it had; what is left is driven from there.
+    if (std::llabs(at - companion_from_) >= companion_brakes_at_) return {};
+    const std::int64_t pulses = goal - companion_from_;
+    companion_brakes_at_ = companion_fall_from(pulses, v);
+    MOTIONRACK_CHECK(driver_.Pulse(1u << c, pulses));
+    MOTIONRACK_CHECK(driver_.SetDecPoint(1u << c, companion_brakes_at_));
+    return driver_.SetV(1u << c, v);
+}
+
+/// The pulse from which its speed must fall to have the start speed at the end.
+std::int64_t Axes::companion_fall_from(std::int64_t pulses, std::int32_t v) const {
+    const std::int64_t all = std::llabs(pulses);
+    if (v <= companion_start_speed_) return all;
+    const double top = v, low = companion_start_speed_;
+    const double phase = 64'000.0 / companion_acceleration_ * (top * (top + 1) - low * (low + 1)) / 2;
+    return std::max<std::int64_t>(0, all - static_cast<std::int64_t>(phase / range_) - 2);
+}
+
+/// From where it stands.
+Result<void> Axes::drive_companion(std::int64_t from, std::int64_t to, std::int32_t v) {
+    const unsigned axis = 1u << companion_;
+    const std::int64_t pulses = to - from;
+    if (pulses == 0) return {};
+    companion_from_ = from;
+    companion_negative_ = pulses < 0;
+    companion_brakes_at_ = companion_fall_from(pulses, v);
+    MOTIONRACK_CHECK(driver_.SetV(axis, v));
+    MOTIONRACK_CHECK(driver_.ManualDec(axis, companion_brakes_at_));
+    MOTIONRACK_CHECK(driver_.Pulse(axis, pulses));
+    driver_.Drive(axis, companion_negative_);
+    return {};
+}
+
+/// The others stand and it does: what it still lacks.
+Result<void> Axes::finish_companion() {
+    const std::int64_t at = driver_.ReadLPS(companion_);
+    if (driver_.status().error(1u << companion_)) return {};
+    return drive_companion(at, expected_[static_cast<std::size_t>(companion_)], companion_start_speed_);
+}
+
+}  // namespace motionrack::mcx314

@@ -1,0 +1,56 @@
+// A part program on the router, and what every job must keep to.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <motionrack/rack/job.hpp>
+#include <motionrack/rack/template.hpp>
+#include <string>
+
+namespace motionrack::rack {
+
+inline RackConfig router() { return *read_rack_text(*rack_template("router")).config; }
+
+inline control::gcode::Settings reader_of(const RackConfig& config) {
+    control::gcode::Settings settings;
+    settings.limits = config.limits();
+    for (const RackAxis& axis : config.axes) settings.start[static_cast<std::size_t>(axis.index())] = axis.start_position;
+    return settings;
+}
+
+struct Done {
+    JobOutcome outcome;
+    std::uint64_t state_hash = 0;
+};
+
+inline Done drive(const RackConfig& config, const std::string& program, const std::atomic<bool>* stop = nullptr) {
+    Rack rack(config);
+    JobSettings settings;
+    settings.program = program;
+    settings.program_name = "test";
+    settings.stop = stop;
+    Job job(rack, settings);
+    rack.start();
+    Done done;
+    done.outcome = job.run();
+    done.state_hash = rack.kernel().state_hash();
+    return done;
+}
+
+/// `jump`: times the start speed that an axis' speed may change by at once; 0: not looked at, where pieces are so short that a pulse
+/// more or less in one is itself a jump of its mean rate.
+inline void expect_exact(const JobOutcome& outcome, double jump = 1.15) {
+    ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();
+    EXPECT_TRUE(outcome.position_trusted);
+    for (const AxisOutcome& axis : outcome.axes) {
+        EXPECT_EQ(axis.pulses_net, axis.pulse_position - axis.pulse_start) << axis.index;
+        EXPECT_EQ(axis.counts_read, axis.counts_expected) << axis.index;
+        EXPECT_EQ(axis.lost_pulses, 0) << axis.index;
+        EXPECT_LE(axis.top.top_speed, axis.limits.max_speed * 1.001) << axis.index;
+        // What four samples can tell: one speed step of the chip more or less.
+        EXPECT_LE(axis.top.top_accel, axis.limits.max_accel * 1.02) << axis.index;
+        if (jump > 0) EXPECT_LE(axis.top.top_jump, axis.limits.start_speed * jump) << axis.index;
+    }
+}
+
+}  // namespace motionrack::rack
