@@ -10,7 +10,7 @@ using enum PinDirection;
 
 // ---- mcx314 -----------------------------------------------------------------------------------------------------
 
-constexpr std::array<PinType, 22> mcx314_channel_pins = {{
+constexpr std::array<PinType, 23> mcx314_channel_pins = {{
     {"pp", output, "pulse (one-pulse mode), or pulses in the + direction"},
     {"pm", output, "direction (one-pulse mode), or pulses in the - direction"},
     {"eca", input, "encoder A"},
@@ -25,6 +25,7 @@ constexpr std::array<PinType, 22> mcx314_channel_pins = {{
     {"inpos", input, "in position, from the motor's drive"},
     {"expp", input, "external operation +"},
     {"expm", input, "external operation -"},
+    {"drive", output, "high while the axis drives; of an mcx314as also the deviation counter clear pulse"},
     {"out0", output, "general output 0"},
     {"out1", output, "general output 1"},
     {"out2", output, "general output 2"},
@@ -52,9 +53,14 @@ constexpr std::array<DefaultWire, 8> mcx314_wires = {{
     {"lmtm", "limit_minus"},
 }};
 
+constexpr std::array<std::string_view, 2> mcx314_variants = {"mcx314", "mcx314as"};
 constexpr std::array<std::string_view, 2> bus_widths = {"16-bit", "8-bit"};
 
-constexpr std::array<Field, 3> mcx314_settings = {
+constexpr std::array<Field, 4> mcx314_settings = {
+    with_choices(field<&Mcx314Settings::variant>("variant", 0, 0, "",
+                                                 "the chip: the original, or the one with filters, automatic home "
+                                                 "search, synchronous actions and wide ranges"),
+                 mcx314_variants),
     field<&Mcx314Settings::clock_hz>("clock_hz", 16'000'000, 16'000'000, "Hz",
                                      "the chip's clock; the model knows the documented one"),
     with_choices(field<&Mcx314Settings::bus>("bus", 0, 0, "", "how wide the host's bus is"), bus_widths),

@@ -23,7 +23,7 @@ class Mcx314Card final : public Card {
           narrow_(config.mcx314.bus == BusWidth::bits8),
           byte_access_(nanoseconds(config.mcx314.bus_access_ns)),
           access_(narrow_ ? 2 * byte_access_ : byte_access_),
-          chip_(kernel, config.name),
+          chip_(kernel, config.name, {variant_of(config.mcx314)}),
           port_(kernel, registers_on_bus(), chip_.id(), chip_.interrupt_wire(), access_, &log),
           driver_(port_, port_) {}
 
@@ -75,6 +75,9 @@ class Mcx314Card final : public Card {
     std::string describe(const sim::Condition& condition) const override { return mcx314::describe(condition, name_); }
 
   private:
+    static mcx314::Variant variant_of(const Mcx314Settings& settings) {
+        return settings.variant == Mcx314Variant::mcx314as ? mcx314::Variant::mcx314as : mcx314::Variant::mcx314;
+    }
     mcx314::AxisMap axis_map(const RackConfig& config) const {
         mcx314::AxisMap map;
         map.limits = config.limits();

@@ -21,9 +21,12 @@ namespace motionrack::rack {
 
 /// How wide a card's bus is.
 enum class BusWidth : std::uint8_t { bits16, bits8 };
+/// The two chips that a card of type mcx314 may have.
+enum class Mcx314Variant : std::uint8_t { mcx314, mcx314as };
 
 /// Settings of a card of type mcx314.
 struct Mcx314Settings {
+    Mcx314Variant variant = Mcx314Variant::mcx314;
     std::int64_t clock_hz = 16'000'000;  ///< only this: the model's tick is 125 ns
     BusWidth bus = BusWidth::bits16;     ///< on 8 bits a register takes two accesses
     std::int64_t bus_access_ns = 250;    ///< 0 .. 100,000 ns for an access

@@ -26,10 +26,15 @@ constexpr std::int64_t signed24(std::uint32_t v) {
     return static_cast<std::int64_t>((v & 0xFF'FFFFu) ^ 0x80'0000u) - 0x80'0000;
 }
 
+/// 32-bit two's complement within +-2,147,483,646, as the MCX314As reads them.
+constexpr std::int64_t limited32(std::uint32_t v) {
+    return std::clamp<std::int64_t>(static_cast<std::int32_t>(v), -2'147'483'646, 2'147'483'646);
+}
+
 constexpr std::int64_t magnitude(std::int64_t x) { return x < 0 ? -x : x; }
 constexpr std::int64_t ceil_div(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }  // a >= 0, b > 0
 
-/// Greatest s with s * s <= v, v < 2^62.
+/// Greatest s with s * s <= v, v < 2^63 - 2^33.
 inline std::int64_t isqrt(std::int64_t v) {
     auto s = static_cast<std::int64_t>(std::sqrt(static_cast<double>(v)));
     while (s * s > v) --s;
@@ -38,18 +43,26 @@ inline std::int64_t isqrt(std::int64_t v) {
 }
 
 /// The integer nearest to sqrt(q); 0 for q <= 0.
-inline std::int64_t near(std::int64_t q) { return q <= 0 ? 0 : (isqrt(4 * q) + 1) / 2; }
+inline std::int64_t near(std::int64_t q) {
+    if (q <= 0) return 0;
+    const std::int64_t m = isqrt(q);
+    return q - m * m > m ? m + 1 : m;  // beyond (m + 1/2)^2
+}
 
 // ---- lines --------------------------------------------------------------------------------------------------------------------
 
-/// Pulses of an axis with |P| = `p` after `n` basic pulses of a line whose longest axis has `longest` (> 0).
+/// Pulses of an axis with |P| = `p` after `n` basic pulses of a line whose longest axis has `longest` (> 0); n * p is
+/// below 2^63 with all that the chip takes.
 constexpr std::int64_t line_steps(std::int64_t n, std::int64_t p, std::int64_t longest) {
-    return (2 * n * p + longest) / (2 * longest);
+    const std::int64_t done = n * p / longest, rest = n * p - done * longest;
+    return 2 * rest >= longest ? done + 1 : done;
 }
 
 /// The basic pulse at which that axis makes its pulse number `steps` (>= 1, <= p).
 constexpr std::int64_t line_pulse_of_step(std::int64_t steps, std::int64_t p, std::int64_t longest) {
-    return ceil_div((2 * steps - 1) * longest, 2 * p);
+    const auto way = static_cast<std::uint64_t>(2 * steps - 1) * static_cast<std::uint64_t>(longest);
+    const auto twice = static_cast<std::uint64_t>(2 * p);
+    return static_cast<std::int64_t>((way + twice - 1) / twice);
 }
 
 // ---- arcs ---------------------------------------------------------------------------------------------------------------------
@@ -105,7 +118,7 @@ struct Arc {
     std::int32_t finished = 1;
     std::int32_t reserved = 0;  ///< no padding in a state that is compared by its bytes
 
-    /// Centre and finish point relative to the start, 24-bit range.
+    /// Centre and finish point relative to the start, each coordinate within +-2,147,483,646.
     void begin(std::int64_t cx, std::int64_t cy, std::int64_t fx, std::int64_t fy, bool cw) {
         clockwise = cw;
         const std::int64_t mirror = cw ? -1 : 1;

@@ -190,6 +190,12 @@ inline constexpr MachineInfo machines[] = {
      stack_transitions},
     {"single steps", "basic pulses on request; RESET leads from every state to free", step_states, step_transitions},
     {"drive by wire", "each of nEXPP and nEXPM; RESET leads from every state to off", wire_states, wire_transitions},
+    {"home search", "MCX314As: one axis' automatic home search; RESET and stops lead from every state to idle",
+     home_states, home_transitions},
+    {"input filter", "MCX314As: one filtered input; 60h without its FE bit and RESET lead to same", filter_states,
+     filter_transitions},
+    {"deviation counter clear", "MCX314As: the clear pulse of one axis", clear_states, clear_transitions},
+    {"synchronous action", "MCX314As: one axis' conditions", action_states, action_transitions},
 };
 static_assert(declared<machines_flaw(machines)>());
 
@@ -207,8 +213,9 @@ inline constexpr PinInfo pins[] = {
     {"*lmtm", in, true, "- limit switch, level by WR2"},
     {"*alarm", in, true, "alarm of the drive, level by WR2"},
     {"*inpos", in, true, "in-position of the drive, level by WR2"},
-    {"*expp", in, true, "drives in + direction where EXOP says so"},
-    {"*expm", in, true, "drives in - direction where EXOP says so"},
+    {"*expp", in, true, "drives in + direction where EXOP says so, or a hand wheel's line A"},
+    {"*expm", in, true, "drives in - direction where EXOP says so, or a hand wheel's line B"},
+    {"*drive", out, false, "High while the axis drives; MCX314As with DCCE: deviation counter clear"},
     {"*out0", out, false, "general output, WR4"},
     {"*out1", out, false, "general output, WR4"},
     {"*out2", out, false, "general output, WR4"},

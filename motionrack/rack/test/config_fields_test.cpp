@@ -222,7 +222,7 @@ TEST(CardTypes, HaveUniquePinsAndChoicesThatTheReaderKnows) {
         const auto& choices = card_fields()[0].choices;
         EXPECT_NE(std::find(choices.begin(), choices.end(), type.name), choices.end());
     }
-    EXPECT_EQ(pins_of(card_types()[0]).size(), 4U * 22 + 3);
+    EXPECT_EQ(pins_of(card_types()[0]).size(), 4U * 23 + 3);
 }
 
 TEST(DidYouMean, FindsTheNearestNameOnly) {

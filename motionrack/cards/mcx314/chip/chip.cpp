@@ -42,6 +42,11 @@ std::string describe(const sim::Condition& condition, const std::string& card) {
                 "its last step is still under way",
                 card);
         case unknown_command:
+            if (condition.b == 1)
+                return fmt::format(
+                    "{}: command {:02X}h is one of the MCX314As, and this is an MCX314; nothing was done; set variant "
+                    "= \"mcx314as\" for the card, or leave the command out",
+                    card, condition.a);
             return fmt::format("{}: command {:02X}h is not one of this model's; nothing was done", card, condition.a);
         default:
             return fmt::format("{}: condition {}", card, condition.code);
@@ -50,8 +55,11 @@ std::string describe(const sim::Condition& condition, const std::string& card) {
 
 // ---- building -------------------------------------------------------------------------------------------------------
 
-Chip::Chip(sim::Kernel& kernel, const std::string& name)
-    : kernel_(kernel), id_(kernel.add(*this, sim::Phase::cards, name)) {
+Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& options)
+    : kernel_(kernel),
+      id_(kernel.add(*this, sim::Phase::cards, name)),
+      options_(options),
+      extended_(options.variant == Variant::mcx314as) {
     for (int a = 0; a < axes_of_chip; ++a) {
         const std::string prefix = name + "." + axis_letters[a];
         outputs_[a].chip = ears_[a].chip = this;
@@ -66,6 +74,8 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name)
             encoder_wires_[a][i] = kernel_.add_wire(prefix + (i == 0 ? "eca" : "ecb"), 1);
             kernel_.listen(encoder_wires_[a][i], id_, encoder_pin + 2 * a + i);
         }
+        drive_wires_[a] = kernel_.add_wire(prefix + "drive", 0);
+        kernel_.drive_lazily(drive_wires_[a], id_, output_pin + 16 * a + 2);
         for (int i = 0; i < 8; ++i) {
             general_outputs_[a][i] = kernel_.add_wire(prefix + "out" + std::to_string(i), 0);
             if (i >= 4) kernel_.drive_lazily(general_outputs_[a][i], id_, output_pin + 16 * a + 8 + i);
@@ -77,7 +87,7 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name)
     kernel_.listen(expls_n_, id_, step_pin);
     int_n_ = kernel_.add_wire(name + ".int_n", 1);
     for (int a = 0; a < axes_of_chip; ++a) compare(a);
-    state_.next_event = far;
+    state_.next_event = state_.next_sample = far;
     kernel_.schedule(id_, Instant{0});
 }
 
@@ -106,7 +116,7 @@ void Chip::work_to(std::int64_t to) {
 
 /// Finds the next interesting tick.
 void Chip::reschedule() {
-    std::int64_t next = far;
+    std::int64_t next = state_.next_sample;
     for_each_axis(state_.working, [&](int a) {
         const Generator& gen = state_.axis[a].gen;
         if (gen.next_tick <= state_.tick || gen.look || !gen.special_known) {
@@ -125,6 +135,7 @@ void Chip::reschedule() {
 
 /// After anything happened: everyone hears of it, and the kernel of the next event.
 void Chip::settle(Instant now) {
+    if (state_.acting != 0) wake();
     tell_listeners(now);
     update_interrupt();
     if (state_.following != 0) show_wires(now);
@@ -151,6 +162,8 @@ void Chip::begin() {
     state_.emergency_high = kernel_.level(emgn_) != 0;
     kernel_.want(expls_n_, id_, true);
     hear_step_wire(kernel_.level(expls_n_));
+    state_.emergency_filter.wire = state_.emergency_high;
+    state_.step_filter.wire = state_.step_high;
     note_followers();
     stale_ = true;
 }
@@ -176,6 +189,10 @@ void Chip::on_wire(int pin, int wire_level, Instant now) {
     note_rates();
     stale_ = true;
     if (pin >= encoder_pin) return encoder_lines((pin - encoder_pin) / 2, now);
+    if (extended_) {
+        wake();
+        if (!passes_filter(pin, wire_level)) return settle(now);
+    }
     if (pin == step_pin) {
         hear_step_wire(wire_level);
         return settle(now);
@@ -183,9 +200,7 @@ void Chip::on_wire(int pin, int wire_level, Instant now) {
     if (pin == emergency_pin) {
         state_.emergency_high = wire_level != 0;
     } else {
-        Axis& axis = state_.axis[pin / 16];
-        const unsigned mask = 1u << (pin % 16);
-        axis.levels = static_cast<std::uint16_t>(wire_level ? axis.levels | mask : axis.levels & ~mask);
+        set_level(state_.axis[pin / 16].levels, pin % 16, wire_level != 0);
         hear_external(pin);
     }
     for (Axis& axis : state_.axis) axis.gen.look = true;
@@ -313,8 +328,7 @@ std::int64_t Chip::pulses_made(int axis) {
 std::int32_t Chip::lp(int axis) const {
     // Between events the generators stay behind: the pulses since then are counted, not yet entered.
     const Axis& own = state_.axis[axis];
-    const auto since = static_cast<std::uint32_t>(count_at(axis, kernel_.now()) - own.count);
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(own.lp) + since);
+    return stepped(own, own.lp, count_at(axis, kernel_.now()) - own.count);
 }
 std::int32_t Chip::ep(int axis) const {
     return encoder_position(state_.axis[axis], axis);

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/cards/mcx314/chip/options.hpp>
 #include <motionrack/cards/mcx314/chip/state.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/motion.hpp>
@@ -27,7 +28,7 @@ namespace motionrack::mcx314 {
 enum ChipCondition : std::uint16_t {
     drive_ignored = 1,   ///< a: command, b: axis that is driving
     path_ignored = 2,    ///< a: command; queue full, axis busy or named twice
-    unknown_command = 3,   ///< a: command
+    unknown_command = 3,   ///< a: command, b: 1 if the MCX314As has it
     pattern_full = 4,      ///< 38h with three words stacked
     pattern_ran_out = 5,   ///< a: basic pulses made; the bit pattern ended without its end code
     step_ignored = 6       ///< 3Ah without a segment that waits for it
@@ -39,7 +40,7 @@ std::string describe(const sim::Condition& condition, const std::string& card);
 class Chip final : public sim::Device, public sim::RegisterDevice {
   public:
     /// Adds the chip and its wires "<name>.<pin>" to the kernel. CLK is 16 MHz.
-    Chip(sim::Kernel& kernel, const std::string& name);
+    Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& options = {});
 
     std::uint16_t read(std::uint32_t offset) override;
     void write(std::uint32_t offset, std::uint16_t value) override;
@@ -82,7 +83,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     static constexpr int emergency_pin = 100;
     static constexpr int step_pin = 101;
     static constexpr int encoder_pin = 120;  // + 2 * axis + (0 xeca, 1 xecb)
-    static constexpr int output_pin = 200;   // + 16 * axis + (0 xpp, 1 xpm, 8 + n: nOUTn)
+    static constexpr int output_pin = 200;   // + 16 * axis + (0 xpp, 1 xpm, 2 xdrive, 8 + n: nOUTn)
 
     /// One axis' pulses.
     class Output final : public sim::Motion {
@@ -143,6 +144,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     PulseMark mark_at(int a, std::int64_t tick) const;
     int pulse_level(int a, int which, bool pulse, int direction) const;
     int output_level(int a, int output) const;
+    int drive_level(int a, std::int64_t tick) const;
     void note_followers();
     void show_wires(Instant now);
 
@@ -198,6 +200,8 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void hear_step_wire(int wire_level);
     void sample_external();
     void sample_external_drive(int a);
+    bool turns_by_wire(int a) const;
+    void sample_wheel(int a);
     bool by_steps(int a) const;
     bool halted(int a) const { return by_steps(a) && !state_.stepping; }
     bool ask_step(std::uint32_t by);
@@ -281,15 +285,60 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     std::uint16_t status1(int a) const;
     std::uint16_t status2(int a) const;
     std::uint16_t input_levels(int a) const;
+    bool busy(int a) const;
+
+    // Only the MCX314As: extension.cpp
+    bool extended_command(int code, unsigned axes);
+    void extended_write(int code, int a);
+    void set_extension(int a);
+    void set_ring_end(int a, std::int32_t value);
+    void prepare_drive(int a);
+    void choose_deceleration(int a);
+    void set_drive_speed(int a, std::uint16_t v);
+    void set_drive_speed(int a) { set_drive_speed(a, state_.extension[a].v); }
+    static bool has_extended_command(int code);
+    void ask_clear(int a);
+    std::int64_t final_pulses(const Axis& axis) const;
+    std::int64_t pulses_to_weighted_final(const Axis& axis, std::int64_t left) const;
+    std::int64_t pulses_to_half(const Axis& axis) const;
+    void avoid_triangle(int a);
+    // filters.cpp: inputs, once a tick
+    void wake() { state_.next_sample = std::min(state_.next_sample, state_.tick + 1), stale_ = true; }
+    unsigned inputs_of_extension(int a) const;
+    bool passes_filter(int pin, int wire_level);
+    void set_filters(int a);
+    void sample(std::int64_t tick);
+    bool sample_filters(int a, std::int64_t tick);
+    bool sample_chip_filter(ChipFilter& filter, int enable, bool seen, std::int64_t tick);
+    void sample_edges(int a);
+    void work_in_full(std::int64_t tick);
+    // home_search.cpp
+    void start_home(int a);
+    bool home_input(int a, int step) const;
+    bool home_found(int a);
+    void go_home(int a, int hmst);
+    bool next_home_step(int a, int step);
+    void end_home_drive(int a);
+    void end_home(int a);
+    void look_at_homes();
+    // synchronous.cpp
+    void note(int a, Field condition);
+    void note_comparisons(int a, unsigned risen);
+    void hear_comparisons(int a);
+    void act_together();
+    void act_alone(int a);
 
     sim::Kernel& kernel_;
     sim::DeviceId id_;
+    ChipOptions options_;
+    bool extended_ = false;  // an MCX314As
     State state_{};
     std::array<Output, axes_of_chip> outputs_;
     std::array<EncoderEar, axes_of_chip> ears_;
     std::array<std::array<sim::WireId, 10>, axes_of_chip> inputs_{};
     std::array<std::array<sim::WireId, 8>, axes_of_chip> general_outputs_{};
     std::array<std::array<sim::WireId, 2>, axes_of_chip> pulse_wires_{};
+    std::array<sim::WireId, axes_of_chip> drive_wires_{};
     std::array<std::array<sim::WireId, 2>, axes_of_chip> encoder_wires_{};
     sim::WireId emgn_{};
     sim::WireId expls_n_{};

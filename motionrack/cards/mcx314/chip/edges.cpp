@@ -281,7 +281,10 @@ void Chip::make_varied_edges(std::int64_t waited, std::int64_t pulses) {
         quotient[i] = path.range_for[i] / gen.speed;
         remainder[i] = path.range_for[i] % gen.speed;
         twice[i] = 2 * rules::magnitude(path.command.finish[i]);
-        error[i] = (gen.n * twice[i] + path.longest) % (2 * path.longest);
+        error[i] = static_cast<std::int64_t>(  // below 2^64
+            (static_cast<std::uint64_t>(gen.n) * static_cast<std::uint64_t>(twice[i]) +
+             static_cast<std::uint64_t>(path.longest)) %
+            static_cast<std::uint64_t>(2 * path.longest));
     }
     EvenPulses run = even_pulses(gen, waited);
     for (std::int64_t j = 0; j < pulses; ++j) {

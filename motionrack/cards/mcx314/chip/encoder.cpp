@@ -30,15 +30,20 @@ void Chip::connect_encoder(int a, sim::Motion& counts) {
 
 std::int32_t Chip::encoder_position(const Axis& axis, int a) const {
     if (!encoder_connected(a)) return axis.ep;
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.encoder.value(*ears_[a].motion, kernel_.now())));
+    const std::int64_t position = axis.encoder.value(*ears_[a].motion, kernel_.now());
+    if (axis.ring) return stepped(axis, 0, position);
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(position));
 }
 
-/// Writes EP; also takes up the edges that WR2 asks for.
+/// Writes EP; also takes up the edges that WR2 asks for and the direction that EM does.
 void Chip::set_encoder_position(int a, std::int32_t value) {
     Axis& axis = state_.axis[a];
+    if (axis.ring) value = stepped(axis, value, 0);
     axis.ep = value;
-    axis.encoder = sim::ClosedFormCounter(edges_of(axis), false);
-    if (ears_[a].motion) axis.encoder.set(value, *ears_[a].motion, kernel_.now());
+    axis.encoder = sim::ClosedFormCounter(edges_of(axis), em::EPINV.test(state_.extension[a].em6));
+    if (!encoder_connected(a)) return;
+    const std::int64_t position = axis.ring ? std::int64_t{static_cast<std::uint32_t>(value)} : value;
+    axis.encoder.set(position, *ears_[a].motion, kernel_.now());
 }
 
 /// Where EP is compared, the encoder tells when a comparison may change.
@@ -51,7 +56,7 @@ void Chip::watch_encoder(int a) {
         return;
     }
     const std::int64_t position = axis.encoder.value(*ear.motion, kernel_.now());
-    const auto counter = static_cast<std::int32_t>(static_cast<std::uint32_t>(position));
+    const std::int32_t counter = encoder_position(axis, a);
     axis.encoder.watch(*ear.motion, ear.slot, position - steps_to_comparison(axis, counter, -1),
                        position + steps_to_comparison(axis, counter, +1));
 }
@@ -102,7 +107,8 @@ void Chip::encoder_lines(int a, Instant now) {
         change = decoder.lines(static_cast<std::uint8_t>(lines));
     }
     if (change == 0) return;
-    axis.ep = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.ep) + static_cast<std::uint32_t>(change));
+    if (em::EPINV.test(state_.extension[a].em6)) change = -change;
+    axis.ep = stepped(axis, axis.ep, change);
     compare(a);
     for (Axis& each : state_.axis) each.gen.look = true;
     settle(now);

@@ -5,6 +5,7 @@
 //                 f f+1        g
 //   EXOP 2            20h                 after all generators have worked tick f + 1
 //   EXOP 1            22h      26h
+//   EXOP 3 (MCX314As): nEXPP rises: 20h, falls: 21h, while nEXPM is Low
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <utility>
 
@@ -29,12 +30,19 @@ bool falls(std::uint8_t& low, bool high) {
 void Chip::set_external(int a, std::uint16_t before) {
     Axis& axis = state_.axis[a];
     if (external_mode(axis.wr3) == external_mode(before)) return;
+    if (external_mode(before) == external_wheel) axis.external_low = {2, 2};
     if (axis.external != 0 && external_mode(axis.wr3) != external_continuous) axis.gen.ask_decelerating = true;
     if (drives_by_wire(axis.wr3))
         state_.sampled |= 1u << a;
     else
         axis.external_low = {2, 2};
     set_wants(a);
+    if (turns_by_wire(a)) axis.external_low[0] = level(axis, Pin::exp_plus) ? 0 : 2;
+}
+
+/// Whether nEXPP and nEXPM are a hand wheel's lines A and B.
+bool Chip::turns_by_wire(int a) const {
+    return extended_ && external_mode(state_.axis[a].wr3) == external_wheel;
 }
 
 /// A pin of axis 16 * axis + Pin has changed.
@@ -54,6 +62,7 @@ void Chip::sample_external() {
     const std::uint32_t sampled = std::exchange(state_.sampled, 0u);
     for_each_axis(sampled & (step_wire - 1), [this](int a) {
         if (drives_by_wire(state_.axis[a].wr3)) sample_external_drive(a);
+        if (turns_by_wire(a)) sample_wheel(a);
     });
     if (!(sampled & step_wire)) return;
     if (falls(state_.step_low, state_.step_high)) ask_step(PathCommand::by_wire);
@@ -76,6 +85,15 @@ void Chip::sample_external_drive(int a) {
         }
         if (axis.external_low[minus] == 1) state_.sampled |= 1u << a;
     }
+}
+
+/// With B Low a rising A drives P pulses in + direction, a falling one in - direction.
+void Chip::sample_wheel(int a) {
+    Axis& axis = state_.axis[a];
+    const bool high = level(axis, Pin::exp_plus), was_high = axis.external_low[0] == 0;
+    axis.external_low[0] = high ? 0 : 2;
+    if (high == was_high || level(axis, Pin::exp_minus) || driving(a) || axis.hold) return;
+    start_drive(a, high ? 0x20 : 0x21);
 }
 
 // ---- single steps ---------------------------------------------------------------------------------------------------

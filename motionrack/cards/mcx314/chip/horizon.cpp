@@ -62,6 +62,7 @@ std::int64_t Chip::pulses_to_special(int a) const {
     if (halted(a)) return far;
     if (walks_pulses(a)) return 1;
     std::int64_t pulses = pulses_to_final(a);
+    if (gen.no_triangle) pulses = std::min(pulses, pulses_to_half(own));
     if (gen.drive == Drive::fixed) pulses = std::min(pulses, std::int64_t{own.pulses} - gen.n);
     if (gen.drive != Drive::path) {
         pulses = std::min(pulses, steps_to_threshold(a, own.direction));
@@ -101,6 +102,7 @@ std::int64_t Chip::pulses_to_final(int a) const {
     }
     if (gen.manual) return std::max<std::int64_t>(1, std::int64_t{axis.decel_point} - gen.n);
     const std::int64_t left = total - gen.n - axis.offset;
+    if (gen.weighted) return pulses_to_weighted_final(axis, left);
     // P - n <= accel_pulses + AO, where accel_pulses rises, stays or falls with n.
     if (gen.ramp > 0)
         return std::max<std::int64_t>(1, rules::ceil_div(std::max<std::int64_t>(0, left - gen.accel_pulses), 2));
@@ -124,7 +126,7 @@ std::int64_t Chip::steps_to_threshold(int a, int direction) const {
 
 /// Whether anything hangs on the comparisons with COMP+ and COMP-: interrupts, software limits, outputs.
 bool Chip::compares(const Axis& axis) const {
-    return (axis.wr1 & 0x1E00u) != 0 || (axis.wr2 & 3u) != 0 || (axis.outputs_wanted && bit(axis.wr3, 7));
+    return axis.comparisons != 0 || (axis.wr2 & 3u) != 0 || (axis.outputs_wanted && bit(axis.wr3, 7));
 }
 
 /// Steps in `direction` until a comparison may turn out differently (>= 1); counters wrap at 32 bits.
@@ -134,6 +136,10 @@ std::int64_t Chip::steps_to_comparison(const Axis& axis, std::int32_t counter, i
     for (const std::int64_t first : {plus, plus + 1, minus}) {  // comparisons differ below and from `first` on
         const std::int64_t distance = direction > 0 ? first - at : at - first + 1;
         if (distance >= 1) steps = std::min(steps, distance);
+    }
+    if (axis.ring) {
+        const std::int64_t place = static_cast<std::uint32_t>(counter), end = static_cast<std::uint32_t>(axis.comp_plus);
+        steps = std::min(steps, direction > 0 ? end - place + 1 : place + 1);
     }
     return steps;
 }
@@ -277,10 +283,10 @@ void Chip::skip_pulses(int a, std::int64_t pulses, const PulseMoment& last) {
     auto add = [this](int i, std::int64_t steps) {
         if (steps == 0) return;
         Axis& axis = state_.axis[i];
-        axis.lp = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.lp) + static_cast<std::uint32_t>(steps));
+        axis.lp = stepped(axis, axis.lp, steps);
         axis.count += steps;
         axis.made += rules::magnitude(steps);
-        if ((axis.wr1 & 0x1E00u) != 0) compare(i);
+        if (axis.comparisons != 0) compare(i);
         if (bit(axis.wr1, 8)) axis.flags |= 1u;
     };
     unsigned stepped = 1u << a;

@@ -14,8 +14,10 @@ inline std::int64_t ramp_rate(const Axis& axis, const Speed& law) {
     return rules::used_speed(law.ramp < 0 && axis.gen.own_deceleration ? axis.decel : axis.accel);
 }
 
+/// Ticks from one rate of an S-ramp to the next: K, or where it falls and has its own L.
 inline std::int64_t jerk_ticks(const Axis& axis) {
-    return rules::jerk_ticks_per_k * rules::used_jerk(axis.jerk);
+    const bool own = axis.gen.ramp < 0 && axis.gen.own_deceleration;
+    return rules::jerk_ticks_per_k * rules::used_jerk(own ? axis.decel_jerk : axis.jerk);
 }
 
 /// Ticks until va reaches 64,000; small numbers, divided as such.

@@ -1,5 +1,6 @@
 // The bus: what a write does.
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/ramp.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 
 namespace motionrack::mcx314 {
@@ -15,22 +16,26 @@ void Chip::reset() {
         fresh.watch = axis.watch;
         fresh.pulses_wanted = axis.pulses_wanted;
         fresh.outputs_wanted = axis.outputs_wanted;
+        fresh.drive_wanted = axis.drive_wanted;
         fresh.encoder_lines = axis.encoder_lines;
         fresh.shown = axis.shown;
         fresh.mark = axis.mark;
         fresh.told_rate = axis.told_rate;
         axis = fresh;
+        state_.extension[a] = {};
         set_encoder_position(a, 0);
         set_wants(a);
         watch_encoder(a);
     }
     state_.selected = 1;
     state_.wr4 = state_.wr5 = state_.wr6 = state_.wr7 = state_.rr6 = state_.rr7 = 0;
-    state_.chain = state_.working = state_.in_place = 0;
+    state_.chain = state_.working = state_.in_place = state_.homing = state_.acting = 0;
+    state_.next_sample = far;
+    state_.emergency_high = kernel_.level(emgn_) != 0;
     state_.queued = state_.decel_enabled = state_.path_interrupt = state_.stepping = false;
     state_.pattern = {};
     state_.wr0_high = state_.step_low = 0;
-    hear_step_wire(state_.step_high);
+    hear_step_wire(kernel_.level(expls_n_));
     for (int a = 0; a < axes_of_chip; ++a) compare(a);
     update_outputs();
 }
@@ -70,6 +75,8 @@ void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t m
         put(state_.wr6);
     else if (offset == reg::WR7)
         put(state_.wr7);
+    if (state_.homing != 0) wake();  // WR2 may have ended the wait for nINPOS
+    if (state_.acting != 0) act_together();
     // Whatever changed: the next working tick of every generator is worked in full.
     for (Axis& axis : state_.axis) {
         axis.gen.look = true;
@@ -91,6 +98,7 @@ void Chip::write_mode(std::uint32_t offset, int a, const Put& put) {
         // The counter has moved uncompared while nothing was enabled: only what comes from now on counts.
         compare(a);
         put(axis.wr1);
+        hear_comparisons(a);
     } else {
         const std::int32_t ep_now = encoder_position(axis, a);
         put(axis.wr2);
@@ -119,6 +127,7 @@ void Chip::command(std::uint16_t value) {
     } else if (code == 0x0F) {
     } else if (code >= 0x10 && code <= 0x13) {
         if (axes != 0) data_read(code, first_selected());
+        if (extended_ && axes != 0 && code == 0x10) note(first_selected(), sm::LPRD);
     } else if (code >= 0x20 && code <= 0x23) {
         drive_command(code, axes);
     } else if (code >= 0x30 && code <= 0x35) {
@@ -140,8 +149,8 @@ void Chip::command(std::uint16_t value) {
         state_.decel_enabled = false;
     } else if (code == 0x3D) {
         state_.path_interrupt = state_.pattern.interrupt = false;
-    } else {
-        kernel_.report(id_, unknown_command, code);
+    } else if (!extended_ || !extended_command(code, axes)) {
+        kernel_.report(id_, unknown_command, code, !extended_ && has_extended_command(code) ? 1 : 0);
     }
 }
 
@@ -154,6 +163,7 @@ void Chip::data_write(int code, int a) {
             break;
         case 0x01:
             axis.jerk = state_.wr6;
+            if (!extended_) axis.decel_jerk = state_.wr6;
             break;
         case 0x02:
             axis.accel = state_.wr6;
@@ -166,24 +176,28 @@ void Chip::data_write(int code, int a) {
             break;
         case 0x05:
             axis.speed = state_.wr6;
+            if (extended_) set_drive_speed(a, state_.wr6);
             break;
         case 0x06:
-            axis.pulses = value & 0x0FFF'FFFFu;
+            axis.pulses = extended_ ? value : value & 0x0FFF'FFFFu;
             break;
         case 0x07:
-            axis.decel_point = value & 0x0FFF'FFFFu;
+            axis.decel_point = extended_ ? value : value & 0x0FFF'FFFFu;
             break;
         case 0x08:
-            axis.centre = value & 0x00FF'FFFFu;
+            axis.centre = extended_ ? value : value & 0x00FF'FFFFu;
             break;
         case 0x09:
-            axis.lp = static_cast<std::int32_t>(value);
+            axis.lp = stepped(axis, static_cast<std::int32_t>(value), 0);
             break;
         case 0x0A:
             set_encoder_position(a, static_cast<std::int32_t>(value));
             break;
         case 0x0B:
-            axis.comp_plus = static_cast<std::int32_t>(value);
+            if (axis.ring)
+                set_ring_end(a, static_cast<std::int32_t>(value));
+            else
+                axis.comp_plus = static_cast<std::int32_t>(value);
             break;
         case 0x0C:
             axis.comp_minus = static_cast<std::int32_t>(value);
@@ -222,7 +236,7 @@ void Chip::data_read(int code, int a) {
 // ---- drive commands -------------------------------------------------------------------------------------------------
 
 bool Chip::driving(int a) const {
-    return state_.axis[a].gen.drive != Drive::idle || (state_.chain >> a & 1u) != 0;
+    return state_.axis[a].gen.drive != Drive::idle || ((state_.chain | state_.homing) >> a & 1u) != 0;
 }
 
 void Chip::drive_command(int code, unsigned axes) {
@@ -243,10 +257,12 @@ void Chip::start_drive(int a, int code) {
     state_.axis[a].finished = state_.axis[a].causes = 0;
     check_final(a);
     law_changed(a);
+    if (extended_) note(a, sm::DSTA);
 }
 
 void Chip::begin_generator(int a, Drive drive) {
     Axis& axis = state_.axis[a];
+    if (extended_) prepare_drive(a);
     Generator gen;
     gen.drive = drive;
     gen.wait = rules::start_ticks;
@@ -258,11 +274,14 @@ void Chip::begin_generator(int a, Drive drive) {
     gen.constant = v <= sv;
     gen.speed = std::min(v, sv);
     gen.at = state_.tick;
+    gen.look = true;  // the first working tick in full, whatever happens in the start ticks
     axis.gen = gen;
+    if (extended_) choose_deceleration(a);
     state_.working |= 1u << a;
 }
 
 PathCommand Chip::captured(int code) const {
+    auto coordinate = [this](std::uint32_t v) { return extended_ ? rules::limited32(v) : rules::signed24(v); };
     PathCommand command;
     command.code = code;
     command.count = code == 0x31 || code == 0x35 ? 3 : 2;
@@ -270,8 +289,8 @@ PathCommand Chip::captured(int code) const {
     command.steps = state_.wr5 >> 11 & 3u;
     for (int i = 0; i < 3; ++i) {
         command.axis[i] = state_.wr5 >> (2 * i) & 3;
-        command.finish[i] = rules::signed24(state_.axis[command.axis[i]].pulses);
-        if (i < 2) command.centre[i] = rules::signed24(state_.axis[command.axis[i]].centre);
+        command.finish[i] = coordinate(state_.axis[command.axis[i]].pulses);
+        if (i < 2) command.centre[i] = coordinate(state_.axis[command.axis[i]].centre);
     }
     return command;
 }
@@ -293,6 +312,7 @@ void Chip::path_command(int code) {
         state_.queue = command;
         for (int a = 0; a < axes_of_chip; ++a)
             if ((command.mask() & ~state_.chain) >> a & 1u) state_.axis[a].finished = state_.axis[a].causes = 0;
+        if (extended_) for_each_axis(command.mask() & ~state_.chain, [this](int a) { note(a, sm::DSTA); });
         state_.chain |= command.mask();
     } else if (Axis& first = state_.axis[command.axis[0]]; first.hold) {
         first.held_command = code;
@@ -313,6 +333,7 @@ void Chip::start_path(const PathCommand& command) {
     begin_segment(command);
     check_final(state_.master);
     law_changed_of(state_.master);
+    if (extended_) for_each_axis(state_.chain, [this](int a) { note(a, sm::DSTA); });
 }
 
 void Chip::free_held(unsigned axes) {
@@ -320,6 +341,7 @@ void Chip::free_held(unsigned axes) {
         if (!(axes >> a & 1u)) continue;
         state_.axis[a].hold = false;
         state_.axis[a].finished = 0;
+        state_.extension[a].home.error = false;
     }
     for (int a = 0; a < axes_of_chip; ++a) {
         Axis& axis = state_.axis[a];
@@ -343,6 +365,7 @@ void Chip::ask_stop(unsigned axes, bool immediate) {
     for (int a = 0; a < axes_of_chip; ++a) {
         if (!(axes >> a & 1u)) continue;
         state_.axis[a].held_command = 0;
+        if (bit(state_.homing, a)) state_.extension[a].home.cancelled = true, wake();
         Generator& gen = state_.axis[state_.chain >> a & 1u ? state_.master : a].gen;
         if (gen.drive == Drive::idle) continue;
         (immediate ? gen.ask_immediate : gen.ask_decelerating) = true;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <motionrack/cards/mcx314/arithmetic.hpp>
+#include <motionrack/cards/mcx314/chip/extension.hpp>
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <type_traits>
@@ -111,7 +112,8 @@ struct Generator : Speed {
     bool special_known = false;  ///< next_special is up to date
     bool plain = false;          ///< what comes at next_tick is a step of the speed and nothing else
     bool walks = false;          ///< plain, and there are more such steps on the way there (State::ahead), or it rests
-    std::array<std::uint8_t, 2> reserved{};
+    bool weighted = false;       ///< the automatic deceleration reckons with D (MCX314As)
+    bool no_triangle = false;    ///< half the pulses are to come at constant speed (MCX314As)
     std::int64_t wait = 0;
     std::int64_t range = 0, range_now = 0, acc = 0;
     std::int64_t n = 0, accel_pulses = 0;
@@ -142,8 +144,11 @@ struct PulseMark {
 };
 
 struct Axis {
-    std::uint32_t range = 0, pulses = 0, decel_point = 0, centre = 0, pad = 0;
-    std::uint16_t jerk = 0, accel = 0, decel = 0, start_speed = 0, speed = 0, offset = 8;
+    std::uint32_t range = 0, pulses = 0, decel_point = 0, centre = 0;
+    std::uint16_t jerk = 0, accel = 0, decel = 0, start_speed = 0, offset = 8;
+    std::uint16_t speed = 0;       ///< V, or in some drives of the MCX314As what stands for it
+    std::uint16_t decel_jerk = 0;  ///< K, of the MCX314As L
+    std::uint16_t comparisons = 0; ///< those that interrupts and actions hear of, as bits of RR3
     std::uint16_t wr1 = 0, wr2 = 0, wr3 = 0;
     std::uint16_t causes = 0, finished = 0, flags = 0, compared = 0;
     std::uint16_t levels = 0x3FF;  ///< input pins as last heard, bit Pin
@@ -155,9 +160,11 @@ struct Axis {
     bool hold = false;
     bool pulses_wanted = false, outputs_wanted = false;  ///< somebody follows xpp, xpm; nOUT4..7
     std::uint8_t encoder_lines = 3;                      ///< xeca, xecb as last heard
-    std::uint8_t external = 0;                    ///< nEXPP (1) or nEXPM (2) drives until it is High
+    std::uint8_t external = 0;                       ///< nEXPP (1) or nEXPM (2) drives until it is High
     std::array<std::uint8_t, 2> external_low{2, 2};  ///< ticks, up to 2, since nEXPP, nEXPM were seen High
-    std::uint8_t reserved = 0;
+    bool drive_wanted = false;                       ///< somebody follows xdrive
+    bool ring = false;                               ///< LP and EP count 0 .. COMP+ (MCX314As)
+    std::array<std::uint8_t, 7> reserved{};
     std::int64_t shown = 0;  ///< `made` when the pulse wires were set last
     PulseMark mark;
     std::int64_t count = 0;       ///< net pulses since the start
@@ -193,6 +200,13 @@ struct State {
     PathCommand queue;
     Pattern pattern;
     std::array<Walk, axes_of_chip> ahead{};  ///< of generators that walk, from `at` to next_tick
+
+    // What only the MCX314As has.
+    std::int64_t next_sample = 0;              ///< the next tick at which inputs are sampled
+    ChipFilter emergency_filter, step_filter;  ///< of EMGN, EXPLSN
+    std::uint32_t homing = 0;                  ///< axes that search their home
+    std::uint32_t acting = 0;                  ///< axes of which a condition has come
+    std::array<Extension, axes_of_chip> extension{};
 };
 
 static_assert(std::has_unique_object_representations_v<State>, "equal chips have equal bytes: no padding");
@@ -219,12 +233,26 @@ constexpr bool bit(unsigned value, int n) {
 constexpr unsigned external_mode(std::uint16_t wr3) {
     return wr3 >> 3 & 3u;
 }
-inline constexpr unsigned external_continuous = 1, external_fixed = 2;
+inline constexpr unsigned external_continuous = 1, external_fixed = 2, external_wheel = 3;
 constexpr bool drives_by_wire(std::uint16_t wr3) {
     return external_mode(wr3) == external_continuous || external_mode(wr3) == external_fixed;
 }
 constexpr bool level(const Axis& axis, Pin pin) {
     return bit(axis.levels, static_cast<int>(pin));
+}
+
+/// Sets bit `pin` of some levels.
+constexpr void set_level(std::uint16_t& levels, int pin, bool high) {
+    levels = static_cast<std::uint16_t>(high ? levels | 1u << pin : levels & ~(1u << pin));
+}
+
+/// LP or EP after so many steps: it wraps at 32 bits, or behind COMP+ where it counts in a ring.
+constexpr std::int32_t stepped(const Axis& axis, std::int32_t counter, std::int64_t steps) {
+    if (!axis.ring)
+        return static_cast<std::int32_t>(static_cast<std::uint32_t>(counter) + static_cast<std::uint32_t>(steps));
+    const std::int64_t size = std::int64_t{static_cast<std::uint32_t>(axis.comp_plus)} + 1;
+    const std::int64_t place = (static_cast<std::uint32_t>(counter) + steps) % size;
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(place < 0 ? place + size : place));
 }
 
 }  // namespace motionrack::mcx314

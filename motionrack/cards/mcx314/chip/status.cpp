@@ -65,12 +65,16 @@ bool Chip::waits_for_position(int a) const {
     return bit(state_.in_place, a) && bit(axis.wr2, 15) && level(axis, Pin::in_position) != bit(axis.wr2, 14);
 }
 
+/// Drives, searches its home or waits for nINPOS.
+bool Chip::busy(int a) const {
+    return driving(a) || waits_for_position(a);
+}
+
 std::uint16_t Chip::main_status() const {
     unsigned v = 0;
     for (int a = 0; a < axes_of_chip; ++a) {
-        const Axis& axis = state_.axis[a];
-        if (driving(a) || waits_for_position(a)) v |= 1u << a;
-        if ((status2(a) & 0x3Fu) != 0 || (axis.finished & 0xF000u) != 0) v |= 1u << (4 + a);
+        if (busy(a)) v |= 1u << a;
+        if ((status2(a) & 0xBFu) != 0 || (state_.axis[a].finished & 0xF000u) != 0) v |= 1u << (4 + a);
     }
     if (state_.chain != 0) {
         v |= 1u << 8;
@@ -105,13 +109,18 @@ std::uint16_t Chip::status2(int a) const {
     if (level(axis, Pin::limit_minus) == bit(axis.wr2, 4)) v |= 1u << 3;
     if (bit(axis.wr2, 13) && level(axis, Pin::alarm) == bit(axis.wr2, 12)) v |= 1u << 4;
     if (!state_.emergency_high) v |= 1u << 5;
+    const HomeSearch& home = state_.extension[a].home;
+    if (home.error) v |= 1u << 7;
+    v |= static_cast<unsigned>(home.hmst) << 8;
     return static_cast<std::uint16_t>(v);
 }
 
-/// RR4 and RR5: eight input levels of one axis.
+/// RR4 and RR5: eight input levels of one axis; those of filtered inputs are the filters'.
 std::uint16_t Chip::input_levels(int a) const {
-    unsigned v = 0;
-    for (int i = 0; i < 8; ++i) v |= static_cast<unsigned>(kernel_.level(inputs_[a][i]) != 0) << i;
+    const unsigned filtered = state_.extension[a].filtered;
+    unsigned v = state_.axis[a].levels & filtered & 0xFFu;
+    for (int i = 0; i < 8; ++i)
+        if (!bit(filtered, i)) v |= static_cast<unsigned>(kernel_.level(inputs_[a][i]) != 0) << i;
     return static_cast<std::uint16_t>(v);
 }
 

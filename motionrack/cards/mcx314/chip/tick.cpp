@@ -13,6 +13,7 @@ constexpr unsigned flag_drive_end = 1u << 7;
 /// no path hangs, stay behind.
 void Chip::work_off(std::int64_t to) {
     state_.tick = to;
+    if (state_.next_sample <= to) sample(to);
     for_each_axis(state_.working, [&](int a) {
         Axis& axis = state_.axis[a];
         const bool path = axis.gen.drive == Drive::path;
@@ -33,9 +34,11 @@ void Chip::work_off(std::int64_t to) {
             work(a);
         }
     });
-    if ((state_.in_place | state_.sampled) == 0) return;
+    if ((state_.in_place | state_.sampled | state_.homing | state_.acting) == 0) return;
     look_at_in_position();
     sample_external();
+    look_at_homes();
+    if (state_.acting != 0) act_together();
 }
 
 void Chip::look_at_in_position() {
@@ -114,6 +117,7 @@ bool Chip::inputs(int a) {
         const unsigned causes = state_.axis[i].causes | active_inputs(state_.axis[i], decelerating, immediate);
         state_.axis[i].causes = static_cast<std::uint16_t>(causes);
         if (beyond_software_limit(i)) decelerating = true;
+        if (bit(state_.homing, i) && home_found(i)) decelerating = true;
     }
     return stop(a, decelerating, immediate);
 }
@@ -139,6 +143,7 @@ void Chip::end(int a) {
         axis.finished = static_cast<std::uint16_t>(axis.finished | axis.causes);
         axis.causes = 0;
         axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & flag_drive_end));
+        if (extended_) note(i, sm::DEND);
         state_.in_place |= 1u << i;
         law_changed(i);
     }
@@ -176,6 +181,7 @@ bool Chip::pulse(int a) {
     if (gen.drive == Drive::fixed && gen.n >= state_.axis[a].pulses) return end(a), true;
     if (gen.drive == Drive::path && path_finished()) return segment_end(a);
     check_final(a);
+    if (gen.no_triangle) avoid_triangle(a);
     return false;
 }
 
@@ -213,13 +219,13 @@ int Chip::step_axes(int a) {
 
 void Chip::move(int a, int direction, std::int64_t tick_now) {
     Axis& axis = state_.axis[a];
-    axis.lp = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.lp) + static_cast<std::uint32_t>(direction));
+    axis.lp = stepped(axis, axis.lp, direction);
     axis.count += direction;
     ++axis.made;
     axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & flag_pulse));
     moved_last_ |= 1u << a;
     went_[a] = direction;
-    if ((axis.wr1 & 0x1E00u) != 0) compare(a);
+    if (axis.comparisons != 0) compare(a);
     if (outputs_[a].edge_listener) add_edge(a, tick_now, direction, axis.count);
     for (int i = 0; i < outputs_[a].listener_count; ++i)
         if (axis.count <= axis.watch[i].below || axis.count >= axis.watch[i].above) state_.crossed |= 1u << a;
@@ -306,10 +312,10 @@ void Chip::check_final(int a) {
     bool now = false;
     if (gen.drive == Drive::fixed) {
         now = gen.manual ? gen.n >= axis.decel_point
-                         : std::int64_t{axis.pulses} - gen.n <= gen.accel_pulses + axis.offset;
+                         : std::int64_t{axis.pulses} - gen.n <= final_pulses(axis) + axis.offset;
     } else if (gen.drive == Drive::path && state_.decel_enabled && !state_.queued) {
         now = gen.manual ? gen.n >= axis.decel_point
-                         : state_.path.command.line() && state_.path.longest - gen.n <= gen.accel_pulses + axis.offset;
+                         : state_.path.command.line() && state_.path.longest - gen.n <= final_pulses(axis) + axis.offset;
     }
     if (!now) return;
     gen.final = true;
@@ -327,6 +333,7 @@ void Chip::compare(int a) {
     const unsigned risen = now & ~axis.compared;
     axis.compared = static_cast<std::uint16_t>(now);
     axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & risen));
+    if (extended_) note_comparisons(a, risen);
 }
 
 }  // namespace motionrack::mcx314

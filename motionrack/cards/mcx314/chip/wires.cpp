@@ -11,12 +11,13 @@ namespace motionrack::mcx314 {
 /// Inputs that are not enabled are not wanted, so that a wire that is made on demand (an index) costs nothing.
 void Chip::set_wants(int a) {
     Axis& axis = state_.axis[a];
+    const unsigned filtered = state_.extension[a].filtered, also = extended_ ? inputs_of_extension(a) : 0u;
     auto set = [&](Pin pin, bool wanted) {
         const int i = static_cast<int>(pin);
+        wanted = wanted || bit(also, i);
         kernel_.want(inputs_[a][i], id_, wanted);
-        const unsigned mask = 1u << i;
-        const bool high = !wanted || kernel_.level(inputs_[a][i]) != 0;
-        axis.levels = static_cast<std::uint16_t>(high ? axis.levels | mask : axis.levels & ~mask);
+        if (bit(filtered, i)) return;  // its level is the filter's
+        set_level(axis.levels, i, !wanted || kernel_.level(inputs_[a][i]) != 0);
     };
     for (int i = 0; i < 4; ++i) set(static_cast<Pin>(i), bit(axis.wr1, 2 * i + 1));
     set(Pin::exp_plus, drives_by_wire(axis.wr3));
@@ -69,6 +70,7 @@ PulseMark Chip::mark_at(int a, std::int64_t to) const {
 int Chip::pulse_level(int a, int which, bool pulse, int direction) const {
     const Axis& axis = state_.axis[a];
     const bool one_pulse = bit(axis.wr2, 6), negative = bit(axis.wr2, 7), high_is_plus = bit(axis.wr2, 8);
+    if (em::POINV.test(state_.extension[a].em6)) which = 1 - which;
     if (one_pulse && which == 1) return (axis.direction > 0) == high_is_plus;
     return (pulse && (one_pulse || (direction > 0) == (which == 0))) != negative;
 }
@@ -80,8 +82,15 @@ int Chip::output_level(int a, int output) const {
     return bit(axis.wr3, 7) ? status1(a) >> status_bits[output - 4] & 1 : axis.wr3 >> (4 + output) & 1;
 }
 
+/// nDRIVE: whether the axis drives, or the deviation counter clear pulse.
+int Chip::drive_level(int a, std::int64_t at) const {
+    const Extension& ext = state_.extension[a];
+    return em::DCCE.test(ext.em7) ? (at < ext.clear_until) != em::DCCL.test(ext.em7) : busy(a);
+}
+
 int Chip::level_at(int pin, Instant now) const {
     const int a = (pin - output_pin) / 16, which = (pin - output_pin) % 16;
+    if (which == 2) return drive_level(a, tick_of(now));
     if (which >= 8) return output_level(a, which - 8);
     const std::int64_t at = tick_of(now);
     const PulseMark mark = mark_at(a, at);
@@ -103,13 +112,14 @@ void Chip::note_followers() {
         const bool pulses = kernel_.wanted(pulse_wires_[a][0]) || kernel_.wanted(pulse_wires_[a][1]);
         bool outputs = false;
         for (int i = 4; i < 8; ++i) outputs = outputs || kernel_.wanted(general_outputs_[a][i]);
+        axis.drive_wanted = kernel_.wanted(drive_wires_[a]);
         if (pulses != axis.pulses_wanted || outputs != axis.outputs_wanted) {
             for (Axis& each : state_.axis) each.gen.special_known = false;
             axis.shown = axis.made;
         }
         axis.pulses_wanted = pulses;
         axis.outputs_wanted = outputs;
-        if (pulses || outputs) state_.following |= 1u << a;
+        if (pulses || outputs || axis.drive_wanted) state_.following |= 1u << a;
     }
 }
 
@@ -129,6 +139,7 @@ void Chip::show_wires(Instant now) {
                 kernel_.set_wire(pulse_wires_[a][which], level);
             }
         }
+        if (axis.drive_wanted) kernel_.set_wire(drive_wires_[a], drive_level(a, at));
         if (axis.outputs_wanted)
             for (int i = 4; i < 8; ++i) kernel_.set_wire(general_outputs_[a][i], output_level(a, i));
     }

@@ -6,8 +6,8 @@
 //   read     RR0  RR1  RR2  RR3  RR4  RR5  RR6  RR7
 #pragma once
 
-#include <array>
 #include <motionrack/base/registers.hpp>
+#include <motionrack/cards/mcx314/map/extension.hpp>
 
 namespace motionrack::mcx314::map {
 
@@ -58,7 +58,7 @@ inline constexpr FieldInfo wr3_fields[] = {
     {"MANLD", 0x0001, "deceleration of a fixed drive: 0 automatic, 1 from DP on"},
     {"DSNDE", 0x0002, "deceleration uses D instead of A"},
     {"SACC", 0x0004, "0 T-curve, 1 S-curve"},
-    {"EXOP", 0x0018, "drive by nEXPP, nEXPM: 0 off, 1 continuous, 2 fixed"},
+    {"EXOP", 0x0018, "drive by nEXPP, nEXPM: 0 off, 1 continuous, 2 fixed, 3 hand wheel (MCX314As)"},
     {"OUTSL", 0x0080, "nOUT4..7 show: 0 OUT4..7, 1 drive status"},
     {"OUT4", 0x0100, "level of nOUT4"},
     {"OUT5", 0x0200, "level of nOUT5"},
@@ -143,7 +143,7 @@ inline constexpr FieldInfo rr5_fields[] = {
 };
 
 inline constexpr Access write = Access::write, read = Access::read;
-inline constexpr std::string_view patterns = "bit pattern";
+inline constexpr std::string_view patterns = "bit pattern", extension = "data of 60h", synchronous = "data of 64h";
 
 inline constexpr RegisterInfo registers[] = {
     {"WR0", 0x00, 16, write, false, "", "command register", wr0_fields},
@@ -169,6 +169,10 @@ inline constexpr RegisterInfo registers[] = {
     {"BP2M", 0x0A, 16, write, false, patterns, "pattern of AX2, - direction", {}},
     {"BP3P", 0x0C, 16, write, false, patterns, "pattern of AX3, + direction", {}},
     {"BP3M", 0x0E, 16, write, false, patterns, "pattern of AX3, - direction", {}},
+    {"EM6", 0x0C, 16, write, true, extension, "extension mode: counters, pulses, input filters (MCX314As)", em6_fields},
+    {"EM7", 0x0E, 16, write, true, extension, "extension mode: home search (MCX314As)", em7_fields},
+    {"SM6", 0x0C, 16, write, true, synchronous, "synchronous action: conditions (MCX314As)", sm6_fields},
+    {"SM7", 0x0E, 16, write, true, synchronous, "synchronous action: actions (MCX314As)", sm7_fields},
 };
 static_assert(declared<registers_flaw(registers)>());
 

@@ -99,7 +99,7 @@ class HandWheel final : public sim::Motion {
 
 class Bench {
   public:
-    Bench() : chip(kernel, "c") {}
+    explicit Bench(Variant variant = Variant::mcx314) : chip(kernel, "c", {variant}) {}
 
     // ---- the bus
     void write(int number, unsigned value) {

@@ -109,7 +109,6 @@ class Watcher final : public sim::MotionListener {
 
 // A kernel with one chip, its wires and, perhaps, somebody who listens to its edges.
 class Bench {
-    static constexpr int output_count = 10;
 
   public:
     Bench(const Program& program, const Way& way) : program_(program), way_(way), random_(way.slices) {
@@ -118,7 +117,8 @@ class Bench {
         for (int a = 0; a < axis_count; ++a)
             for (int p = 0; p < pin_count; ++p)
                 wires_[a][p] = kernel_.find_wire(std::string("c.") + "xyzu"[a] + pins[p]);
-        static constexpr const char* outputs[] = {"pp", "pm", "out4", "out5", "out6", "out7", "out0", "out1", "out2", "out3"};
+        static constexpr const char* outputs[] = {"pp",   "pm",   "out4", "out5", "out6", "out7",
+                                                  "out0", "out1", "out2", "out3", "drive"};
         for (int a = 0; a < axis_count; ++a)
             for (int p = 0; p < output_count; ++p)
                 output_wires_[a][p] = kernel_.find_wire(std::string("c.") + "xyzu"[a] + outputs[p]);
@@ -241,7 +241,7 @@ class Bench {
     Requests requests_;
     sim::Kernel kernel_;
     Hand hand_{kernel_};
-    Chip chip_{kernel_, "c"};
+    Chip chip_{kernel_, "c", {program_.extended ? Variant::mcx314as : Variant::mcx314}};
     Follower follower_{kernel_, out_.changes};
     std::array<Edges, axis_count> edges_{Edges{out_.pulses, 0}, Edges{out_.pulses, 1}, Edges{out_.pulses, 2},
                                          Edges{out_.pulses, 3}};

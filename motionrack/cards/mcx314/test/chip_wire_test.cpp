@@ -228,6 +228,24 @@ class Watcher final : public sim::MotionListener {
     int slot_;
 };
 
+TEST(ChipMotion, AStartIntoALimitIsSeenWhateverIsWatchedInItsFirstTicks) {
+    for (int ticks = 0; ticks < 7; ++ticks) {
+        Bench b;
+        Watcher watcher(b.chip.pulses(1));
+        b.start();
+        b.speeds(X, 16'000, 1000, 1000);
+        b.mode(X, 3, 0x0008);  // drives while nEXPP is Low
+        b.wire("xlmtp", 0);
+        b.advance(tick * 4);
+        b.wire("xexpp", 0);
+        b.advance(tick * ticks);
+        watcher.watch(-10, 10);
+        b.advance(tick * 30);
+        EXPECT_EQ(b.read(0) & X, 0u) << ticks;
+        EXPECT_EQ(b.count(0), 0) << ticks;
+    }
+}
+
 TEST(ChipMotion, AWatchedCountIsToldAtItsVeryTickAndOnce) {
     Bench b;
     EdgeLog log;

@@ -31,17 +31,23 @@ TEST(Mcx314Map, HasEveryDocumentedCode) {
     EXPECT_EQ(codes, documented);
 }
 
-TEST(Mcx314Map, WhatOnlyTheAsHasIsNotSaidToBeReproduced) {
-    for (const CommandInfo& command : card_map().commands)
-        if (command.variant == map::as_only) {
-            EXPECT_FALSE(command.reproduced) << command.name;
+TEST(Mcx314Map, TheStatesOfTheHomeSearchAreThoseThatHmstShows) {
+    for (const MachineInfo& machine : card_map().machines) {
+        if (machine.name != "home search") continue;
+        ASSERT_EQ(machine.states.size(), std::size(map::home_drives) + 1);
+        for (std::size_t i = 0; i < machine.states.size(); ++i) {
+            const int hmst = i == 0 ? 0 : map::home_drives[i - 1].hmst;
+            EXPECT_EQ(machine.states[i].meaning.find("HMST " + std::to_string(hmst) + ":"), 0u) << machine.states[i].name;
         }
+        return;
+    }
+    FAIL() << "the map has no home search";
 }
 
 // Whether a fresh chip takes a command code, or reports that it does not know it.
-bool chip_knows(std::uint32_t code) {
+bool chip_knows(std::uint32_t code, Variant variant) {
     sim::Kernel kernel;
-    Chip chip(kernel, "c");
+    Chip chip(kernel, "c", {variant});
     kernel.start();
     chip.write(reg::WR0, static_cast<std::uint16_t>(0x0100u | code));
     for (const sim::Condition& condition : kernel.conditions())
@@ -50,11 +56,17 @@ bool chip_knows(std::uint32_t code) {
 }
 
 TEST(Mcx314Map, TheChipTakesTheReproducedCommandsAndNoOthers) {
-    std::set<std::uint32_t> reproduced;
-    for (const CommandInfo& command : card_map().commands)
-        if (command.reproduced) reproduced.insert(command.code);
-    for (std::uint32_t code = 0; code < 256; ++code)
-        EXPECT_EQ(chip_knows(code), reproduced.count(code) == 1) << "code " << code;
+    std::set<std::uint32_t> original, extended;
+    for (const CommandInfo& command : card_map().commands) {
+        if (!command.reproduced) continue;
+        extended.insert(command.code);
+        if (command.variant.empty()) original.insert(command.code);
+    }
+    EXPECT_GT(extended.size(), original.size());
+    for (std::uint32_t code = 0; code < 256; ++code) {
+        EXPECT_EQ(chip_knows(code, Variant::mcx314), original.count(code) == 1) << "code " << code;
+        EXPECT_EQ(chip_knows(code, Variant::mcx314as), extended.count(code) == 1) << "code " << code;
+    }
 }
 
 TEST(Mcx314Map, TheChipHasThePinsOfTheMapAndActiveLowOnesRestHigh) {

@@ -1,6 +1,6 @@
 // Makes random register programs.
 #include <algorithm>
-#include <motionrack/cards/mcx314/test/program_paths.hpp>
+#include <motionrack/cards/mcx314/test/program_extension.hpp>
 
 namespace motionrack::mcx314::twin {
 
@@ -17,9 +17,9 @@ std::int64_t Random::between(std::int64_t low, std::int64_t high) {
 
 namespace {
 
-class Maker : private Paths {
+class Maker : private ExtensionActions {
   public:
-    Maker(std::uint64_t seed, std::uint64_t number) : Paths(seed, number) {}
+    Maker(std::uint64_t seed, std::uint64_t number, bool extended) : ExtensionActions(seed, number, extended) {}
 
     Program make() {
         static constexpr std::int64_t lengths[] = {2'000, 2'000, 2'000, 2'000, 4'000, 4'000, 8'000, 8'000};
@@ -35,6 +35,7 @@ class Maker : private Paths {
         external_ = random_.one_in(4);
         const std::int64_t theme = random_.between(0, 3);  // single axes, interpolation, both, everything
         initial();
+        if (program_.extended) begin_extension();
         if (random_.one_in(4)) retarget();
         while (now_ < program_.ticks) {
             action(theme);
@@ -75,6 +76,7 @@ class Maker : private Paths {
     // ---- actions
     // ------------------------------------------------------------------------------------------------------------
     void action(std::int64_t theme) {
+        if (program_.extended && random_.one_in(4)) return extension();
         const bool calm = busy_ < 10;  // drives are mostly left to run
         const std::int64_t roll = random_.between(0, calm && !random_.one_in(4) ? 67 : 99);
         const bool path = theme == 1 || (theme >= 2 && random_.one_in(2));
@@ -259,7 +261,7 @@ class Maker : private Paths {
     void read_everything() {
         read(0);
         for (unsigned a = 0; a < 4; ++a) {
-            for (int code = 0x10; code <= 0x13; ++code) {
+            for (int code = 0x10; code <= (program_.extended ? 0x14 : 0x13); ++code) {
                 command(1u << a, code);
                 read(12);
                 read(14);
@@ -285,8 +287,8 @@ class Maker : private Paths {
 
 }  // namespace
 
-Program make_program(std::uint64_t seed, std::uint64_t number) {
-    return Maker(seed, number).make();
+Program make_program(std::uint64_t seed, std::uint64_t number, bool extended) {
+    return Maker(seed, number, extended).make();
 }
 
 }  // namespace motionrack::mcx314::twin

@@ -31,12 +31,13 @@ struct Op {
 struct Program {
     std::uint64_t seed = 0;
     std::uint64_t number = 0;
+    bool extended = false;   ///< for an MCX314As
     std::int64_t ticks = 0;  ///< runs to this tick after the last op
     std::vector<Op> ops;
 };
 
 /// Program `number` of `seed`: always the same.
-Program make_program(std::uint64_t seed, std::uint64_t number);
+Program make_program(std::uint64_t seed, std::uint64_t number, bool extended = false);
 
 /// The register traffic as text, one line an op.
 std::string to_text(const Program& program);

@@ -11,6 +11,22 @@ const char* name_of_command(int code) {
                                            "DP", "C", "LP", "EP", "COMP+", "COMP-", "AO"};
     if (code <= 0x0D) return data[code];
     switch (code) {
+        case 0x0E:
+            return "L";
+        case 0x14:
+            return "read BR";
+        case 0x60:
+            return "EM";
+        case 0x61:
+            return "HV";
+        case 0x62:
+            return "home search";
+        case 0x63:
+            return "clear pulse";
+        case 0x64:
+            return "SM";
+        case 0x65:
+            return "act";
         case 0x0F:
             return "select";
         case 0x10:
@@ -75,7 +91,7 @@ const char* name_of_command(int code) {
 std::string to_text(const Program& program) {
     static constexpr const char* pins[] = {"IN0",  "IN1",   "IN2",   "IN3",  "EXPP",
                                            "EXPM", "INPOS", "ALARM", "LMTP", "LMTM"};
-    std::string out = "seed " + std::to_string(program.seed) + ", program " + std::to_string(program.number) + ", " +
+    std::string out = std::string(program.extended ? "MCX314As, " : "") + "seed " + std::to_string(program.seed) + ", program " + std::to_string(program.number) + ", " +
                       std::to_string(program.ticks) + " ticks\n";
     unsigned wr6 = 0, wr7 = 0;
     for (const Op& op : program.ops) {
@@ -106,7 +122,9 @@ std::string to_text(const Program& program) {
                 n += std::snprintf(line + n, rest(), "  %s%s%s%s %s", op.value & 0x100 ? "X" : "",
                                    op.value & 0x200 ? "Y" : "", op.value & 0x400 ? "Z" : "",
                                    op.value & 0x800 ? "U" : "", name_of_command(op.value & 0xFF));
-                if ((op.value & 0xFF) <= 0x0D)
+                if (const int code = op.value & 0xFF; code == 0x60 || code == 0x64)
+                    n += std::snprintf(line + n, rest(), " = %04X %04X", wr7, wr6);
+                else if (code <= 0x0E || code == 0x61)
                     n += std::snprintf(line + n, rest(), " = %d", static_cast<std::int32_t>(wr7 << 16 | wr6));
             }
         }

@@ -32,7 +32,7 @@ class Pins {
             // A pulse that comes while the one before still lasts begins with a change to rest.
             const bool pulse = std::exchange(made_[a], twin_.made(a)) != twin_.made(a);
             const unsigned rest = twin_.outputs_at_rest(a);
-            for (int pin = 0; pin < 10; ++pin) {
+            for (int pin = 0; pin < output_count; ++pin) {
                 const bool level = (now >> pin & 1u) != 0;
                 if (((before ^ now) >> pin & 1u) != 0)
                     changes_.push_back({half_tick, a, pin, level});
@@ -65,7 +65,7 @@ void find_crossings(Outcome& out) {
 }  // namespace
 
 Outcome run_on_twin(const Program& program, bool follow) {
-    Twin twin;
+    Twin twin(program.extended);
     Outcome out;
     Pins pins(twin, out.changes);
     bool requested = false;
@@ -161,8 +161,8 @@ std::string first_change_difference(const std::vector<Change>& twin, const std::
     const auto [a, b] = std::mismatch(twin.begin(), twin.end(), chip.begin(), chip.end());
     if (a == twin.end() && b == chip.end()) return "";
     const auto text = [](const Change& c) {
-        static constexpr const char* pins[] = {"PP",   "PM",   "OUT4", "OUT5", "OUT6",
-                                               "OUT7", "OUT0", "OUT1", "OUT2", "OUT3"};
+        static constexpr const char* pins[output_count] = {"PP",   "PM",   "OUT4", "OUT5", "OUT6", "OUT7",
+                                                           "OUT0", "OUT1", "OUT2", "OUT3", "DRIVE"};
         return std::string(1, "XYZU"[c.axis]) + pins[c.pin] + (c.level ? " High" : " Low") + " at tick " +
                std::to_string(c.half_tick / 2) + (c.half_tick & 1 ? ".5" : "");
     };
@@ -209,7 +209,7 @@ std::string difference(const Program& program, const Outcome& twin, const Outcom
                        std::to_string(c.count[a]) + "; ";
         for (int a = 0; a < axis_count; ++a)
             if (t.outputs[a] != c.outputs[a])
-                out += std::string(1, "XYZU"[a]) + " outputs (PP PM OUT4-7 OUT0-3 from bit 0) twin " +
+                out += std::string(1, "XYZU"[a]) + " outputs (PP PM OUT4-7 OUT0-3 DRIVE from bit 0) twin " +
                        std::to_string(t.outputs[a]) + " chip " + std::to_string(c.outputs[a]) + "; ";
         return out + "\n";
     }

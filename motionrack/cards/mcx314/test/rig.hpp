@@ -9,12 +9,15 @@
 
 namespace motionrack::mcx314::twin {
 
+/// Output pins of an axis.
+inline constexpr int output_count = 11;
+
 /// What is seen right after an op (for a read: with its value).
 struct Sight {
     std::uint16_t value = 0;
     bool interrupt = false;
     std::array<std::int64_t, axis_count> count{};
-    std::array<unsigned, axis_count> outputs{};  ///< levels of nPP, nPM, nOUT4..7, nOUT0..3
+    std::array<unsigned, axis_count> outputs{};  ///< levels of nPP, nPM, nOUT4..7, nOUT0..3, nDRIVE
     friend bool operator==(const Sight&, const Sight&) = default;
 };
 
@@ -37,7 +40,7 @@ struct Crossing {
 struct Change {
     std::int64_t half_tick = 0;
     int axis = 0;
-    int pin = 0;  ///< nPP, nPM, nOUT4..7, nOUT0..3
+    int pin = 0;  ///< nPP, nPM, nOUT4..7, nOUT0..3, nDRIVE
     bool level = false;
     friend bool operator==(const Change&, const Change&) = default;
 };

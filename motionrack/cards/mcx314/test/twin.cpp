@@ -15,16 +15,19 @@ constexpr bool bit(std::uint16_t value, int n) {
 
 void Twin::tick() {
     ++now_;
+    if (extended_) sample();
     for (int a = 0; a < axis_count; ++a) {
         Axis& axis = axes_[a];
         if (axis.gen.kind != Generator::Kind::idle) work(a);
     }
     for (Axis& axis : axes_) {
         if (!axis.waits_position) continue;
-        const bool in_position = axis.pin[static_cast<int>(Pin::in_position)] == bit(axis.wr2, 14);
+        const bool in_position = axis.level(Pin::in_position) == bit(axis.wr2, 14);
         if (!bit(axis.wr2, 15) || in_position) axis.waits_position = false;
     }
     look_at_wires();
+    for (int a = 0; a < axis_count; ++a) look_at_home(a);
+    act_together();
 }
 
 void Twin::work(int a) {
@@ -62,20 +65,20 @@ bool Twin::moves_with(int a, int other) const {
 std::uint16_t Twin::active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const {
     unsigned causes = 0;
     for (int i = 0; i < 4; ++i) {
-        if (bit(axis.wr1, 2 * i + 1) && axis.pin[i] == bit(axis.wr1, 2 * i)) causes |= 1u << (8 + i);
+        if (bit(axis.wr1, 2 * i + 1) && axis.level(static_cast<Pin>(i)) == bit(axis.wr1, 2 * i)) causes |= 1u << (8 + i);
     }
     if (causes != 0) decelerating = true;
     const bool plus = axis.direction > 0;
     const Pin limit = plus ? Pin::limit_plus : Pin::limit_minus;
-    if (axis.pin[static_cast<int>(limit)] == bit(axis.wr2, plus ? 3 : 4)) {
+    if (axis.level(limit) == bit(axis.wr2, plus ? 3 : 4)) {
         causes |= plus ? 1u << 12 : 1u << 13;
         (bit(axis.wr2, 2) ? decelerating : immediate) = true;
     }
-    if (bit(axis.wr2, 13) && axis.pin[static_cast<int>(Pin::alarm)] == bit(axis.wr2, 12)) {
+    if (bit(axis.wr2, 13) && axis.level(Pin::alarm) == bit(axis.wr2, 12)) {
         causes |= 1u << 14;
         immediate = true;
     }
-    if (!emgn_) {
+    if (!emergency_level()) {
         causes |= 1u << 15;
         immediate = true;
     }
@@ -98,6 +101,7 @@ bool Twin::inputs(int a) {
         if (!moves_with(a, i)) continue;
         axes_[i].causes |= active_inputs(axes_[i], decelerating, immediate);
         if (beyond_software_limit(axes_[i])) decelerating = true;
+        if (home_stops(axes_[i])) decelerating = true;
     }
     return stop(a, decelerating, immediate);
 }
@@ -117,11 +121,12 @@ void Twin::end(int a) {
     for (int i = 0; i < axis_count; ++i) {
         if (!(axes >> i & 1)) continue;
         Axis& axis = axes_[i];
-        if (chain_ >> i & 1 && !emgn_) axis.causes |= 1u << 15;
+        if (chain_ >> i & 1 && !emergency_level()) axis.causes |= 1u << 15;
         axis.finished |= axis.causes;
         axis.causes = 0;
         axis.flags |= axis.wr1 >> 8 & flag_drive_end;
         axis.waits_position = true;
+        note(i, 0x0020);
     }
     if (axes_[a].gen.kind == Generator::Kind::path) {
         chain_ = 0;
@@ -156,6 +161,7 @@ bool Twin::pulse(int a) {
     if (gen.kind == Generator::Kind::fixed && gen.n >= axes_[a].reg.pulses) return end(a), true;
     if (gen.kind == Generator::Kind::path && path_finished()) return segment_end(a);
     check_final(a);
+    avoid_triangle(axes_[a]);
     return false;
 }
 
@@ -223,7 +229,7 @@ bool Twin::path_finished() const {
 
 void Twin::move(int a, int direction) {
     Axis& axis = axes_[a];
-    axis.lp = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.lp) + static_cast<std::uint32_t>(direction));
+    axis.lp = next_count(axis, axis.lp, direction);
     count_[a] += direction;
     ++made_[a];
     axis.flags |= axis.wr1 >> 8 & flag_pulse;
@@ -272,7 +278,7 @@ void Twin::check_final(int a) {
     if (gen.kind == Generator::Kind::path) return check_final_of_path();
     if (gen.kind != Generator::Kind::fixed) return;
     const std::int64_t left = std::int64_t{axis.reg.pulses} - gen.n;
-    if (gen.manual ? gen.n >= axis.reg.decel_point : left <= gen.accel_pulses + axis.reg.offset) gen.final = true;
+    if (gen.manual ? gen.n >= axis.reg.decel_point : left <= final_pulses(axis) + axis.reg.offset) gen.final = true;
 }
 
 void Twin::check_final_of_path() {
@@ -281,7 +287,7 @@ void Twin::check_final_of_path() {
     if (!decel_enabled_ || queued_) return;
     if (gen.manual) {
         if (gen.n >= axis.reg.decel_point) gen.final = true;
-    } else if (path_.is_line() && path_.left() <= gen.accel_pulses + axis.reg.offset) {
+    } else if (path_.is_line() && path_.left() <= final_pulses(axis) + axis.reg.offset) {
         gen.final = true;
     }
 }
@@ -300,6 +306,10 @@ void Twin::compare(int a) {
     const unsigned risen = now & ~axis.compared;
     axis.compared = now;
     axis.flags |= static_cast<std::uint16_t>(axis.wr1 >> 8 & risen);
+    if (risen & 1u << 4) note(a, 0x0001);
+    if (risen & 1u << 3) note(a, 0x0002);
+    if (risen & 1u << 2) note(a, 0x0004);
+    if (risen & 1u << 1) note(a, 0x0008);
 }
 
 bool Twin::interrupt() const {

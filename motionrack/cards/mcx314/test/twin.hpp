@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/cards/mcx314/test/twin_extension.hpp>
 #include <motionrack/cards/mcx314/test/twin_path.hpp>
 #include <motionrack/cards/mcx314/test/twin_pattern.hpp>
 #include <vector>
@@ -16,10 +17,6 @@
 namespace motionrack::mcx314::twin {
 
 inline constexpr int axis_count = 4;
-
-/// The input pins of one axis, by name; all rest High.
-enum class Pin : std::uint8_t { in0, in1, in2, in3, exp_plus, exp_minus, in_position, alarm, limit_plus, limit_minus };
-inline constexpr int pin_count = 10;
 
 /// A pulse: the tick of its active edge, the axis 0..3 and the direction +1 or -1.
 struct Pulse {
@@ -31,7 +28,7 @@ struct Pulse {
 
 /// The parameter registers, as written (cut to their width, not to their range).
 struct Parameters {
-    std::uint32_t range = 0, jerk = 0, accel = 0, decel = 0, start_speed = 0, speed = 0;
+    std::uint32_t range = 0, jerk = 0, decel_jerk = 0, accel = 0, decel = 0, start_speed = 0, speed = 0;
     std::uint32_t pulses = 0, decel_point = 0, centre = 0, offset = 8;
 };
 
@@ -49,6 +46,7 @@ struct Generator {
     int ramp = 0;
     Phase phase = Phase::increasing;
     bool final = false, final_seen = false, stopping = false, constant = false;
+    bool no_triangle = false;
     bool ask_decelerating = false, ask_immediate = false;  ///< commands 26h and 27h, taken at the next working tick
 };
 
@@ -73,11 +71,19 @@ struct Axis {
     Segment held_segment;
     std::array<bool, pin_count> pin{true, true, true, true, true, true, true, true, true, true};
     Generator gen;
+    Extension as;
+
+    /// What the chip sees of an input.
+    bool level(Pin which) const {
+        const auto i = static_cast<std::size_t>(which);
+        return as.filters(which) ? as.filter[i].out : pin[i];
+    }
 };
 
 class Twin {
   public:
-    Twin();
+    /// `extended`: an MCX314As.
+    explicit Twin(bool extended = false);
 
     /// The register bus, byte offsets 0, 2, .. 14; an access comes after the last tick and before the next.
     void write(std::uint32_t offset, std::uint16_t value);
@@ -101,7 +107,13 @@ class Twin {
 
     std::int64_t now() const { return now_; }
     const Axis& axis(int a) const { return axes_[a]; }
-    bool driving(int a) const { return axes_[a].gen.kind != Generator::Kind::idle || (chain_ >> a & 1) != 0; }
+    bool driving(int a) const {
+        return axes_[a].gen.kind != Generator::Kind::idle || (chain_ >> a & 1) != 0 || axes_[a].as.hmst != 0;
+    }
+    /// n-DRV.
+    bool busy(int a) const;
+    /// The wire nDRIVE.
+    bool drive_output(int a) const;
     bool any_driving() const;
     /// Net pulses of an axis since the start, + minus -.
     std::int64_t count(int a) const { return count_[a]; }
@@ -109,7 +121,7 @@ class Twin {
     std::int64_t made(int a) const { return made_[a]; }
     /// True: an interrupt is requested (INTN Low).
     bool interrupt() const;
-    /// Levels of output pins: nPP, nPM, nOUT4..7, nOUT0..3.
+    /// Levels of output pins: nPP, nPM, nOUT4..7, nOUT0..3, nDRIVE.
     unsigned outputs(int a) const { return outputs(a, now_ < axes_[a].pulse_end); }
     /// The same without a pulse.
     unsigned outputs_at_rest(int a) const { return outputs(a, false); }
@@ -146,14 +158,43 @@ class Twin {
     // twin_wires.cpp: wires that ask for drives and steps
     void look_at_wires();
     void look_at_external(int a);
+    void look_at_wheel(int a);
     void write_wr3(Axis& axis, std::uint16_t value);
     bool ask_step(Segment::Steps by);
     bool by_steps(int a) const;
     bool halted(int a) const { return by_steps(a) && !step_under_way_; }
 
+    // What only the MCX314As has. twin_extension.cpp
+    bool extended_command(int code, unsigned axes);
+    void extended_write(int code, int a);
+    void sample();
+    std::int32_t next_count(const Axis& axis, std::int32_t counter, int direction) const;
+    void set_lp(Axis& axis, std::uint32_t value);
+    void set_ep(Axis& axis, std::uint32_t value);
+    void ask_clear(Axis& axis);
+    bool emergency_level() const { return axes_[0].as.em6 & 0x100 ? emergency_filter_.out : emgn_; }
+    bool weighs(const Axis& axis) const;
+    std::int64_t final_pulses(const Axis& axis) const;
+    void avoid_triangle(Axis& axis);
+    // twin_home.cpp
+    void start_home(int a);
+    void begin_home_step(int a, int step);
+    void go_home(int a, int hmst);
+    bool home_input(const Axis& axis, int step) const;
+    bool at_limit(const Axis& axis, int direction) const;
+    bool home_stops(Axis& axis);
+    void look_at_home(int a);
+    void finish_home(int a);
+    void end_home(int a);
+    // twin_sync.cpp
+    void note(int a, unsigned condition);
+    void act_together();
+    void act_alone(int a);
+
     // twin_speed.cpp: the speed step
     bool speed_step(int a);
     std::int64_t target(int a) const;
+    std::int64_t drive_speed(const Axis& axis) const;
     void t_curve(int a);
     void s_curve(int a);
     void s_turn_final(int a);
@@ -183,10 +224,12 @@ class Twin {
     std::uint16_t status2(int a) const;
     std::uint16_t levels(int a) const;
 
+    const bool extended_;
     std::array<Axis, axis_count> axes_;
     std::array<std::int64_t, axis_count> count_{}, made_{};
     std::int64_t now_ = 0;
     bool emgn_ = true;
+    Filter emergency_filter_, step_filter_;
     unsigned selected_ = 1;
     std::uint16_t wr4_ = 0, wr5_ = 0, wr6_ = 0, wr7_ = 0, rr6_ = 0, rr7_ = 0;
     // The interpolation: the axes of its chain (0: none runs), whose generator, the running segment and the queued one.
@@ -228,8 +271,8 @@ constexpr std::int64_t used_accel(const Parameters& p) {
 constexpr std::int64_t used_decel(const Parameters& p) {
     return used(p.decel, 1, 8'000);
 }
-constexpr std::int64_t used_jerk(const Parameters& p) {
-    return used(p.jerk, 1, 65'535);
+constexpr std::int64_t used_jerk(std::uint32_t jerk) {
+    return used(jerk, 1, 65'535);
 }
 
 }  // namespace motionrack::mcx314::twin

@@ -1,4 +1,5 @@
-// The twin's register bus: what a write does and what a read shows.
+// The twin's register bus: what a write does.
+#include <algorithm>
 #include <motionrack/cards/mcx314/test/twin.hpp>
 
 namespace motionrack::mcx314::twin {
@@ -9,7 +10,7 @@ constexpr bool bit(std::uint16_t value, int n) {
 }
 }  // namespace
 
-Twin::Twin() {
+Twin::Twin(bool extended) : extended_(extended) {
     reset();
 }
 
@@ -38,6 +39,7 @@ void Twin::reset() {
 
 void Twin::write(std::uint32_t offset, std::uint16_t value) {
     write_register(offset, value, 0xFFFF);
+    act_together();
 }
 
 void Twin::write_byte(std::uint32_t port, std::uint8_t value) {
@@ -45,10 +47,13 @@ void Twin::write_byte(std::uint32_t port, std::uint8_t value) {
         write(0, static_cast<std::uint16_t>(wr0_high_ << 8 | value));
     else if (port == 1)
         wr0_high_ = value;
-    else if (port % 2 == 0)
-        write_register(port, value, 0x00FF);
-    else
-        write_register(port - 1, static_cast<std::uint16_t>(value << 8), 0xFF00);
+    else {
+        if (port % 2 == 0)
+            write_register(port, value, 0x00FF);
+        else
+            write_register(port - 1, static_cast<std::uint16_t>(value << 8), 0xFF00);
+        act_together();
+    }
 }
 
 // Writes the bits in `mask`.
@@ -82,6 +87,7 @@ void Twin::command(std::uint16_t value) {
                 if ((axes >> a & 1) && axes_[a].gen.kind == Generator::Kind::fixed) check_final(a);
     } else if (code >= 0x10 && code <= 0x13) {
         if (axes != 0) data_read(code, axes_[selected()]);
+        if (axes != 0 && code == 0x10) note(selected(), 0x0100);
     } else if (code >= 0x20 && code <= 0x23) {
         drive_command(code, axes);
     } else if (code >= 0x30 && code <= 0x35) {
@@ -104,7 +110,7 @@ void Twin::command(std::uint16_t value) {
         decel_enabled_ = false;
     } else if (code == 0x3D) {
         path_interrupt_ = pattern_.interrupt = false;
-    } else if (code != 0x0F) {
+    } else if (code != 0x0F && !(extended_ && extended_command(code, axes))) {
         ++conditions_;
     }
 }
@@ -142,22 +148,24 @@ void Twin::data_write(int code, Axis& axis) {
             p.speed = wr6_;
             break;
         case 0x06:
-            p.pulses = value & 0x0FFF'FFFF;
+            p.pulses = extended_ ? value : value & 0x0FFF'FFFF;
             break;
         case 0x07:
-            p.decel_point = value & 0x0FFF'FFFF;
+            p.decel_point = extended_ ? value : value & 0x0FFF'FFFF;
             break;
         case 0x08:
             p.centre = value;
             break;
         case 0x09:
-            axis.lp = static_cast<std::int32_t>(value);
+            set_lp(axis, value);
             break;
         case 0x0A:
-            axis.ep = static_cast<std::int32_t>(value);
+            set_ep(axis, value);
             break;
         case 0x0B:
             axis.comp_plus = static_cast<std::int32_t>(value);
+            set_lp(axis, static_cast<std::uint32_t>(axis.lp));
+            set_ep(axis, static_cast<std::uint32_t>(axis.ep));
             break;
         case 0x0C:
             axis.comp_minus = static_cast<std::int32_t>(value);
@@ -209,10 +217,12 @@ void Twin::start_drive(int a, int code) {
     begin_generator(a, code <= 0x21 ? Generator::Kind::fixed : Generator::Kind::continuous);
     axes_[a].finished = axes_[a].causes = 0;
     check_final(a);
+    note(a, 0x0010);
 }
 
 void Twin::begin_generator(int a, Generator::Kind kind) {
-    const Axis& axis = axes_[a];
+    Axis& axis = axes_[a];
+    axis.as.cap = 0;
     Generator gen;
     gen.kind = kind;
     gen.wait = 2;
@@ -220,8 +230,9 @@ void Twin::begin_generator(int a, Generator::Kind kind) {
     gen.own_decel = bit(axis.wr3, 1);
     gen.s_curve = bit(axis.wr3, 2);
     gen.range = gen.range_now = used_range(axis.reg);
-    gen.constant = used_speed(axis.reg) <= used_start_speed(axis.reg);
-    gen.speed = gen.constant ? used_speed(axis.reg) : used_start_speed(axis.reg);
+    gen.constant = drive_speed(axis) <= used_start_speed(axis.reg);
+    gen.speed = gen.constant ? drive_speed(axis) : used_start_speed(axis.reg);
+    gen.no_triangle = kind == Generator::Kind::fixed && (axis.as.em6 & 0x08) && !gen.manual && !gen.s_curve;
     axes_[a].gen = gen;
 }
 
@@ -234,13 +245,14 @@ Segment Twin::captured(int code) const {
     s.count = code == 0x31 || code == 0x35 ? 3 : 2;
     s.constant_speed = wr5_ >> 8 & 3;
     s.steps = (bit(wr5_, 11) ? Segment::by_wire : 0) | (bit(wr5_, 12) ? Segment::by_command : 0);
-    const auto signed24 = [](std::uint32_t v) {
+    const auto coordinate = [this](std::uint32_t v) {
+        if (extended_) return std::clamp<std::int64_t>(static_cast<std::int32_t>(v), -2'147'483'646, 2'147'483'646);
         return static_cast<std::int64_t>((v & 0xFF'FFFF) ^ 0x80'0000) - 0x80'0000;
     };
     for (int i = 0; i < 3; ++i) {
         s.axis[i] = wr5_ >> (2 * i) & 3;
-        s.finish[i] = signed24(axes_[s.axis[i]].reg.pulses);
-        if (i < 2) s.centre[i] = signed24(axes_[s.axis[i]].reg.centre);
+        s.finish[i] = coordinate(axes_[s.axis[i]].reg.pulses);
+        if (i < 2) s.centre[i] = coordinate(axes_[s.axis[i]].reg.centre);
     }
     return s;
 }
@@ -262,7 +274,7 @@ void Twin::path_command(int code) {
         queued_ = true;
         queue_ = segment;
         for (int a = 0; a < axis_count; ++a)
-            if ((segment.mask() & ~chain_) >> a & 1) axes_[a].finished = axes_[a].causes = 0;
+            if ((segment.mask() & ~chain_) >> a & 1) axes_[a].finished = axes_[a].causes = 0, note(a, 0x0010);
         chain_ |= segment.mask();
     } else if (axes_[segment.axis[0]].hold) {
         axes_[segment.axis[0]].held_command = code;
@@ -283,6 +295,8 @@ void Twin::start_path(const Segment& segment) {
     begin_generator(master_, Generator::Kind::path);
     begin_segment(segment);
     check_final(master_);
+    for (int a = 0; a < axis_count; ++a)
+        if (chain_ >> a & 1) note(a, 0x0010);
 }
 
 void Twin::free_held(unsigned axes) {
@@ -290,6 +304,7 @@ void Twin::free_held(unsigned axes) {
         if (!(axes >> a & 1)) continue;
         axes_[a].hold = false;
         axes_[a].finished = 0;
+        axes_[a].as.error = false;
     }
     for (int a = 0; a < axis_count; ++a) {
         const int code = axes_[a].held_command;
@@ -307,6 +322,7 @@ void Twin::ask_stop(unsigned axes, bool immediate) {
     for (int a = 0; a < axis_count; ++a) {
         if (!(axes >> a & 1)) continue;
         axes_[a].held_command = 0;
+        if (axes_[a].as.hmst != 0) axes_[a].as.cancelled = true;
         Generator& gen = axes_[chain_ >> a & 1 ? master_ : a].gen;
         if (gen.kind == Generator::Kind::idle) continue;
         (immediate ? gen.ask_immediate : gen.ask_decelerating) = true;

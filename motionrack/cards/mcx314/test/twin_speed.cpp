@@ -25,9 +25,16 @@ bool Twin::speed_step(int a) {
     return false;
 }
 
+// V, or what stands for it: HV in slow drives of a home search, no more than the cap where a triangle is avoided.
+std::int64_t Twin::drive_speed(const Axis& axis) const {
+    if (axis.as.slow()) return used(axis.as.hv, 1, 8'000);
+    const std::int64_t v = used_speed(axis.reg);
+    return axis.as.cap != 0 && axis.as.cap < v ? axis.as.cap : v;
+}
+
 std::int64_t Twin::target(int a) const {
     const Axis& axis = axes_[a];
-    if (!axis.gen.final) return used_speed(axis.reg);
+    if (!axis.gen.final) return drive_speed(axis);
     const std::int64_t start_speed = used_start_speed(axis.reg);
     return axis.gen.speed > start_speed ? start_speed : axis.gen.speed;
 }
@@ -104,7 +111,8 @@ void Twin::s_advance(int a) {
     Axis& axis = axes_[a];
     Generator& gen = axis.gen;
     const std::int64_t limit = gen.ramp < 0 && gen.own_decel ? used_decel(axis.reg) : used_accel(axis.reg);
-    const std::int64_t jerk_ticks = 16 * used_jerk(axis.reg);
+    const bool own_jerk = extended_ && gen.ramp < 0 && gen.own_decel;
+    const std::int64_t jerk_ticks = 16 * used_jerk(own_jerk ? axis.reg.decel_jerk : axis.reg.jerk);
     ++gen.rate_part;
     if (gen.rate_part >= jerk_ticks) {
         gen.rate_part = 0;

@@ -1,5 +1,6 @@
 // The twin's registers as a read shows them, and its output pins.
 #include <motionrack/cards/mcx314/test/twin.hpp>
+#include <utility>
 
 namespace motionrack::mcx314::twin {
 
@@ -51,14 +52,17 @@ std::uint16_t Twin::peek(std::uint32_t offset) const {
     }
 }
 
+bool Twin::busy(int a) const {
+    const Axis& axis = axes_[a];
+    const bool out_of_position = bit(axis.wr2, 15) && axis.level(Pin::in_position) != bit(axis.wr2, 14);
+    return driving(a) || (axis.waits_position && out_of_position);
+}
+
 std::uint16_t Twin::main_status() const {
     unsigned v = 0;
     for (int a = 0; a < axis_count; ++a) {
-        const Axis& axis = axes_[a];
-        const bool out_of_position =
-            bit(axis.wr2, 15) && axis.pin[static_cast<int>(Pin::in_position)] != bit(axis.wr2, 14);
-        if (driving(a) || (axis.waits_position && out_of_position)) v |= 1u << a;
-        if ((status2(a) & 0x3F) != 0 || (axis.finished & 0xF000) != 0) v |= 1u << (4 + a);
+        if (busy(a)) v |= 1u << a;
+        if ((status2(a) & 0xBF) != 0 || (axes_[a].finished & 0xF000) != 0) v |= 1u << (4 + a);
     }
     if (chain_ != 0) {
         v |= 1u << 8;
@@ -87,23 +91,25 @@ std::uint16_t Twin::status2(int a) const {
     const Axis& axis = axes_[a];
     unsigned v = 0;
     if (beyond_software_limit(axis)) v |= axis.direction > 0 ? 1u << 0 : 1u << 1;
-    if (axis.pin[static_cast<int>(Pin::limit_plus)] == bit(axis.wr2, 3)) v |= 1u << 2;
-    if (axis.pin[static_cast<int>(Pin::limit_minus)] == bit(axis.wr2, 4)) v |= 1u << 3;
-    if (bit(axis.wr2, 13) && axis.pin[static_cast<int>(Pin::alarm)] == bit(axis.wr2, 12)) v |= 1u << 4;
-    if (!emgn_) v |= 1u << 5;
+    if (axis.level(Pin::limit_plus) == bit(axis.wr2, 3)) v |= 1u << 2;
+    if (axis.level(Pin::limit_minus) == bit(axis.wr2, 4)) v |= 1u << 3;
+    if (bit(axis.wr2, 13) && axis.level(Pin::alarm) == bit(axis.wr2, 12)) v |= 1u << 4;
+    if (!emergency_level()) v |= 1u << 5;
+    if (axis.as.error) v |= 1u << 7;
+    v |= static_cast<unsigned>(axis.as.hmst) << 8;
     return static_cast<std::uint16_t>(v);
 }
 
 // RR4 and RR5: eight input levels of one axis.
 std::uint16_t Twin::levels(int a) const {
     unsigned v = 0;
-    for (int i = 0; i < 8; ++i) v |= static_cast<unsigned>(axes_[a].pin[i]) << i;
+    for (int i = 0; i < 8; ++i) v |= static_cast<unsigned>(axes_[a].level(static_cast<Pin>(i))) << i;
     return static_cast<std::uint16_t>(v);
 }
 
 // ---- output pins ----------------------------------------------------------------------------------------------------
 
-// nPP, nPM, nOUT4..7, nOUT0..3 of an axis.
+// nPP, nPM, nOUT4..7, nOUT0..3, nDRIVE of an axis.
 unsigned Twin::outputs(int a, bool pulse) const {
     const Axis& axis = axes_[a];
     const bool negative = bit(axis.wr2, 7);
@@ -115,7 +121,8 @@ unsigned Twin::outputs(int a, bool pulse) const {
         pp = pp != negative;
         pm = pm != negative;
     }
-    unsigned v = (pp ? 1u : 0u) | (pm ? 2u : 0u);
+    if (axis.as.em6 & 0x04) std::swap(pp, pm);
+    unsigned v = (pp ? 1u : 0u) | (pm ? 2u : 0u) | (drive_output(a) ? 0x400u : 0u);
     const unsigned status = status1(a);
     const unsigned shown = bit(axis.wr3, 7) ? (status & 7u) | (status >> 1 & 8u) : axis.wr3 >> 8 & 15u;
     v |= shown << 2;

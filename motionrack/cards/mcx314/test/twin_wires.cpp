@@ -16,8 +16,12 @@ constexpr bool drives_by_wire(const Axis& axis) {
 // The end of a tick: inputs that ask for a drive, then EXPLSN.
 void Twin::look_at_wires() {
     for (int a = 0; a < axis_count; ++a)
-        if (drives_by_wire(axes_[a])) look_at_external(a);
-    expls_low_ = expls_ ? 0 : std::min(expls_low_ + 1, 3);
+        if (drives_by_wire(axes_[a]))
+            look_at_external(a);
+        else if (extended_ && (axes_[a].wr3 & 0x18) == 0x18)
+            look_at_wheel(a);
+    const bool expls = axes_[0].as.em6 & 0x0800 ? step_filter_.out : expls_;
+    expls_low_ = expls ? 0 : std::min(expls_low_ + 1, 3);
     if (expls_low_ == 2) ask_step(Segment::by_wire);
 }
 
@@ -25,7 +29,7 @@ void Twin::look_at_external(int a) {
     Axis& axis = axes_[a];
     const bool continuous = bit(axis.wr3, 3);
     for (int way : {0, 1}) {
-        const bool high = axis.pin[static_cast<int>(way == 0 ? Pin::exp_plus : Pin::exp_minus)];
+        const bool high = axis.level(way == 0 ? Pin::exp_plus : Pin::exp_minus);
         const bool rises = high && axis.low[way] > 0;
         axis.low[way] = high ? 0 : std::min(axis.low[way] + 1, 3);
         if (axis.low[way] == 2 && !driving(a) && !axis.hold) {
@@ -36,10 +40,19 @@ void Twin::look_at_external(int a) {
     }
 }
 
+// nEXPP and nEXPM as lines A and B of a hand wheel.
+void Twin::look_at_wheel(int a) {
+    Axis& axis = axes_[a];
+    const bool high = axis.level(Pin::exp_plus), before = axis.as.wheel_before;
+    axis.as.wheel_before = high;
+    if (high != before && !axis.level(Pin::exp_minus) && !driving(a) && !axis.hold) start_drive(a, high ? 0x20 : 0x21);
+}
+
 void Twin::write_wr3(Axis& axis, std::uint16_t value) {
     const bool changed = ((axis.wr3 ^ value) & 0x18) != 0;
     axis.wr3 = value;
     if (!changed) return;
+    axis.as.wheel_before = axis.level(Pin::exp_plus);
     if (!drives_by_wire(axis)) axis.low = {3, 3};
     if (axis.external >= 0 && (value & 0x18) != 0x08) axis.gen.ask_decelerating = true;
 }
@@ -60,8 +73,10 @@ void Twin::hear_encoders() {
             const bool counted = division == 1 ? a_changed : division == 2 ? a_changed && !line_b : true;
             if (counted) change = up ? 1 : -1;
         }
-        axis.ep = static_cast<std::int32_t>(static_cast<std::uint32_t>(axis.ep) + static_cast<std::uint32_t>(change));
-        if (change != 0) compare(a);
+        if (axis.as.em6 & 0x02) change = -change;
+        if (change == 0) continue;
+        axis.ep = next_count(axis, axis.ep, change);
+        compare(a);
     }
 }
 

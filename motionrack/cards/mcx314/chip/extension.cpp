@@ -1,0 +1,163 @@
+// What only the MCX314As has: its commands, rings, the drive's speed and deceleration, the clear pulse.
+#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/ramp.hpp>
+
+namespace motionrack::mcx314 {
+
+// ---- commands -------------------------------------------------------------------------------------------------------
+
+bool Chip::has_extended_command(int code) {
+    for (const CommandInfo& command : map::commands)
+        if (command.variant == map::as_only && static_cast<int>(command.code) == code) return true;
+    return false;
+}
+
+/// False if the MCX314As does not know the command either.
+bool Chip::extended_command(int code, unsigned axes) {
+    if (!has_extended_command(code)) return false;
+    if (code == cmd::READ_BR) {
+        const std::uint32_t value = state_.extension[first_selected()].buffer;
+        if (axes == 0) return true;
+        state_.rr6 = static_cast<std::uint16_t>(value);
+        state_.rr7 = static_cast<std::uint16_t>(value >> 16);
+        return true;
+    }
+    for_each_axis(axes, [&](int a) { extended_write(code, a); });
+    return true;
+}
+
+void Chip::extended_write(int code, int a) {
+    Extension& ext = state_.extension[a];
+    switch (code) {
+        case cmd::L:
+            state_.axis[a].decel_jerk = state_.wr6;
+            break;
+        case cmd::EM:
+            set_extension(a);
+            break;
+        case cmd::HV:
+            ext.hv = state_.wr6;
+            set_drive_speed(a);
+            break;
+        case cmd::HOME:
+            start_home(a);
+            break;
+        case cmd::DCC:
+            ask_clear(a);
+            break;
+        case cmd::SM:
+            compare(a);  // what it does not hear of is not compared
+            ext.sm6 = state_.wr6;
+            ext.sm7 = state_.wr7;
+            hear_comparisons(a);
+            set_wants(a);
+            watch_encoder(a);
+            ext.sampled = state_.axis[a].levels;
+            break;
+        default:
+            note(a, sm::CMD);
+            break;
+    }
+}
+
+/// 60h.
+void Chip::set_extension(int a) {
+    Extension& ext = state_.extension[a];
+    Axis& axis = state_.axis[a];
+    const std::int32_t position = encoder_position(axis, a);
+    ext.em6 = state_.wr6;
+    ext.em7 = state_.wr7;
+    axis.ring = em::VRING.test(ext.em6);
+    axis.lp = stepped(axis, axis.lp, 0);
+    set_encoder_position(a, position);
+    compare(a);
+    set_filters(a);
+    watch_encoder(a);
+}
+
+/// COMP+ of an axis whose counters go round.
+void Chip::set_ring_end(int a, std::int32_t value) {
+    Axis& axis = state_.axis[a];
+    const std::int32_t position = encoder_position(axis, a);
+    axis.comp_plus = value;
+    axis.lp = stepped(axis, axis.lp, 0);
+    set_encoder_position(a, position);
+}
+
+// ---- drives ---------------------------------------------------------------------------------------------------------
+
+/// A drive begins: nothing holds its speed down yet.
+void Chip::prepare_drive(int a) {
+    state_.extension[a].cap = 0;
+    set_drive_speed(a);
+}
+
+/// V is, or stays, `v`; what the drive goes to is HV in a slow drive of a home search, and no more than the cap.
+void Chip::set_drive_speed(int a, std::uint16_t v) {
+    Extension& ext = state_.extension[a];
+    ext.v = v;
+    if (ext.home.hmst != 0 && map::home_drive(ext.home.hmst).slow)
+        v = ext.hv;
+    else if (ext.cap != 0)
+        v = std::min(v, ext.cap);
+    state_.axis[a].speed = v;
+}
+
+/// How the drive that begins is going to find its deceleration point.
+void Chip::choose_deceleration(int a) {
+    Generator& gen = state_.axis[a].gen;
+    const bool automatic = !gen.manual && !gen.s_curve;
+    gen.weighted = automatic && gen.own_deceleration && gen.drive != Drive::continuous;
+    gen.no_triangle = automatic && gen.drive == Drive::fixed && em::AVTRI.test(state_.extension[a].em6);
+}
+
+/// The pulses that a deceleration from the present speed is reckoned to take.
+std::int64_t Chip::final_pulses(const Axis& axis) const {
+    if (!axis.gen.weighted) return axis.gen.accel_pulses;
+    return rules::ceil_div(axis.gen.accel_pulses * rules::used_speed(axis.accel), rules::used_speed(axis.decel));
+}
+
+/// Basic pulses until a weighted final deceleration; `left`: those of the drive without AO.
+std::int64_t Chip::pulses_to_weighted_final(const Axis& axis, std::int64_t left) const {
+    const Generator& gen = axis.gen;
+    if (gen.ramp < 0) return 1;
+    if (gen.ramp == 0) return std::max<std::int64_t>(1, left - final_pulses(axis));
+    // The first k with left - k <= ceil((accel_pulses + k) * a / d).
+    const std::int64_t a = rules::used_speed(axis.accel), d = rules::used_speed(axis.decel);
+    const std::int64_t missing = (left - 1) * d - gen.accel_pulses * a;
+    return missing < 0 ? 1 : missing / (a + d) + 1;
+}
+
+/// Pulses until half of those of the drive are taken by its ramps.
+std::int64_t Chip::pulses_to_half(const Axis& axis) const {
+    const Generator& gen = axis.gen;
+    if (gen.final || gen.ramp <= 0) return far;
+    // The first x = accel_pulses + k with 2 * (x + ceil(x * a / d)) >= P.
+    const std::int64_t half = (std::int64_t{axis.pulses} + 1) / 2;
+    const std::int64_t d = rules::used_speed(axis.decel), a = gen.weighted ? rules::used_speed(axis.accel) : d;
+    const std::int64_t x = half <= 0 ? 0 : (half - 1) * d / (a + d) + 1;
+    return std::max<std::int64_t>(1, x - gen.accel_pulses);
+}
+
+/// After a pulse of a drive that must not become a triangle: once half of its pulses are taken, it gets no faster.
+void Chip::avoid_triangle(int a) {
+    Generator& gen = state_.axis[a].gen;
+    if (gen.final || gen.ramp <= 0) return;
+    if (2 * (gen.accel_pulses + final_pulses(state_.axis[a])) < std::int64_t{state_.axis[a].pulses}) return;
+    gen.no_triangle = false;
+    gen.special_known = false;
+    state_.extension[a].cap = static_cast<std::uint16_t>(gen.speed);
+    set_drive_speed(a);
+}
+
+// ---- deviation counter clear ----------------------------------------------------------------------------------------
+
+void Chip::ask_clear(int a) {
+    Extension& ext = state_.extension[a];
+    if (!em::DCCE.test(ext.em7)) return;
+    ext.clear_until = state_.tick + map::clear_ticks[em::DCCW.get(ext.em7)];
+    state_.next_sample = std::min(state_.next_sample, ext.clear_until);
+    stale_ = true;
+}
+
+}  // namespace motionrack::mcx314

@@ -1,0 +1,57 @@
+// State of what only the MCX314As has, one an axis; trivially copyable, without padding.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/cards/mcx314/map.hpp>
+
+namespace motionrack::mcx314 {
+
+/// Masks of the words of EM and SM, as the map has them.
+namespace em {
+inline constexpr Field EPCLR = field("EM6", "EPCLR"), EPINV = field("EM6", "EPINV"), POINV = field("EM6", "POINV"),
+                       AVTRI = field("EM6", "AVTRI"), VRING = field("EM6", "VRING"), HMINT = field("EM6", "HMINT"),
+                       FL = field("EM6", "FL");
+inline constexpr Field PCLR = field("EM7", "PCLR"), SAND = field("EM7", "SAND"), LIMIT = field("EM7", "LIMIT"),
+                       DCCE = field("EM7", "DCCE"), DCCL = field("EM7", "DCCL"), DCCW = field("EM7", "DCCW");
+}  // namespace em
+
+namespace sm {
+inline constexpr Field DSTA = field("SM6", "DSTA"), DEND = field("SM6", "DEND"), IN3UP = field("SM6", "IN3UP"),
+                       IN3DN = field("SM6", "IN3DN"), LPRD = field("SM6", "LPRD"), CMD = field("SM6", "CMD"),
+                       AXIS = field("SM6", "AXIS");
+}  // namespace sm
+
+struct HomeSearch {
+    std::int32_t hmst = 0;      ///< 0: none
+    bool found = false;         ///< what the step waits for came
+    bool seen = false;          ///< HMST 12: IN1 was active
+    bool cancelled = false;     ///< a stop command came
+    bool cleared = false;       ///< the clear pulse at the end of step 3 was asked for
+    bool error = false;         ///< RR2 HOME
+    std::array<std::uint8_t, 7> reserved{};
+};
+
+/// An input of the whole chip behind a filter.
+struct ChipFilter {
+    std::int64_t since = -1;  ///< as Extension::since
+    std::int64_t wire = 1;    ///< its level
+};
+
+struct Extension {
+    std::uint16_t em6 = 0, em7 = 0, sm6 = 0, sm7 = 0;
+    std::uint16_t hv = 0;
+    std::uint16_t v = 0;         ///< V as written; Axis::speed is what the drive goes to
+    std::uint16_t cap = 0;       ///< most speed of a drive without triangle; 0: none
+    std::uint16_t filtered = 0;  ///< pins behind a filter, bit Pin
+    std::uint16_t wires = 0;     ///< levels of their wires
+    std::uint16_t sampled = 0;   ///< levels at the last sample
+    std::uint32_t buffer = 0;    ///< BR
+    std::int64_t clear_until = 0;          ///< the tick at which the clear pulse is over
+    std::array<std::int64_t, 10> since{};  ///< filtered pins: first sample at which the wire differed, -1: does not
+    HomeSearch home;
+
+    Extension() { since.fill(-1); }
+};
+
+}  // namespace motionrack::mcx314

@@ -1,0 +1,171 @@
+// The inputs of an MCX314As, once a tick: filters, and the edges that EPCLR and synchronous actions wait for.
+//
+//   wire    ────┐  ┌─┐ ┌──────────────          delay D: the first sample that differs is at tick n; if all up to
+//               └──┘ └─┘                        tick n + D do, the chip sees the new level from tick n + D on
+//   level   ─────────────────────────
+//                      |<─ D ─>|
+#include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/chip/ramp.hpp>
+#include <utility>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+constexpr unsigned mask(Pin pin) {
+    return 1u << static_cast<int>(pin);
+}
+
+/// The pins behind the filters FE0..FE4 of EM6.
+constexpr std::array<unsigned, 5> filter_pins = {
+    mask(Pin::limit_plus) | mask(Pin::limit_minus) | mask(Pin::in0) | mask(Pin::in1),
+    mask(Pin::in2),
+    mask(Pin::alarm) | mask(Pin::in_position),
+    mask(Pin::exp_plus) | mask(Pin::exp_minus),
+    mask(Pin::in3),
+};
+constexpr int emergency_filter_bit = 8, step_filter_bit = 11;  // FE0 and FE3 of X
+constexpr unsigned edge_pins = mask(Pin::in2) | mask(Pin::in3);
+
+std::int64_t delay_of(const Extension& ext) {
+    return map::filter_ticks[em::FL.get(ext.em6)];
+}
+
+}  // namespace
+
+/// Pins whose wires must be followed for what only the MCX314As has.
+unsigned Chip::inputs_of_extension(int a) const {
+    const Extension& ext = state_.extension[a];
+    unsigned pins = ext.filtered;
+    if (bit(state_.homing, a)) pins |= mask(Pin::in0) | mask(Pin::in1) | mask(Pin::in2);
+    if (em::EPCLR.test(ext.em6)) pins |= mask(Pin::in2);
+    if (turns_by_wire(a)) pins |= mask(Pin::exp_plus) | mask(Pin::exp_minus);
+    if (sm::IN3UP.test(ext.sm6) || sm::IN3DN.test(ext.sm6)) pins |= mask(Pin::in3);
+    return pins;
+}
+
+/// EM has been written: filters begin with the level of their wires, or end.
+void Chip::set_filters(int a) {
+    Extension& ext = state_.extension[a];
+    unsigned pins = 0;
+    for (std::size_t i = 0; i < filter_pins.size(); ++i)
+        if (bit(ext.em6, 8 + static_cast<int>(i))) pins |= filter_pins[i];
+    const unsigned begun = pins & ~ext.filtered;
+    ext.filtered = 0;
+    for_each_axis(begun, [&](int pin) {
+        const bool high = kernel_.level(inputs_[a][pin]) != 0;
+        set_level(ext.wires, pin, high);
+        set_level(state_.axis[a].levels, pin, high);
+        ext.since[pin] = -1;
+    });
+    ext.filtered = static_cast<std::uint16_t>(pins);
+    if (a == 0 && !bit(ext.em6, emergency_filter_bit)) state_.emergency_high = state_.emergency_filter.wire != 0;
+    if (a == 0 && !bit(ext.em6, step_filter_bit)) hear_step_wire(static_cast<int>(state_.step_filter.wire));
+    set_wants(a);
+    ext.sampled = state_.axis[a].levels;
+    hear_external(16 * a + static_cast<int>(Pin::exp_plus));
+    wake();
+}
+
+/// A wire has changed; false if it is behind a filter, which hears of it here.
+bool Chip::passes_filter(int pin, int wire_level) {
+    const unsigned chip_filters = state_.extension[0].em6;
+    if (pin == emergency_pin) {
+        state_.emergency_filter.wire = wire_level != 0;
+        return !bit(chip_filters, emergency_filter_bit);
+    }
+    if (pin == step_pin) {
+        state_.step_filter.wire = wire_level != 0;
+        return !bit(chip_filters, step_filter_bit);
+    }
+    Extension& ext = state_.extension[pin / 16];
+    set_level(ext.wires, pin % 16, wire_level != 0);
+    return !bit(ext.filtered, pin % 16);
+}
+
+/// Before tick `to` is worked: what its samples change counts for it.
+void Chip::sample(std::int64_t to) {
+    state_.next_sample = far;
+    bool changed = sample_chip_filter(state_.emergency_filter, emergency_filter_bit, state_.emergency_high, to);
+    if (changed) state_.emergency_high = !state_.emergency_high;
+    if (sample_chip_filter(state_.step_filter, step_filter_bit, state_.step_high, to))
+        hear_step_wire(state_.step_high ? 0 : 1);
+    for (int a = 0; a < axes_of_chip; ++a) {
+        if (sample_filters(a, to)) changed = true;
+        sample_edges(a);
+        if (const std::int64_t end = state_.extension[a].clear_until; end > to)
+            state_.next_sample = std::min(state_.next_sample, end);
+    }
+    if (changed) work_in_full(to);
+}
+
+/// Tick `to`, which is at hand, is to be worked in full by all generators.
+void Chip::work_in_full(std::int64_t to) {
+    for_each_axis(state_.working, [&](int a) {
+        Generator& gen = state_.axis[a].gen;
+        bring_up(a, to - 1);
+        gen.look = true;
+        gen.plain = gen.walks = false;
+        gen.next_tick = to;
+    });
+}
+
+/// EMGN or EXPLSN, of which the chip sees the level `seen`: true if it is to see the other one.
+bool Chip::sample_chip_filter(ChipFilter& filter, int enable, bool seen, std::int64_t to) {
+    const Extension& x = state_.extension[0];
+    if (!bit(x.em6, enable) || (filter.wire != 0) == seen) {
+        filter.since = -1;
+        return false;
+    }
+    if (filter.since < 0) filter.since = to;
+    const std::int64_t end = filter.since + delay_of(x);
+    if (end > to) {
+        state_.next_sample = std::min(state_.next_sample, end);
+        return false;
+    }
+    filter.since = -1;
+    return true;
+}
+
+/// True if a level has changed.
+bool Chip::sample_filters(int a, std::int64_t to) {
+    Extension& ext = state_.extension[a];
+    Axis& axis = state_.axis[a];
+    bool changed = false;
+    for_each_axis(ext.filtered, [&](int pin) {
+        std::int64_t& since = ext.since[pin];
+        if (bit(ext.wires, pin) == bit(axis.levels, pin)) {
+            since = -1;
+            return;
+        }
+        if (since < 0) since = to;
+        const std::int64_t end = since + delay_of(ext);
+        if (end > to) {
+            state_.next_sample = std::min(state_.next_sample, end);
+            return;
+        }
+        set_level(axis.levels, pin, bit(ext.wires, pin));
+        hear_external(16 * a + pin);
+        since = -1;
+        changed = true;
+    });
+    return changed;
+}
+
+/// IN2 clears EP, IN3 is a condition of synchronous actions.
+void Chip::sample_edges(int a) {
+    Extension& ext = state_.extension[a];
+    Axis& axis = state_.axis[a];
+    const unsigned changed = (axis.levels ^ std::exchange(ext.sampled, axis.levels)) & edge_pins;
+    if (changed == 0) return;
+    if ((changed & mask(Pin::in3)) != 0) note(a, level(axis, Pin::in3) ? sm::IN3UP : sm::IN3DN);
+    if ((changed & mask(Pin::in2)) == 0 || !em::EPCLR.test(ext.em6)) return;
+    if (level(axis, Pin::in2) != bit(axis.wr1, 4)) return;
+    set_encoder_position(a, 0);
+    if (!bit(axis.wr2, 5)) return;
+    compare(a);
+    watch_encoder(a);
+    work_in_full(state_.tick);
+}
+
+}  // namespace motionrack::mcx314

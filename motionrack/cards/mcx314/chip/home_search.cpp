@@ -1,0 +1,148 @@
+// The automatic home search of an MCX314As: drives one after the other, by the table map::home_drives.
+//
+//   62h ─► step 1 ─► step 2 ────────────────► step 3 ─► step 4 ─► end
+//           (3)       (8)     (12) ─► (15)     (20)      (25)             in brackets: HMST
+//                      └─ IN1 or the limit ─┘
+#include <motionrack/cards/mcx314/chip/chip.hpp>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+constexpr unsigned limit_causes = 3u << 12, error_causes = 0xFu << 12;
+
+bool step_enabled(const Extension& ext, int step) {
+    return bit(ext.em7, 2 * step - 2);
+}
+/// +1 or -1.
+int step_direction(const Extension& ext, int step) {
+    return bit(ext.em7, 2 * step - 1) ? -1 : 1;
+}
+bool limit_active(const Axis& axis, int direction) {
+    const bool plus = direction > 0;
+    return level(axis, plus ? Pin::limit_plus : Pin::limit_minus) == bit(axis.wr2, plus ? 3 : 4);
+}
+
+}  // namespace
+
+/// 62h.
+void Chip::start_home(int a) {
+    if (driving(a)) return kernel_.report(id_, drive_ignored, static_cast<std::int64_t>(cmd::HOME), a);
+    state_.extension[a].home = {};
+    state_.homing |= 1u << a;
+    set_wants(a);
+    if (!next_home_step(a, 1)) end_home(a);
+}
+
+/// Whether what the step waits for is there.
+bool Chip::home_input(int a, int step) const {
+    const Extension& ext = state_.extension[a];
+    const Axis& axis = state_.axis[a];
+    auto active = [&axis](int i) { return bit(axis.levels, i) == bit(axis.wr1, 2 * i); };
+    if (step == 3) return active(2) && (!em::SAND.test(ext.em7) || active(1));
+    if (em::LIMIT.test(ext.em7)) return limit_active(axis, step_direction(ext, step));
+    return active(step - 1);
+}
+
+/// In step 1 of a tick: whether the drive of a home search is to stop, as by a stop input.
+bool Chip::home_found(int a) {
+    HomeSearch& home = state_.extension[a].home;
+    const map::HomeDrive& drive = map::home_drive(home.hmst);
+    if (drive.step == 4) return false;
+    const bool active = home_input(a, drive.step);
+    if (!drive.back) home.found = home.found || active;
+    if (drive.back && active) home.seen = true;
+    if (drive.back && !active && home.seen) home.found = true;
+    return drive.back ? !active && home.seen : active;
+}
+
+/// Starts the drive of a state.
+void Chip::go_home(int a, int hmst) {
+    Extension& ext = state_.extension[a];
+    const map::HomeDrive& drive = map::home_drive(hmst);
+    ext.home.hmst = hmst;
+    ext.home.found = false;
+    const int direction = step_direction(ext, drive.step) * (drive.back ? -1 : 1);
+    start_drive(a, (drive.step == 4 ? 0x20 : 0x22) + (direction < 0 ? 1 : 0));
+}
+
+/// The first of the steps from `step` on that is to be done begins; false if there is none, or an error instead.
+bool Chip::next_home_step(int a, int step) {
+    Extension& ext = state_.extension[a];
+    HomeSearch& home = ext.home;
+    if (step <= 1 && step_enabled(ext, 1) && !home_input(a, 1)) return go_home(a, 3), true;
+    if (step <= 2 && step_enabled(ext, 2)) {
+        home.seen = home_input(a, 2);
+        const bool at_limit = limit_active(state_.axis[a], step_direction(ext, 2));
+        return go_home(a, home.seen || at_limit ? 12 : 8), true;
+    }
+    if (step <= 3 && step_enabled(ext, 3)) {
+        if (!home_input(a, 3)) return go_home(a, 20), true;
+        home.error = true;
+        return false;
+    }
+    if (step <= 4 && step_enabled(ext, 4)) return go_home(a, 25), true;
+    if (!step_enabled(ext, 3)) ask_clear(a);
+    if (em::PCLR.test(ext.em7)) {
+        state_.axis[a].lp = 0;
+        set_encoder_position(a, 0);
+        compare(a);
+        watch_encoder(a);
+    }
+    return false;
+}
+
+void Chip::end_home(int a) {
+    Extension& ext = state_.extension[a];
+    state_.homing &= ~(1u << a);
+    ext.home.hmst = 0;
+    set_drive_speed(a);
+    set_wants(a);
+    if (em::HMINT.test(ext.em6)) state_.axis[a].flags = static_cast<std::uint16_t>(state_.axis[a].flags | 1u << 8);
+}
+
+/// The drive of a step is over: what follows.
+void Chip::end_home_drive(int a) {
+    Extension& ext = state_.extension[a];
+    HomeSearch& home = ext.home;
+    const Axis& axis = state_.axis[a];
+    const map::HomeDrive& drive = map::home_drive(home.hmst);
+    if (home.cancelled) return end_home(a);
+    const unsigned errors = axis.finished & error_causes;
+    const unsigned own_limit = step_direction(ext, drive.step) > 0 ? 1u << 12 : 2u << 12;
+    const bool limit_is_home = em::LIMIT.test(ext.em7);
+    if (home.hmst == 8 && !limit_is_home && errors == own_limit) {
+        home.seen = home_input(a, 2);
+        return go_home(a, 12);
+    }
+    const bool tolerated = drive.step <= 2 && !drive.back && limit_is_home;
+    const bool sound = (errors & ~(tolerated ? own_limit : 0u)) == 0;
+    bool reached = drive.step == 4 ? axis.gen.n >= axis.pulses : home.found;
+    if (home.hmst == 3 && errors == own_limit && step_enabled(ext, 2))
+        reached = true;
+    else if (!sound)
+        reached = false;
+    if (!reached) return end_home(a);
+    if (home.hmst == 12) return go_home(a, 15);
+    if (drive.step == 3 && !home.cleared) {
+        home.cleared = true;
+        ask_clear(a);
+        if (ext.clear_until > state_.tick) return;
+    }
+    if (!next_home_step(a, drive.step + 1)) end_home(a);
+}
+
+/// At the end of a tick: searches whose drive is over go on.
+void Chip::look_at_homes() {
+    for_each_axis(state_.homing, [&](int a) {
+        const Extension& ext = state_.extension[a];
+        if (state_.axis[a].gen.drive != Drive::idle) return;
+        const bool clearing = ext.home.cleared && ext.clear_until > state_.tick;
+        if ((bit(state_.in_place, a) || clearing) && !ext.home.cancelled) return;
+        for_each_axis(state_.working, [&](int i) { bring_up(i, state_.tick); });
+        end_home_drive(a);
+        stale_ = true;
+    });
+}
+
+}  // namespace motionrack::mcx314
