@@ -120,7 +120,7 @@ Outcome run_on_twin(const Program& program, bool follow) {
             for (int a = 0; a < axis_count; ++a) sight.count[a] = twin.count(a), sight.outputs[a] = twin.outputs(a);
         }
         note_request(2 * op.tick + op.between);
-        if (follow && !wire) pins.look(2 * op.tick + op.between);
+        if (follow && (!wire || op.between)) pins.look(2 * op.tick + op.between);
         out.sights.push_back(sight);
     }
     if (!program.ops.empty()) run_to(program.ops.back().tick);
