@@ -193,6 +193,10 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     int stack_state() const;
     int step_state() const;
     int wire_state(int a, int minus) const;
+    int home_state(int a) const;
+    int filter_state(int a) const;
+    int clear_state(int a) const;
+    int action_state(int a) const;
 
     // external.cpp: drives and single steps by wire
     void set_external(int a, std::uint16_t before);
@@ -286,6 +290,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     std::uint16_t status2(int a) const;
     std::uint16_t input_levels(int a) const;
     bool busy(int a) const;
+    std::int64_t coordinate(std::uint32_t v) const;
 
     // Only the MCX314As: extension.cpp
     bool extended_command(int code, unsigned axes);

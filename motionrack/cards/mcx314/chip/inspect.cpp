@@ -50,10 +50,11 @@ std::span<const Chip::Inspected> Chip::Inspected::table() {
         {"A", each, [](const Chip&, const Axis& x, int) -> std::int64_t { return x.accel; }},
         {"D", each, [](const Chip&, const Axis& x, int) -> std::int64_t { return x.decel; }},
         {"SV", each, [](const Chip&, const Axis& x, int) -> std::int64_t { return x.start_speed; }},
-        {"V", each, [](const Chip&, const Axis& x, int) -> std::int64_t { return x.speed; }},
+        {"V", each,
+         [](const Chip& c, const Axis& x, int a) -> std::int64_t { return c.extended_ ? c.state_.extension[a].v : x.speed; }},
         {"P", each, [](const Chip&, const Axis& x, int) -> std::int64_t { return x.pulses; }},
         {"DP", each, [](const Chip&, const Axis& x, int) -> std::int64_t { return x.decel_point; }},
-        {"C", each, [](const Chip&, const Axis& x, int) -> std::int64_t { return rules::signed24(x.centre); }},
+        {"C", each, [](const Chip& c, const Axis& x, int) -> std::int64_t { return c.coordinate(x.centre); }},
         {"LP", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.lp(a); }},
         {"EP", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.ep(a); }},
         {"COMP_PLUS", each, [](const Chip&, const Axis& x, int) -> std::int64_t { return x.comp_plus; }},
@@ -62,6 +63,14 @@ std::span<const Chip::Inspected> Chip::Inspected::table() {
         {"CV", each,
          [](const Chip&, const Axis& x, int) -> std::int64_t { return x.gen.drive == Drive::idle ? 0 : x.gen.speed; }},
         {"CA", each, [](const Chip&, const Axis& x, int) -> std::int64_t { return x.gen.rate; }},
+        // Of the MCX314As; 0 in an original, L there as K.
+        {"L", each, [](const Chip&, const Axis& x, int) -> std::int64_t { return x.decel_jerk; }},
+        {"EM6", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.state_.extension[a].em6; }},
+        {"EM7", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.state_.extension[a].em7; }},
+        {"SM6", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.state_.extension[a].sm6; }},
+        {"SM7", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.state_.extension[a].sm7; }},
+        {"HV", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.state_.extension[a].hv; }},
+        {"BR", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.state_.extension[a].buffer; }},
         // Places in the tables of map.hpp's state machines.
         {"DRIVE_STATE", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.drive_state(a); }},
         {"EXPP_STATE", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.wire_state(a, 0); }},
@@ -70,6 +79,10 @@ std::span<const Chip::Inspected> Chip::Inspected::table() {
         {"PATTERN_STATE", once, [](const Chip& c, const Axis&, int) -> std::int64_t { return c.pattern_state(); }},
         {"STACK_STATE", once, [](const Chip& c, const Axis&, int) -> std::int64_t { return c.stack_state(); }},
         {"STEP_STATE", once, [](const Chip& c, const Axis&, int) -> std::int64_t { return c.step_state(); }},
+        {"HOME_STATE", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.home_state(a); }},
+        {"FILTER_STATE", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.filter_state(a); }},
+        {"CLEAR_STATE", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.clear_state(a); }},
+        {"ACTION_STATE", each, [](const Chip& c, const Axis&, int a) -> std::int64_t { return c.action_state(a); }},
     };
     return rows;
 }

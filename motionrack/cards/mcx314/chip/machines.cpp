@@ -1,4 +1,5 @@
 // In which of its declared states (map.hpp) each state machine of the chip is, seen from its working state.
+#include <iterator>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 
@@ -18,12 +19,18 @@ consteval int place(std::string_view machine_name, std::string_view name) {
     return index;
 }
 
+/// The states of the home search in the order of map::home_drives.
+constexpr int home_places[] = {place("home search", "near"),  place("home search", "home"),
+                               place("home search", "escape"), place("home search", "again"),
+                               place("home search", "index"), place("home search", "offset")};
+static_assert(std::size(home_places) == std::size(map::home_drives));
+
 }  // namespace
 
 int Chip::drive_state(int a) const {
     const Axis& axis = state_.axis[a];
     const Generator& gen = state_.axis[bit(state_.chain, a) ? state_.master : a].gen;
-    if (driving(a)) {
+    if (gen.drive != Drive::idle) {
         if (tick_of(kernel_.now()) - gen.at < gen.wait) return place("drive", "starting");
         return gen.final ? place("drive", "final") : place("drive", "driving");
     }
@@ -56,6 +63,28 @@ int Chip::wire_state(int a, int minus) const {
                                            place("drive by wire", "low")};
     const Axis& axis = state_.axis[a];
     return drives_by_wire(axis.wr3) ? by_low_ticks[axis.external_low[minus]] : place("drive by wire", "off");
+}
+
+int Chip::home_state(int a) const {
+    for (int i = 0; i < static_cast<int>(std::size(map::home_drives)); ++i)
+        if (map::home_drives[i].hmst == state_.extension[a].home.hmst) return home_places[i];
+    return place("home search", "idle");
+}
+
+/// "differs" if any of the axis' filtered inputs does.
+int Chip::filter_state(int a) const {
+    const Extension& ext = state_.extension[a];
+    const bool differs = (ext.filtered & (ext.wires ^ state_.axis[a].levels)) != 0;
+    return differs ? place("input filter", "differs") : place("input filter", "same");
+}
+
+int Chip::clear_state(int a) const {
+    const bool pulse = tick_of(kernel_.now()) < state_.extension[a].clear_until;
+    return pulse ? place("deviation counter clear", "pulse") : place("deviation counter clear", "rest");
+}
+
+int Chip::action_state(int a) const {
+    return bit(state_.acting, a) ? place("synchronous action", "due") : place("synchronous action", "waiting");
 }
 
 }  // namespace motionrack::mcx314

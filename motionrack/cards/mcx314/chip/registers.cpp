@@ -280,8 +280,12 @@ void Chip::begin_generator(int a, Drive drive) {
     state_.working |= 1u << a;
 }
 
+/// A finish point or centre as it counts.
+std::int64_t Chip::coordinate(std::uint32_t v) const {
+    return extended_ ? rules::limited32(v) : rules::signed24(v);
+}
+
 PathCommand Chip::captured(int code) const {
-    auto coordinate = [this](std::uint32_t v) { return extended_ ? rules::limited32(v) : rules::signed24(v); };
     PathCommand command;
     command.code = code;
     command.count = code == 0x31 || code == 0x35 ? 3 : 2;

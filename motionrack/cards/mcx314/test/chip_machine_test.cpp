@@ -29,7 +29,12 @@ constexpr Machine machines[] = {
     {"single steps", "STEP_STATE", 1, "waiting"},
     {"drive by wire", "EXPP_STATE", 4, ""},
     {"drive by wire", "EXPM_STATE", 4, ""},
+    {"home search", "HOME_STATE", 4, ""},
+    {"input filter", "FILTER_STATE", 4, ""},
+    {"deviation counter clear", "CLEAR_STATE", 4, ""},
+    {"synchronous action", "ACTION_STATE", 4, ""},
 };
+constexpr std::size_t machines_of_original = 7;
 
 const MachineInfo& declared_machine(std::string_view name) {
     for (const MachineInfo& each : card_map().machines)
@@ -52,7 +57,7 @@ bool leads(const MachineInfo& info, std::string_view passing, int from, int to) 
 
 class Watched {
   public:
-    explicit Watched(std::set<std::string>& taken) : taken_(taken) {
+    Watched(std::set<std::string>& taken, Variant variant) : b_(variant), taken_(taken) {
         b_.start();
         for (std::size_t m = 0; m < std::size(machines); ++m)
             for (int a = 0; a < machines[m].instances; ++a) before_[m][a] = state(m, a);
@@ -107,17 +112,31 @@ class Watched {
     std::array<std::array<int, 4>, std::size(machines)> before_{};
 };
 
-TEST(ChipMachines, TheChipGoesWhereTheTablesLeadAndTakesEveryWay) {
+void watch_programs(std::set<std::string>& taken, std::uint64_t first, std::uint64_t count, Variant variant) {
     constexpr std::uint64_t seed = 1;
-    std::cout << "seed " << seed << std::endl;
-    std::set<std::string> taken;
-    for (std::uint64_t number = 0; number < 500; ++number) {
-        const twin::Program program = twin::make_program(seed, 4'000'000 + number);
+    std::cout << "seed " << seed << ", programs " << first << " .. " << first + count - 1 << std::endl;
+    for (std::uint64_t number = first; number < first + count; ++number) {
+        const twin::Program program = twin::make_program(seed, number, variant == Variant::mcx314as);
         if (program.ticks > 20'000) continue;
-        Watched watched(taken);
+        Watched watched(taken, variant);
         watched.run(program);
         ASSERT_EQ(watched.problem, "") << twin::to_text(program);
     }
+}
+void expect_every_way(const std::set<std::string>& taken, std::size_t from, std::size_t to) {
+    for (std::size_t m = from; m < to; ++m) {
+        const MachineInfo& info = declared_machine(machines[m].name);
+        for (const TransitionInfo& t : info.transitions) {
+            if (t.from == t.to) continue;
+            const std::string way = std::string(info.name) + ": " + std::string(t.from) + " -> " + std::string(t.to);
+            EXPECT_EQ(taken.count(way), 1u) << way << " was never taken";
+        }
+    }
+}
+
+TEST(ChipMachines, TheChipGoesWhereTheTablesLeadAndTakesEveryWay) {
+    std::set<std::string> taken;
+    watch_programs(taken, 4'000'000, 500, Variant::mcx314);
     for (int axis = 0; axis < 4; ++axis) {  // what lasts one tick only
         using Kind = twin::Op::Kind;
         const auto select = static_cast<std::uint16_t>(0x010F << axis);
@@ -126,18 +145,17 @@ TEST(ChipMachines, TheChipGoesWhereTheTablesLeadAndTakesEveryWay) {
         program.ops = {{0, false, Kind::write, 0, select},  {0, false, Kind::write, 6, 0x0008},
                        {5, true, Kind::input, 0, 0, n, twin::Pin::exp_plus}, {6, false, Kind::write, 6, 0x0000},
                        {8, false, Kind::input, 0, 1, n, twin::Pin::exp_plus}};
-        Watched watched(taken);
+        Watched watched(taken, Variant::mcx314);
         watched.run(program);
         EXPECT_EQ(watched.problem, "");
     }
-    for (const Machine& each : machines) {
-        const MachineInfo& info = declared_machine(each.name);
-        for (const TransitionInfo& t : info.transitions) {
-            if (t.from == t.to) continue;
-            const std::string way = std::string(info.name) + ": " + std::string(t.from) + " -> " + std::string(t.to);
-            EXPECT_EQ(taken.count(way), 1u) << way << " was never taken";
-        }
-    }
+    expect_every_way(taken, 0, machines_of_original);
+}
+
+TEST(ChipMachines, SoDoesTheMcx314As) {
+    std::set<std::string> taken;
+    watch_programs(taken, 14'000'000, 600, Variant::mcx314as);
+    expect_every_way(taken, machines_of_original, std::size(machines));
 }
 
 }  // namespace
