@@ -55,6 +55,7 @@ class WireResolver {
             for (const TomlNode& inner : node.children) read_wire(node.key + "." + inner.key, inner);
         }
         find_loops();
+        too_many_inputs();
     }
 
     std::vector<RackWire> take() {
@@ -202,6 +203,25 @@ class WireResolver {
                     node->key_place,
                     fmt::format("{} and {} are both inputs; name the output that drives {}.", name, node->text, name));
             }
+        }
+    }
+
+    /// As many listeners as a wire of the kernel has, less one for a recording.
+    static constexpr int most_inputs = 31;
+
+    void too_many_inputs() {
+        std::map<std::string, int> inputs;
+        for (const auto& [to, wire] : wires_) {
+            const std::string from = config_.end_name(wire.from);
+            if (++inputs[from] != most_inputs + 1) continue;
+            // An input that the file names: the default rule alone wires fewer.
+            const auto named = std::find_if(named_.begin(), named_.end(), [&](const auto& each) {
+                const auto its = wires_.find(each.first);
+                return its != wires_.end() && its->second.from == wire.from;
+            });
+            error(named != named_.end() ? named->second->key_place : Place{},
+                  fmt::format("{} drives more than {} inputs, the most that one output can drive here; leave some open.", from,
+                              most_inputs));
         }
     }
 

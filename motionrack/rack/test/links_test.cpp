@@ -80,6 +80,20 @@ TEST(Links, AnEncoderLeadsToSixChannels) {
     EXPECT_THAT(reading.errors[0].message, HasSubstr("n.zeca would be input number 7"));
 }
 
+TEST(Wires, OneOutputDrivesThirtyOneInputs) {
+    std::string text = rack_with("[axis.X.switches]\nhome_mm = 1\n[card.n]\ntype = \"mcx314\"\n[wires]\n");
+    int inputs = 1;  // m.xin0, by the default rule
+    for (const char channel : {'x', 'y', 'z', 'u'})
+        for (const char* pin : {"in0", "in1", "in2", "in3", "alarm", "inpos", "expp", "expm"})
+            if (inputs < 31) text += fmt::format("n.{}{} = \"X.home\"\n", channel, pin), ++inputs;
+    Rack rack(good(text));
+    rack.start();
+    const RackReading reading = read_rack_text(text + "n.emgn = \"X.home\"\n");
+    ASSERT_EQ(reading.errors.size(), 1u) << all_texts(reading.errors);
+    EXPECT_THAT(reading.errors[0].message, HasSubstr("X.home drives more than 31 inputs"));
+    EXPECT_GT(reading.errors[0].place.line, 8);
+}
+
 // ---- On a running rack ----------------------------------------------------------------------------------------------
 
 struct Ended {

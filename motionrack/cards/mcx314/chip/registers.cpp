@@ -6,9 +6,10 @@
 namespace motionrack::mcx314 {
 
 void Chip::reset() {
-    for (int a = 0; a < axes_of_chip; ++a) {
-        Axis& axis = state_.axis[a];
+    for (int a = 0; a < axes_of_chip; ++a)
         if (driving(a)) law_changed(a);
+    state_.chain = state_.working = state_.in_place = 0;
+    for (Axis& axis : state_.axis) {
         Axis fresh;
         fresh.levels = axis.levels;
         fresh.count = axis.count;
@@ -22,20 +23,23 @@ void Chip::reset() {
         fresh.mark = axis.mark;
         fresh.told_rate = axis.told_rate;
         axis = fresh;
-        state_.extension[a] = {};
-        set_encoder_position(a, 0);
-        set_wants(a);
-        watch_encoder(a);
     }
+    for (Extension& extension : state_.extension) extension = {};
     state_.selected = 1;
     state_.wr4 = state_.wr5 = state_.wr6 = state_.wr7 = state_.rr6 = state_.rr7 = 0;
-    state_.chain = state_.working = state_.in_place = state_.homing = state_.acting = 0;
+    state_.homing = state_.acting = 0;
     state_.next_sample = far;
     state_.emergency_high = kernel_.level(emgn_) != 0;
     state_.queued = state_.decel_enabled = state_.path_interrupt = state_.stepping = false;
     state_.pattern = {};
     state_.wr0_high = state_.step_low = 0;
     hear_step_wire(kernel_.level(expls_n_));
+    // An input may be wired to one of the chip's own outputs, which asks the chip: it is whole again by then.
+    for (int a = 0; a < axes_of_chip; ++a) {
+        set_encoder_position(a, 0);
+        set_wants(a);
+        watch_encoder(a);
+    }
     for (int a = 0; a < axes_of_chip; ++a) compare(a);
     update_outputs();
 }

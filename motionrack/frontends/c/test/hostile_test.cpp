@@ -96,14 +96,52 @@ class Hostile {
     std::size_t next_ = 0;
 };
 
-TEST(CHostile, RandomCallsGiveCodesAndSentencesAndNothingElse) {
+std::uint64_t seed_given() {
     const char* given = std::getenv("MOTIONRACK_SEED");
     const std::uint64_t seed = given != nullptr ? std::strtoull(given, nullptr, 10) : 1;
     std::cout << "MOTIONRACK_SEED=" << seed << std::endl;
+    return seed;
+}
+
+TEST(CHostile, RandomCallsGiveCodesAndSentencesAndNothingElse) {
+    const std::uint64_t seed = seed_given();
     for (std::uint64_t world = 0; world < 20 && !testing::Test::HasFailure(); ++world) {
         Hostile hostile(seed * 1000 + world);
         for (int i = 0; i < 2000 && !testing::Test::HasFailure(); ++i) hostile.call();
     }
+}
+
+/// Any output at any input: the rack is refused, or runs whatever is written to the card.
+TEST(CHostile, RacksWithRandomWiresRunOrAreRefused) {
+    const std::uint64_t seed = seed_given();
+    std::mt19937_64 random(seed);
+    static const char* const outputs[] = {"xpp",  "xpm",  "ypp",  "ypm", "xout0", "xout3", "xout4", "xout5", "xout6",
+                                          "xout7", "yout7", "int_n", "estop", "X.enc_a", "X.enc_b", "X.enc_z", "X.home", "open"};
+    static const char* const inputs[] = {"xin0", "xin1", "xin2", "xlmtp", "xlmtm", "xalarm", "xinpos", "xexpp", "xexpm", "xeca", "xecb",
+                                         "yin0", "yexpp", "yexpm", "yeca", "yecb", "ylmtp", "emgn", "expls_n", "X.step", "X.dir"};
+    const auto full = [](const char* name) {
+        const std::string text = name;
+        return text.find('.') != std::string::npos || text == "estop" || text == "open" ? text : "c1." + text;
+    };
+    int opened = 0;
+    for (int world = 0; world < 300; ++world) {
+        std::string text = "[card.c1]\ntype = \"mcx314\"\n[axis.X]\ncard = \"c1\"\nchannel = \"x\"\n[axis.X.switches]\nhome_mm = "
+                           "1\n[wires]\n";
+        for (const char* input : inputs)
+            if (random() % 4 == 0) text += '"' + full(input) + "\" = \"" + full(outputs[random() % std::size(outputs)]) + "\"\n";
+        mr_rack* rack = nullptr;
+        const int code = mr_rack_open(text.c_str(), &rack);
+        ASSERT_TRUE(code == MR_OK || code == MR_BAD_INPUT) << mr_last_error();
+        if (code != MR_OK) continue;
+        ++opened;
+        for (int i = 0; i < 300; ++i) {
+            mr_write16(rack, "c1", static_cast<std::uint32_t>(2 * (random() % 8)), static_cast<std::uint16_t>(random()));
+            mr_write16(rack, "c1", 0, static_cast<std::uint16_t>(random() % 16 << 8 | random() % 0x40));
+            if (random() % 8 == 0) mr_advance_ns(rack, random() % 200'000);
+        }
+        mr_rack_close(rack);
+    }
+    EXPECT_GT(opened, 20);
 }
 
 }  // namespace
