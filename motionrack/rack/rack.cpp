@@ -126,6 +126,10 @@ control::Point Rack::start_position() const {
 }
 
 std::string Rack::describe(const sim::Condition& condition) {
+    if (condition.device == sim::no_device)
+        return fmt::format("{}: at {:.6f} s this wire leads back to what drives it and did not come to rest after {} changes; it was left as "
+                           "it was. Look at the section [wires] of the rack file",
+                           kernel_.wire_name(static_cast<sim::WireId>(condition.a)), to_seconds(condition.at), condition.b);
     for (const RunningAxis& axis : axes_)
         if (axis.machine->id() == condition.device) return parts::describe(condition, kernel_.device_name(condition.device));
     for (const auto& card : cards_)

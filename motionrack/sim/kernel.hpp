@@ -30,6 +30,12 @@ struct Condition {
     std::int64_t b = 0;
 };
 
+/// The device of conditions that the kernel itself reports.
+inline constexpr DeviceId no_device{0xFFFF};
+/// The kernel's condition: wires led in a circle and would have changed for ever at one instant. a: number of a wire of
+/// them, left at the level that it had; b: changes carried out before.
+inline constexpr std::uint16_t wires_never_settle = 1;
+
 /// Why a run ended before its time.
 enum class RunEnd : std::uint8_t {
     reached,  ///< virtual time is what was asked for
@@ -172,6 +178,7 @@ class Kernel {
     State state_;
     WireObserver* observer_ = nullptr;
     bool break_ = false;
+    bool unsettled_ = false;  // wires_never_settle was reported for the present event
     bool started_ = false;
 };
 
