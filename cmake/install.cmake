@@ -6,22 +6,26 @@ get_property(rooms GLOBAL PROPERTY motionrack_rooms)
 
 # ---- libraries ----
 install(TARGETS motionrack_flags ${rooms} EXPORT motionrack-cpp ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(TARGETS motionrack_c EXPORT motionrack-c LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-        PUBLIC_HEADER DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/motionrack INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-set_target_properties(motionrack_c PROPERTIES EXPORT_NAME c)
 
-# libmotionrack.a: the C library with all rooms in it, for programs that are to stand alone.
-set(objects $<TARGET_OBJECTS:motionrack_c>)
-foreach(room IN LISTS rooms)
-  get_target_property(type ${room} TYPE)
-  if(type STREQUAL "STATIC_LIBRARY")
-    list(APPEND objects $<TARGET_OBJECTS:${room}>)
-  endif()
-endforeach()
-add_library(motionrack_c_archive STATIC ${objects})
-set_target_properties(motionrack_c_archive PROPERTIES OUTPUT_NAME motionrack LINKER_LANGUAGE CXX
-                      ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
-install(TARGETS motionrack_c_archive ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+# motionrack_c_library(TARGET EXPORT_NAME HEADERS): a shared C library, for others motionrack::EXPORT_NAME;
+# and its archive, with all rooms in it, for programs that are to stand alone. HEADERS: where its PUBLIC_HEADER goes.
+function(motionrack_c_library target export_name headers)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${export_name})
+  install(TARGETS ${target} EXPORT motionrack-c LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+          PUBLIC_HEADER DESTINATION ${headers} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  set(objects $<TARGET_OBJECTS:${target}>)
+  foreach(room IN LISTS rooms)
+    get_target_property(type ${room} TYPE)
+    if(type STREQUAL "STATIC_LIBRARY")
+      list(APPEND objects $<TARGET_OBJECTS:${room}>)
+    endif()
+  endforeach()
+  add_library(${target}_archive STATIC ${objects})
+  set_target_properties(${target}_archive PROPERTIES OUTPUT_NAME $<TARGET_PROPERTY:${target},OUTPUT_NAME> LINKER_LANGUAGE CXX
+                        ARCHIVE_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+  install(TARGETS ${target}_archive ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endfunction()
+motionrack_c_library(motionrack_c c ${CMAKE_INSTALL_INCLUDEDIR}/motionrack)
 
 # ---- headers: those of the rooms; the program and the C library have none but c.h ----
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/motionrack DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp"

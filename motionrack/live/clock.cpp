@@ -1,9 +1,9 @@
 // Linux' monotonic clock; sleeps until an instant, so that what signals interrupt is slept to its end.
-#include <motionrack/live/clock.hpp>
+#include <poll.h>
 
 #include <cerrno>
 #include <ctime>
-#include <poll.h>
+#include <motionrack/live/clock.hpp>
 
 namespace motionrack::live {
 
@@ -27,7 +27,9 @@ timespec timespec_of(Duration duration) {
 
 MonotonicClock::MonotonicClock() : start_(since_boot()) {}
 
-Instant MonotonicClock::now() const { return since_boot() - start_; }
+Instant MonotonicClock::now() const {
+    return since_boot() - start_;
+}
 
 void MonotonicClock::sleep(Duration duration) {
     const Instant end = since_boot() + duration;

@@ -16,7 +16,7 @@ class Clock {
     virtual bool wait_readable(int descriptor, Duration timeout) = 0;
 };
 
-/// The monotonic clock of Linux, from 0 when it was made. Waits under 50 us keep the processor: a sleep would take longer.
+/// The monotonic clock of Linux, from 0 when it was made. Waits under 50 us keep the processor: a sleep takes longer.
 class MonotonicClock final : public Clock {
   public:
     MonotonicClock();

@@ -1,10 +1,9 @@
 // Waiting for interrupts on a UIO node.
-#include <motionrack/live/line.hpp>
-
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <cstdint>
+#include <motionrack/live/line.hpp>
 
 namespace motionrack::live {
 
@@ -20,8 +19,8 @@ bool Line::take() {
 
 bool Line::wait(Duration timeout, Clock& clock) {
     if (opens_) {
-        // What was counted before may have been dealt with since. If it was not, the line is still active, and counts again
-        // when it is opened.
+        // What was counted before may have been dealt with since. If it was not, the line is still active, and counts
+        // again when it is opened.
         take();
         const std::uint32_t open = 1;
         opens_ = ::write(file_.descriptor(), &open, sizeof open) == sizeof open;

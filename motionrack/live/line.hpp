@@ -1,5 +1,5 @@
-// A card's interrupt line as UIO gives it: a read of four bytes waits for the next interrupt and counts them all; a write of 1
-// lets the next one come, where the kernel's driver shuts the line off when it has one.
+// A card's interrupt line as UIO gives it: a read of four bytes waits for the next interrupt and counts them all; a
+// write of 1 lets the next one come, where the kernel's driver shuts the line off when it has one.
 #pragma once
 
 #include <motionrack/base/time.hpp>
@@ -12,8 +12,8 @@ namespace motionrack::live {
 class Line {
   public:
     static Result<Line> open(const std::string& path);
-    /// True if the line is or becomes active within `timeout`. Where the driver cannot open the line again (no write), an interrupt
-    /// from before the call counts too.
+    /// True if the line is or becomes active within `timeout`. Where the driver cannot open the line again (no write),
+    /// an interrupt from before the call counts too.
     bool wait(Duration timeout, Clock& clock);
 
   private:

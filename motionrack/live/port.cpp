@@ -1,10 +1,9 @@
 // Accesses, one at a time and not too fast.
-#include <motionrack/live/port.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
+#include <motionrack/live/port.hpp>
 
 namespace motionrack::live {
 
@@ -12,8 +11,11 @@ Result<std::unique_ptr<Port>> Port::open(const PortSpec& spec, const CardMap& ma
     std::uint32_t last = 0;
     for (const RegisterInfo& reg : map.registers) {
         if (reg.width != 16 || reg.offset % 2 != 0)
-            return fail(Trouble::refused, fmt::format("The {} has registers that are not words of 16 bits, which live ports do not reach. "
-                                                      "Nothing was opened.", map.name));
+            return fail(
+                Trouble::refused,
+                fmt::format("The {} has registers that are not words of 16 bits, which live ports do not reach. "
+                            "Nothing was opened.",
+                            map.name));
         last = std::max(last, reg.offset);
     }
     MOTIONRACK_TRY(auto words, open_words(spec, std::uint64_t{last} / 2 * spec.stride + 2));
@@ -27,8 +29,13 @@ Result<std::unique_ptr<Port>> Port::open(const PortSpec& spec, const CardMap& ma
 
 Port::Port(std::unique_ptr<Words> words, std::optional<Line> line, std::unique_ptr<Clock> clock, const PortSpec& spec,
            std::uint32_t last)
-    : words_(std::move(words)), line_(std::move(line)), clock_(std::move(clock)), path_(spec.path), gap_(spec.gap),
-      stride_(spec.stride), last_(last) {}
+    : words_(std::move(words)),
+      line_(std::move(line)),
+      clock_(std::move(clock)),
+      path_(spec.path),
+      gap_(spec.gap),
+      stride_(spec.stride),
+      last_(last) {}
 
 bool Port::begin_access(std::uint32_t offset) {
     MOTIONRACK_ASSERT(offset % 2 == 0 && offset <= last_);
@@ -41,8 +48,11 @@ bool Port::begin_access(std::uint32_t offset) {
 void Port::end_access(int error, std::uint32_t offset, const char* what) {
     accessed_ = clock_->now();
     if (error != 0)
-        trouble_ = Error{Trouble::io, fmt::format("The register at {:02X}h could not be {} through {}: {}. No access is made from here on; "
-                                                  "the card goes on with what it does.", offset, what, path_, std::strerror(error))};
+        trouble_ =
+            Error{Trouble::io,
+                  fmt::format("The register at {:02X}h could not be {} through {}: {}. No access is made from here on; "
+                              "the card goes on with what it does.",
+                              offset, what, path_, std::strerror(error))};
 }
 
 void Port::write(std::uint32_t offset, std::uint16_t value) {

@@ -1,5 +1,5 @@
-// A real card behind the port that drivers know: its registers in mapped memory or in I/O ports, its interrupt line by UIO, and
-// the computer's clock. A driver on it is the same as on a virtual card.
+// A real card behind the port that drivers know: its registers in mapped memory or in I/O ports, its interrupt line by
+// UIO, and the computer's clock. A driver on it is the same as on a virtual card.
 //
 //   driver ──► Port ──► words:  volatile 16-bit loads and stores in a mapping, or pread and pwrite of two bytes
 //                  ──► line:   a UIO node, or looking again and again
@@ -23,10 +23,11 @@ namespace motionrack::live {
 
 class Port final : public RegisterPort, public Interrupt {
   public:
-    /// Opens the files and makes the mapping; no register is touched. `map` tells how far the card's registers go; each is 16 bits
-    /// wide. Errors: io (not there, no permission, too short, cannot be mapped), refused (accesses that would not reach the card as
-    /// they must), with the remedy.
-    static Result<std::unique_ptr<Port>> open(const PortSpec& spec, const CardMap& map, std::unique_ptr<Clock> clock = nullptr);
+    /// Opens the files and makes the mapping; no register is touched. `map` tells how far the card's registers go; each
+    /// is 16 bits wide. Errors: io (not there, no permission, too short, cannot be mapped), refused (accesses that
+    /// would not reach the card as they must), with the remedy.
+    static Result<std::unique_ptr<Port>> open(const PortSpec& spec, const CardMap& map,
+                                              std::unique_ptr<Clock> clock = nullptr);
 
     /// One access; at least PortSpec::gap after the one before. `offset`: of a register of the card's map.
     void write(std::uint32_t offset, std::uint16_t value) override;

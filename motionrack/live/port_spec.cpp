@@ -1,9 +1,8 @@
 // Reads what a person writes of a card's place.
-#include <motionrack/live/port_spec.hpp>
-
 #include <fmt/format.h>
 
 #include <charconv>
+#include <motionrack/live/port_spec.hpp>
 #include <optional>
 
 namespace motionrack::live {
@@ -11,8 +10,9 @@ namespace motionrack::live {
 namespace {
 
 tl::unexpected<Error> wrong(std::string_view text, std::string_view what) {
-    return fail(Trouble::bad_input, fmt::format("'{}' does not say where a card is: {}. The form is {}. Nothing was opened.", text, what,
-                                                port_spec_form()));
+    return fail(Trouble::bad_input,
+                fmt::format("'{}' does not say where a card is: {}. The form is {}. Nothing was opened.", text, what,
+                            port_spec_form()));
 }
 
 std::optional<std::uint64_t> number(std::string_view text) {
@@ -35,7 +35,8 @@ constexpr Range numbers[] = {
     {"stride", 2, 4096, [](PortSpec& spec, std::uint64_t n) { spec.stride = static_cast<std::uint32_t>(n); }},
     {"width", 8, 16, [](PortSpec& spec, std::uint64_t n) { spec.width = static_cast<int>(n); }},
     {"map", 0, 4, [](PortSpec& spec, std::uint64_t n) { spec.map = static_cast<int>(n); }},
-    {"gap_ns", 0, 1'000'000'000, [](PortSpec& spec, std::uint64_t n) { spec.gap = nanoseconds(static_cast<std::int64_t>(n)); }},
+    {"gap_ns", 0, 1'000'000'000,
+     [](PortSpec& spec, std::uint64_t n) { spec.gap = nanoseconds(static_cast<std::int64_t>(n)); }},
 };
 
 /// What is wrong with KEY=VALUE; "" if it is taken.
@@ -60,7 +61,8 @@ std::string take(PortSpec& spec, std::string_view key, std::string_view value) {
 std::string contradiction(const PortSpec& spec) {
     if (spec.path.empty()) return "the path is empty";
     if (spec.width != 8 && spec.width != 16) return fmt::format("width is {}, but may be 8 or 16", spec.width);
-    if (spec.stride % 2 != 0) return fmt::format("stride is {}, but registers of 16 bits are an even number of bytes apart", spec.stride);
+    if (spec.stride % 2 != 0)
+        return fmt::format("stride is {}, but registers of 16 bits are an even number of bytes apart", spec.stride);
     if (spec.width == 16 && spec.offset % 2 != 0)
         return fmt::format("offset is {}, but registers of 16 bits are at even addresses", spec.offset);
     if (spec.map != 0 && spec.reach != Reach::uio) return "only uio: has maps";
@@ -70,7 +72,8 @@ std::string contradiction(const PortSpec& spec) {
 }  // namespace
 
 std::string_view port_spec_form() {
-    return "uio:PATH, memory:PATH or port:PATH, and then, where needed, ,offset=N ,stride=N ,width=8 ,map=N ,interrupt=PATH ,gap_ns=N";
+    return "uio:PATH, memory:PATH or port:PATH, and then, where needed, ,offset=N ,stride=N ,width=8 ,map=N "
+           ",interrupt=PATH ,gap_ns=N";
 }
 
 Result<PortSpec> read_port_spec(std::string_view text) {
@@ -78,10 +81,14 @@ Result<PortSpec> read_port_spec(std::string_view text) {
     const std::size_t colon = text.find(':');
     const std::string_view kind = text.substr(0, colon);
     if (colon == std::string_view::npos) return wrong(text, "it has no ':'");
-    if (kind == "uio") spec.reach = Reach::uio;
-    else if (kind == "memory") spec.reach = Reach::memory;
-    else if (kind == "port") spec.reach = Reach::port;
-    else return wrong(text, fmt::format("there is no '{}:'", kind));
+    if (kind == "uio")
+        spec.reach = Reach::uio;
+    else if (kind == "memory")
+        spec.reach = Reach::memory;
+    else if (kind == "port")
+        spec.reach = Reach::port;
+    else
+        return wrong(text, fmt::format("there is no '{}:'", kind));
 
     std::string_view rest = text.substr(colon + 1);
     const std::size_t path_end = rest.find(',');
@@ -94,7 +101,8 @@ Result<PortSpec> read_port_spec(std::string_view text) {
         rest.remove_prefix(item.size());
         const std::size_t equals = item.find('=');
         if (equals == std::string_view::npos) return wrong(text, fmt::format("'{}' has no '='", item));
-        if (const std::string what = take(spec, item.substr(0, equals), item.substr(equals + 1)); !what.empty()) return wrong(text, what);
+        if (const std::string what = take(spec, item.substr(0, equals), item.substr(equals + 1)); !what.empty())
+            return wrong(text, what);
     }
     if (const std::string what = contradiction(spec); !what.empty()) return wrong(text, what);
     return spec;

@@ -1,9 +1,9 @@
 // Where a real card's registers are on this computer, as a person writes it:
 //
-//   uio:/dev/uio0                                                 the map 0 of a UIO node, and its interrupt
-//   memory:/sys/bus/pci/devices/0000:03:00.0/resource1,stride=4   any file that can be mapped: a PCI memory region
-//   port:/sys/bus/pci/devices/0000:03:00.0/resource2              a file of which two bytes are read and written: a PCI I/O region
-//   port:/dev/port,offset=0x300,width=8                           the PC's I/O ports
+//   uio:/dev/uio0                                      the map 0 of a UIO node, and its interrupt
+//   memory:/sys/bus/pci/devices/.../resource1,stride=4 any file that can be mapped: a PCI memory region
+//   port:/sys/bus/pci/devices/.../resource2            a file that is read and written by two bytes: a PCI I/O region
+//   port:/dev/port,offset=0x300,width=8                the PC's I/O ports
 #pragma once
 
 #include <cstdint>
@@ -23,16 +23,16 @@ enum class Reach : std::uint8_t {
 struct PortSpec {
     Reach reach = Reach::memory;
     std::string path;
-    std::uint64_t offset = 0;    ///< bytes from the start of the file (uio: of the map) to the card's first register
-    std::uint32_t stride = 2;    ///< bytes from one register to the next, 2 .. 4096, even
-    int width = 16;              ///< bits of one access: 16, or 8 for a card on its 8-bit bus
-    int map = 0;                 ///< uio: which map, 0 .. 4
-    std::string interrupt = {};  ///< the UIO node that counts the card's interrupts; "": none, waits look again and again
+    std::uint64_t offset = 0;  ///< bytes from the start of the file (uio: of the map) to the card's first register
+    std::uint32_t stride = 2;  ///< bytes from one register to the next, 2 .. 4096, even
+    int width = 16;            ///< bits of one access: 16, or 8 for a card on its 8-bit bus
+    int map = 0;               ///< uio: which map, 0 .. 4
+    std::string interrupt = {};       ///< the UIO node that counts the card's interrupts; "": none
     Duration gap = nanoseconds(250);  ///< least time from one access to the next, 0 .. 1 s
 };
 
-/// Reads KIND:PATH[,KEY=VALUE]...; keys offset, stride, width, map, interrupt (a path or "none"), gap_ns; numbers decimal or 0x...
-/// Errors: bad_input, with what is wrong and the form.
+/// Reads KIND:PATH[,KEY=VALUE]...; keys offset, stride, width, map, interrupt (a path or "none"), gap_ns; numbers
+/// decimal or 0x... Errors: bad_input, with what is wrong and the form.
 Result<PortSpec> read_port_spec(std::string_view text);
 
 /// The form of such a text, for messages and help.

@@ -1,7 +1,5 @@
-// Mapped words are volatile accesses of their own width, so that a compiler makes one bus cycle of each; words of a file are one
-// system call each, which is one IN or OUT where the kernel serves I/O ports.
-#include <motionrack/live/words.hpp>
-
+// Mapped words are volatile accesses of their own width, so that a compiler makes one bus cycle of each; words of a
+// file are one system call each, which is one IN or OUT where the kernel serves I/O ports.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -14,6 +12,7 @@
 #include <fstream>
 #include <iomanip>
 #include <motionrack/live/file.hpp>
+#include <motionrack/live/words.hpp>
 
 namespace motionrack::live {
 
@@ -22,7 +21,10 @@ namespace {
 class MappedWords final : public Words {
   public:
     MappedWords(void* mapping, std::size_t length, std::size_t first, int width)
-        : mapping_(mapping), length_(length), first_(static_cast<volatile std::uint8_t*>(mapping) + first), width_(width) {}
+        : mapping_(mapping),
+          length_(length),
+          first_(static_cast<volatile std::uint8_t*>(mapping) + first),
+          width_(width) {}
     ~MappedWords() override { ::munmap(mapping_, length_); }
     MappedWords(const MappedWords&) = delete;
     MappedWords& operator=(const MappedWords&) = delete;
@@ -82,7 +84,9 @@ class FileWords final : public Words {
     int get(std::uint64_t at, void* to, std::size_t bytes) {
         return error_of(::pread(file_.descriptor(), to, bytes, static_cast<off_t>(first_ + at)), bytes);
     }
-    static int error_of(ssize_t done, std::size_t bytes) { return done == static_cast<ssize_t>(bytes) ? 0 : done < 0 ? errno : EIO; }
+    static int error_of(ssize_t done, std::size_t bytes) {
+        return done == static_cast<ssize_t>(bytes) ? 0 : done < 0 ? errno : EIO;
+    }
 
     File file_;
     std::uint64_t first_;
@@ -90,9 +94,11 @@ class FileWords final : public Words {
 };
 
 tl::unexpected<Error> too_short(const PortSpec& spec, std::uint64_t size, std::uint64_t needed) {
-    return fail(Trouble::io, fmt::format("{} has {} bytes, but the card's registers end at byte {} (offset {}, stride {}). Check offset and "
-                                         "stride, or whether it is another region of the card. Nothing was opened.",
-                                         spec.path, size, needed, spec.offset, spec.stride));
+    return fail(
+        Trouble::io,
+        fmt::format("{} has {} bytes, but the card's registers end at byte {} (offset {}, stride {}). Check offset and "
+                    "stride, or whether it is another region of the card. Nothing was opened.",
+                    spec.path, size, needed, spec.offset, spec.stride));
 }
 
 Result<std::uint64_t> number_in(const std::filesystem::path& path) {
@@ -108,13 +114,14 @@ Result<std::unique_ptr<Words>> map_words(const PortSpec& spec, const File& file,
     const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
     const std::uint64_t skipped = spec.reach == Reach::uio ? 0 : at / page * page;
     const std::uint64_t mapped = at - skipped + length;
-    void* const mapping =
-        ::mmap(nullptr, mapped, PROT_READ | PROT_WRITE, MAP_SHARED, file.descriptor(), static_cast<off_t>(start + skipped));
+    void* const mapping = ::mmap(nullptr, mapped, PROT_READ | PROT_WRITE, MAP_SHARED, file.descriptor(),
+                                 static_cast<off_t>(start + skipped));
     if (mapping == MAP_FAILED) {
         const int error = errno;
-        return fail(Trouble::io, fmt::format("{} cannot be mapped: {}. {} Nothing was opened.", spec.path, std::strerror(error),
-                                             error == EPERM ? "The kernel is locked down (Secure Boot); UIO still works."
-                                                            : "If it is a region of I/O ports, use port: instead."));
+        return fail(Trouble::io,
+                    fmt::format("{} cannot be mapped: {}. {} Nothing was opened.", spec.path, std::strerror(error),
+                                error == EPERM ? "The kernel is locked down (Secure Boot); UIO still works."
+                                               : "If it is a region of I/O ports, use port: instead."));
     }
     return std::make_unique<MappedWords>(mapping, mapped, at - skipped, spec.width);
 }
@@ -125,9 +132,12 @@ Result<UioMap> read_uio_map(const std::filesystem::path& folder, int map) {
     const std::filesystem::path place = folder / "maps" / fmt::format("map{}", map);
     std::error_code ignored;
     if (!std::filesystem::exists(place, ignored))
-        return fail(Trouble::io, fmt::format("{} has no map {}: its driver gives interrupts only, or fewer regions. Map the card's PCI region "
-                                             "with memory:.../resourceN and take this node as interrupt=. Nothing was opened.",
-                                             folder.filename().string(), map));
+        return fail(
+            Trouble::io,
+            fmt::format(
+                "{} has no map {}: its driver gives interrupts only, or fewer regions. Map the card's PCI region "
+                "with memory:.../resourceN and take this node as interrupt=. Nothing was opened.",
+                folder.filename().string(), map));
     UioMap out;
     MOTIONRACK_TRY(out.size, number_in(place / "size"));
     MOTIONRACK_TRY(out.offset, number_in(place / "offset"));
@@ -138,7 +148,8 @@ Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t le
     MOTIONRACK_TRY(File file, File::open(spec.path, spec.reach == Reach::port ? 0 : O_SYNC));
     struct stat facts {};
     if (::fstat(file.descriptor(), &facts) != 0)
-        return fail(Trouble::io, fmt::format("{} tells nothing of itself: {}. Nothing was opened.", spec.path, std::strerror(errno)));
+        return fail(Trouble::io, fmt::format("{} tells nothing of itself: {}. Nothing was opened.", spec.path,
+                                             std::strerror(errno)));
     const std::uint64_t needed = spec.offset + length;
     const bool has_size = S_ISREG(facts.st_mode);
     if (has_size && static_cast<std::uint64_t>(facts.st_size) < needed)
@@ -147,9 +158,12 @@ Result<std::unique_ptr<Words>> open_words(const PortSpec& spec, std::uint64_t le
     if (spec.reach == Reach::port) {
         // Linux cuts every access to its /dev/port into bytes, the low one first.
         if (spec.width == 16 && S_ISCHR(facts.st_mode) && facts.st_rdev == ::makedev(1, 4))
-            return fail(Trouble::refused, fmt::format("{} moves single bytes, the low one first, which would carry out a command before its axes "
-                                                      "are there. Say width=8 if the card is on its 8-bit bus; a PCI card's 16-bit ports are "
-                                                      "reached by port:/sys/bus/pci/devices/.../resourceN. Nothing was opened.", spec.path));
+            return fail(
+                Trouble::refused,
+                fmt::format("{} moves single bytes, the low one first, which would carry out a command before its axes "
+                            "are there. Say width=8 if the card is on its 8-bit bus; a PCI card's 16-bit ports are "
+                            "reached by port:/sys/bus/pci/devices/.../resourceN. Nothing was opened.",
+                            spec.path));
         return std::make_unique<FileWords>(std::move(file), spec.offset, spec.width);
     }
     if (spec.reach == Reach::memory) return map_words(spec, file, spec.offset, 0, length);

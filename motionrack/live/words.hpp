@@ -9,7 +9,8 @@
 
 namespace motionrack::live {
 
-/// One word is one access of 16 bits, or two of 8: the high byte first, because the low byte of a command register carries it out.
+/// One word is one access of 16 bits, or two of 8: the high byte first, because the low byte of a command register
+/// carries it out.
 class Words {
   public:
     virtual ~Words() = default;

@@ -1,10 +1,9 @@
 // Reading all registers, and saying what their bits mean.
-#include <motionrack/rack/register_view.hpp>
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <motionrack/cards/mcx314/map.hpp>
+#include <motionrack/rack/register_view.hpp>
 #include <nlohmann/json.hpp>
 
 namespace motionrack::rack {
@@ -30,12 +29,15 @@ constexpr ValueCommand mcx314_values[] = {
     {"CA", command_named(mcx314::map::commands, "READ_CA"), "present acceleration, units of A"},
 };
 
-bool is_reading(const RegisterInfo& reg) { return reg.access != Access::write && reg.bank.empty(); }
+bool is_reading(const RegisterInfo& reg) {
+    return reg.access != Access::write && reg.bank.empty();
+}
 
 }  // namespace
 
 bool RegisterView::answered() const {
-    return std::any_of(registers.begin(), registers.end(), [](const SeenRegister& seen) { return seen.word != 0xFFFF; });
+    return std::any_of(registers.begin(), registers.end(),
+                       [](const SeenRegister& seen) { return seen.word != 0xFFFF; });
 }
 
 RegisterView view_mcx314(RegisterPort& port, bool clearing) {
@@ -78,11 +80,13 @@ std::string view_json(const RegisterView& view) {
     out["registers"] = nlohmann::ordered_json::array();
     for (const SeenRegister& seen : view.registers) {
         nlohmann::ordered_json one = {{"name", seen.reg->name}, {"axis", seen.axis}, {"word", seen.word}};
-        for (const FieldInfo& field : seen.reg->fields) one["fields"][std::string(field.name)] = field_of(seen.word, field);
+        for (const FieldInfo& field : seen.reg->fields)
+            one["fields"][std::string(field.name)] = field_of(seen.word, field);
         out["registers"].push_back(std::move(one));
     }
     out["values"] = nlohmann::ordered_json::array();
-    for (const SeenValue& seen : view.values) out["values"].push_back({{"name", seen.name}, {"axis", seen.axis}, {"value", seen.value}});
+    for (const SeenValue& seen : view.values)
+        out["values"].push_back({{"name", seen.name}, {"axis", seen.axis}, {"value", seen.value}});
     return out.dump(2) + "\n";
 }
 

@@ -31,9 +31,9 @@ struct RegisterView {
     bool answered() const;
 };
 
-/// The MCX314: all RR registers, LP, EP, CV, CA of each axis. Writes WR0 only, with NOP (to choose the axis) and read commands;
-/// these change no motion, but RR6, RR7 and the chosen axis: nobody else may use the card meanwhile. `clearing`: RR3 too, which
-/// clears its flags and lets the interrupt line go.
+/// The MCX314: all RR registers, LP, EP, CV, CA of each axis. Writes WR0 only, with NOP (to choose the axis) and read
+/// commands; these change no motion, but RR6, RR7 and the chosen axis: nobody else may use the card meanwhile.
+/// `clearing`: RR3 too, which clears its flags and lets the interrupt line go.
 RegisterView view_mcx314(RegisterPort& port, bool clearing);
 
 /// For a terminal; fields that are 0 are left out unless `all`.

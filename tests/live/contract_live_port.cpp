@@ -1,7 +1,7 @@
 // The contract tests' card here: the live port of MOTIONRACK_LIVE_PORT.
 //
-// A real card: MOTIONRACK_LIVE_PORT=uio:/dev/uio0 MOTIONRACK_LIVE_MOTORS=unplugged contract_live. All four axes send pulses.
-// A served one: live_server memory contract_live.
+// A real card: MOTIONRACK_LIVE_PORT=uio:/dev/uio0 MOTIONRACK_LIVE_MOTORS=unplugged contract_live. All four axes send
+// pulses. A served one: live_server memory contract_live.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -40,7 +40,8 @@ class LiveContractPort final : public ContractPort {
   public:
     LiveContractPort(const live::PortSpec& spec, const std::string& bell) {
         if (!bell.empty()) bell_.emplace(bell, page, false);
-        auto opened = live::Port::open(spec, card_map(), bell_ ? std::make_unique<ServedClock>(bell_->as<Doorbell>()) : nullptr);
+        auto opened =
+            live::Port::open(spec, card_map(), bell_ ? std::make_unique<ServedClock>(bell_->as<Doorbell>()) : nullptr);
         if (!opened) {
             ADD_FAILURE() << opened.error().message;
             return;
@@ -75,7 +76,9 @@ std::unique_ptr<ContractPort> make_contract_port() {
     }
     const bool real = text.find("motionrack-live-") == std::string::npos;
     if (real && variable("MOTIONRACK_LIVE_MOTORS") != "unplugged") {
-        std::puts("These tests send pulses on all four axes. Unplug the motors and say so: MOTIONRACK_LIVE_MOTORS=unplugged.");
+        std::puts(
+            "These tests send pulses on all four axes. Unplug the motors and say so: "
+            "MOTIONRACK_LIVE_MOTORS=unplugged.");
         return nullptr;
     }
     const auto spec = live::read_port_spec(text);

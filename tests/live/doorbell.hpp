@@ -1,18 +1,18 @@
-// How the driver's process and the process that serves the virtual card speak: one page of shared memory, one question at a time.
+// How the driver's process and the one that serves the card speak: a page of shared memory, one question at a time.
 //
 //   driver's process      what, offset ──► asked + 1, wake ──► wait until answered == asked ──► value
 //   server's process      wait until asked != answered ──► works the card ──► value ──► answered = asked, wake
 //
-// The register words lie in another file, which both map too: "read" means that the server puts the register's value into its
-// word, "write" that it takes the word and writes it to the card.
+// The register words lie in another file, which both map too: "read" means that the server puts the register's value
+// into its word, "write" that it takes the word and writes it to the card.
 #pragma once
 
-#include <atomic>
-#include <cstdint>
 #include <linux/futex.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cstdint>
 #include <ctime>
 
 namespace motionrack::live_test {
@@ -47,7 +47,8 @@ inline void wake(std::atomic<std::uint32_t>& word) {
 }
 
 /// The driver's side; callable in a signal handler. Ends the process if nobody answers for a minute.
-inline std::int64_t ask(Doorbell& bell, Question what, std::int64_t value, std::uint32_t offset = 0, std::uint32_t width = 16) {
+inline std::int64_t ask(Doorbell& bell, Question what, std::int64_t value, std::uint32_t offset = 0,
+                        std::uint32_t width = 16) {
     bell.what = what;
     bell.offset = offset;
     bell.width = width;

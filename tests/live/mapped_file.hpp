@@ -28,7 +28,9 @@ class MappedFile {
 
     explicit operator bool() const { return data_ != MAP_FAILED; }
     template <class T>
-    T& as(std::size_t offset = 0) const { return *reinterpret_cast<T*>(static_cast<char*>(data_) + offset); }
+    T& as(std::size_t offset = 0) const {
+        return *reinterpret_cast<T*>(static_cast<char*>(data_) + offset);
+    }
 
   private:
     std::size_t length_;

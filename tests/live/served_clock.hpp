@@ -1,8 +1,9 @@
 // The clock of a card that is served in virtual time: time passes at the server, when the driver's process asks for it.
 #pragma once
 
-#include <motionrack/live/clock.hpp>
 #include <poll.h>
+
+#include <motionrack/live/clock.hpp>
 #include <tests/live/doorbell.hpp>
 
 namespace motionrack::live_test {

@@ -2,10 +2,10 @@
 #define FUSE_USE_VERSION 35
 #include <fuse.h>
 #include <poll.h>
+#include <sys/stat.h>
 
 #include <cerrno>
 #include <cstring>
-#include <sys/stat.h>
 #include <tests/live/served_files.hpp>
 #include <tests/live/virtual_card.hpp>
 #include <thread>
@@ -19,7 +19,8 @@ constexpr unsigned registers_end = port_base + 16;
 /// What the files know; libfuse hands it back in every call.
 struct Served {
     VirtualCard& card;
-    // The interrupt side of a UIO node: the kernel's driver shuts the line when it has counted, and a write of 1 opens it.
+    // The interrupt side of a UIO node: the kernel's driver shuts the line when it has counted, and a write of 1 opens
+    // it.
     std::uint32_t count = 0, seen = 0;
     bool open = false;
 
@@ -30,16 +31,24 @@ struct Served {
     }
 };
 
-Served& served() { return *static_cast<Served*>(::fuse_get_context()->private_data); }
-bool is(const char* path, const char* name) { return std::strcmp(path, name) == 0; }
+Served& served() {
+    return *static_cast<Served*>(::fuse_get_context()->private_data);
+}
+bool is(const char* path, const char* name) {
+    return std::strcmp(path, name) == 0;
+}
 
 int attributes(const char* path, struct stat* out, fuse_file_info*) {
     *out = {};
     out->st_uid = ::getuid();
-    if (is(path, "/")) out->st_mode = S_IFDIR | 0700;
-    else if (is(path, "/port")) out->st_mode = S_IFREG | 0600, out->st_size = registers_end;
-    else if (is(path, "/uio0")) out->st_mode = S_IFREG | 0600;
-    else return -ENOENT;
+    if (is(path, "/"))
+        out->st_mode = S_IFDIR | 0700;
+    else if (is(path, "/port"))
+        out->st_mode = S_IFREG | 0600, out->st_size = registers_end;
+    else if (is(path, "/uio0"))
+        out->st_mode = S_IFREG | 0600;
+    else
+        return -ENOENT;
     out->st_nlink = 1;
     return 0;
 }
@@ -66,7 +75,8 @@ int read_file(const char* path, char* out, std::size_t bytes, off_t at, fuse_fil
         return static_cast<int>(bytes);
     }
     if (!is_access(bytes, at)) return -EINVAL;
-    const std::uint16_t value = files.card.read(static_cast<std::uint32_t>(at - port_base), static_cast<unsigned>(8 * bytes));
+    const std::uint16_t value =
+        files.card.read(static_cast<std::uint32_t>(at - port_base), static_cast<unsigned>(8 * bytes));
     std::memcpy(out, &value, bytes);
     return static_cast<int>(bytes);
 }
@@ -120,8 +130,11 @@ class FuseFiles final : public ServedFiles {
         char* words[] = {name, nullptr};
         fuse_args arguments{1, words, 0};
         fuse_ = ::fuse_new(&arguments, &operations, sizeof operations, &served_);
+        ::fuse_opt_free_args(&arguments);
         if (!fuse_ || ::fuse_mount(fuse_, folder.c_str()) != 0) {
-            why = "This computer does not let programs serve files (FUSE): it has no /dev/fuse, or does not allow mounting.";
+            why =
+                "This computer does not let programs serve files (FUSE): it has no /dev/fuse, or does not allow "
+                "mounting.";
             return false;
         }
         thread_ = std::thread([this] { ::fuse_loop(fuse_); });

@@ -1,7 +1,7 @@
 // Files that a process serves (FUSE): real system calls on real files, each of which reaches the virtual card.
 //
-//   FOLDER/port    as the file of a PCI card's I/O region: pread and pwrite of 2 bytes at port_base + offset are 16-bit accesses,
-//                  of 1 byte 8-bit ones
+//   FOLDER/port    as the file of a PCI card's I/O region: pread and pwrite of 2 bytes at port_base + offset are 16-bit
+//                  accesses, of 1 byte 8-bit ones
 //   FOLDER/uio0    as the interrupt side of a UIO node
 #pragma once
 

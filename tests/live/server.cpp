@@ -5,8 +5,8 @@
 //   memory    the registers are words of a file that PROGRAM maps (with a trap, see trap.hpp)
 //   port      the registers are bytes of a file that PROGRAM reads and writes two by two (FUSE), port8: one by one
 //
-// PROGRAM finds in MOTIONRACK_LIVE_PORT where its card is, and in MOTIONRACK_LIVE_DOORBELL how to let virtual time pass. Ends as
-// PROGRAM does; 77 where this computer cannot serve.
+// PROGRAM finds in MOTIONRACK_LIVE_PORT where its card is, and in MOTIONRACK_LIVE_DOORBELL how to let virtual time
+// pass. Ends as PROGRAM does; 77 where this computer cannot serve.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -57,10 +57,18 @@ class Attendant {
     void answer() {
         auto& word = *reinterpret_cast<volatile std::uint16_t*>(registers_ + first_register + (bell_.offset & 14u));
         switch (bell_.what) {
-            case Question::read: word = card_.read(bell_.offset & 14u, 16); break;
-            case Question::write: card_.write(bell_.offset & 14u, 16, word); break;
-            case Question::pass: card_.pass(Duration{bell_.value}); break;
-            case Question::interrupt: bell_.value = card_.run_to_interrupt(Duration{bell_.value}) ? 1 : 0; break;
+            case Question::read:
+                word = card_.read(bell_.offset & 14u, 16);
+                break;
+            case Question::write:
+                card_.write(bell_.offset & 14u, 16, word);
+                break;
+            case Question::pass:
+                card_.pass(Duration{bell_.value});
+                break;
+            case Question::interrupt:
+                bell_.value = card_.run_to_interrupt(Duration{bell_.value}) ? 1 : 0;
+                break;
         }
     }
 
@@ -113,7 +121,8 @@ int main(int argc, char** argv) {
     const bool real_time = next < argc && std::string(argv[next]) == "--real-time";
     if (real_time) ++next;
     if (next >= argc || (face != "memory" && face != "port" && face != "port8") || (real_time && face == "memory")) {
-        std::fprintf(stderr, "live_server memory|port|port8 [--real-time] PROGRAM [ARGUMENT]... (no real time in memory)\n");
+        std::fprintf(stderr,
+                     "live_server memory|port|port8 [--real-time] PROGRAM [ARGUMENT]... (no real time in memory)\n");
         return 1;
     }
     std::string folder = (std::filesystem::temp_directory_path() / "motionrack-live-XXXXXX").string();

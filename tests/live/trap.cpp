@@ -24,14 +24,20 @@ struct Trapped {
 /// Signal handlers have no other way to know.
 Trapped trapped;
 
-void close_page() { ::mprotect(trapped.page, trapped.length, PROT_NONE); }
-void open_page() { ::mprotect(trapped.page, trapped.length, PROT_READ | PROT_WRITE); }
+void close_page() {
+    ::mprotect(trapped.page, trapped.length, PROT_NONE);
+}
+void open_page() {
+    ::mprotect(trapped.page, trapped.length, PROT_READ | PROT_WRITE);
+}
 
 #if defined(__x86_64__)
 
 constexpr greg_t single_step = 0x100, write_fault = 2;
 
-greg_t& flags_of(void* context) { return static_cast<ucontext_t*>(context)->uc_mcontext.gregs[REG_EFL]; }
+greg_t& flags_of(void* context) {
+    return static_cast<ucontext_t*>(context)->uc_mcontext.gregs[REG_EFL];
+}
 
 void on_segv(int, siginfo_t* info, void* context) {
     char* const place = static_cast<char*>(info->si_addr);
@@ -55,8 +61,12 @@ void on_trap(int, siginfo_t*, void* context) {
 
 #else
 
-void on_segv(int, siginfo_t*, void*) { std::abort(); }
-void on_trap(int, siginfo_t*, void*) { std::abort(); }
+void on_segv(int, siginfo_t*, void*) {
+    std::abort();
+}
+void on_trap(int, siginfo_t*, void*) {
+    std::abort();
+}
 
 #endif
 

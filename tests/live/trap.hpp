@@ -1,8 +1,8 @@
-// Notices every access of this process to a mapped page, one by one, as a card on a bus does: plain memory cannot say that it was
-// read, or written with the value that it had. The code that makes the access is not touched and does not know.
+// Notices every access of this process to a mapped page, one by one, as a card on a bus does: plain memory cannot say
+// that it was read, or written with the value that it had. The code that makes the access is as it always is.
 //
-//   access ──► page is closed: SIGSEGV ──► before() ──► page opened, single step ──► the access is made ──► SIGTRAP ──► page
-//   closed ──► after() ──► the program goes on
+//   access ──► page is closed: SIGSEGV ──► before() ──► page opened, single step
+//          ──► the access is made: SIGTRAP ──► page closed ──► after() ──► the program goes on
 //
 // x86-64 only, for its single step. One trap at a time in a process, one thread.
 #pragma once

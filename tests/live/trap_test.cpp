@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/live/port.hpp>
-#include <array>
 #include <tests/live/mapped_file.hpp>
 #include <tests/live/trap.hpp>
 
@@ -69,7 +69,8 @@ TEST_F(LivePortInMemory, MakesOneAccessOfSixteenBitsForEachWord) {
     }
     EXPECT_EQ(last, 0xFFFF);
     ASSERT_EQ(seen.count, 6u);
-    const std::array<Touch, 6> expected = {{{4080, true}, {4080, true}, {4094, true}, {4092, false}, {4094, false}, {4086, false}}};
+    const std::array<Touch, 6> expected = {
+        {{4080, true}, {4080, true}, {4094, true}, {4092, false}, {4094, false}, {4086, false}}};
     for (std::size_t i = 0; i < 6; ++i) {
         EXPECT_EQ(seen.list[i].offset, expected[i].offset) << i;
         EXPECT_EQ(seen.list[i].writes, expected[i].writes) << i;

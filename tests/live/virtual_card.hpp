@@ -1,11 +1,11 @@
 // The card that the server works: a virtual MCX314, in virtual time or at the pace of the computer's clock.
 #pragma once
 
+#include <atomic>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/live/clock.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/virtual_port.hpp>
-#include <atomic>
 #include <mutex>
 #include <optional>
 
@@ -13,7 +13,8 @@ namespace motionrack::live_test {
 
 class VirtualCard {
   public:
-    /// `real_time`: the card's time is the computer's; else it passes only where somebody lets it pass. It is kept in `now`.
+    /// `real_time`: the card's time is the computer's; else it passes only where somebody lets it pass. It is kept in
+    /// `now`.
     VirtualCard(bool real_time, std::atomic<std::int64_t>& now)
         : now_(now), chip_(kernel_, "c"), port_(kernel_, chip_, chip_.id(), chip_.interrupt_wire(), bus_time) {
         kernel_.start();
@@ -31,8 +32,10 @@ class VirtualCard {
     void write(std::uint32_t offset, unsigned width, std::uint16_t value) {
         const std::lock_guard lock(mutex_);
         begin_access();
-        if (width == 16) chip_.write(offset, value);
-        else chip_.write_byte(offset, static_cast<std::uint8_t>(value));
+        if (width == 16)
+            chip_.write(offset, value);
+        else
+            chip_.write_byte(offset, static_cast<std::uint8_t>(value));
         kernel_.settle();
     }
     void pass(Duration duration) {
@@ -60,8 +63,10 @@ class VirtualCard {
         if (const Duration behind = clock_->now() - kernel_.now(); behind > Duration{0}) pass_locked(behind);
     }
     void begin_access() {
-        if (clock_) catch_up();
-        else pass_locked(bus_time);
+        if (clock_)
+            catch_up();
+        else
+            pass_locked(bus_time);
     }
     void pass_locked(Duration duration) {
         port_.pass(duration);

@@ -17,10 +17,14 @@ std::string plain(const std::string& text) {
     bool line_start = true;
     for (const char c : text) {
         if (line_start && (c == '.' || c == '\'')) out += "\\&";
-        if (c == '\\') out += "\\e";
-        else if (c == '-') out += "\\-";
-        else if (c == '\'') out += "\\(aq";
-        else out += c;
+        if (c == '\\')
+            out += "\\e";
+        else if (c == '-')
+            out += "\\-";
+        else if (c == '\'')
+            out += "\\(aq";
+        else
+            out += c;
         line_start = c == '\n';
     }
     return out;
@@ -33,10 +37,13 @@ std::vector<const CLI::App*> commands_of(const CLI::App& app) {
 /// "--rack FILE": the names of an option, bold, and what follows it.
 std::string head_of(const CLI::Option& option) {
     std::string names;
-    for (const std::string& name : option.get_snames()) names += (names.empty() ? "" : ", ") + std::string("\\fB") + plain("-" + name) + "\\fR";
-    for (const std::string& name : option.get_lnames()) names += (names.empty() ? "" : ", ") + std::string("\\fB") + plain("--" + name) + "\\fR";
+    for (const std::string& name : option.get_snames())
+        names += (names.empty() ? "" : ", ") + std::string("\\fB") + plain("-" + name) + "\\fR";
+    for (const std::string& name : option.get_lnames())
+        names += (names.empty() ? "" : ", ") + std::string("\\fB") + plain("--" + name) + "\\fR";
     if (names.empty()) return "\\fI" + plain(option.get_name(true)) + "\\fR";
-    if (option.get_items_expected_max() > 0 && option.get_type_size_max() > 0) names += " \\fI" + plain(option.get_type_name()) + "\\fR";
+    if (option.get_items_expected_max() > 0 && option.get_type_size_max() > 0)
+        names += " \\fI" + plain(option.get_type_name()) + "\\fR";
     return names;
 }
 
@@ -64,8 +71,8 @@ std::string page(const CLI::App& app) {
     out += ".SH OPTIONS\n" + options_of(app);
     out += ".SH COMMANDS\n";
     for (const CLI::App* command : commands_of(app))
-        out += ".SS " + plain(command->get_name()) + "\n" + plain(command->get_description()) + ".\n" + options_of(*command) +
-               verbatim(command->get_footer());
+        out += ".SS " + plain(command->get_name()) + "\n" + plain(command->get_description()) + ".\n" +
+               options_of(*command) + verbatim(command->get_footer());
     out += ".SH EXAMPLES AND EXIT CODES\n" + verbatim(app.get_footer());
     return out;
 }

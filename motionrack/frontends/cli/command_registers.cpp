@@ -27,7 +27,8 @@ void print(const rack::RegisterView& view, const RegistersOptions& options) {
 int live_registers(const RegistersOptions& options) {
     const rack::CardKind* const kind = rack::find_card_kind(options.card.empty() ? "mcx314" : options.card);
     if (!kind || !kind->view) {
-        print_error(fmt::format("The registers of a real '{}' cannot be read; those of an mcx314 can. Nothing was opened.", options.card));
+        print_error(fmt::format(
+            "The registers of a real '{}' cannot be read; those of an mcx314 can. Nothing was opened.", options.card));
         return exit_usage;
     }
     const auto spec = live::read_port_spec(options.live);
@@ -38,7 +39,8 @@ int live_registers(const RegistersOptions& options) {
     if ((*port)->trouble()) return report(*(*port)->trouble());
     print(view, options);
     if (view.answered()) return exit_done;
-    print_error(fmt::format("Every register reads FFFFh: no card answers at {}. Check the region, offset and stride.", options.live));
+    print_error(fmt::format("Every register reads FFFFh: no card answers at {}. Check the region, offset and stride.",
+                            options.live));
     return exit_io;
 }
 
@@ -58,7 +60,8 @@ int virtual_registers(const RegistersOptions& options) {
         print(kind->view(card.port(), options.clear), options);
         return exit_done;
     }
-    print_error(fmt::format("The rack has no card '{}' whose registers can be shown; its cards are: {}.", options.card, known));
+    print_error(
+        fmt::format("The rack has no card '{}' whose registers can be shown; its cards are: {}.", options.card, known));
     return exit_usage;
 }
 
@@ -66,15 +69,19 @@ int virtual_registers(const RegistersOptions& options) {
 
 void add_registers(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<RegistersOptions>();
-    CLI::App* command = app.add_subcommand("registers", "Read a card's registers and tell what they mean; nothing moves");
-    command->add_option("CARD", options->card, "name of a card in the rack (default: the first); with --live its type (default: mcx314)");
+    CLI::App* command =
+        app.add_subcommand("registers", "Read a card's registers and tell what they mean; nothing moves");
+    command->add_option("CARD", options->card,
+                        "name of a card in the rack (default: the first); with --live its type (default: mcx314)");
     auto* rack = command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
     command->add_option("--live", options->live, "a real card: " + std::string(live::port_spec_form()))->excludes(rack);
     command->add_flag("--clear", options->clear, "read RR3 too, which clears it");
     command->add_flag("--all", options->all, "fields that are 0 too");
     command->add_flag("--json", options->json, "as JSON");
-    command->footer("Example: motionrack registers --live uio:/dev/uio0\nOf a real card WR0 is written, with NOP and read commands: no other "
-                    "program may use it meanwhile.");
+    command->footer(
+        "Example: motionrack registers --live uio:/dev/uio0\nOf a real card WR0 is written, with NOP and read "
+        "commands: no other "
+        "program may use it meanwhile.");
     command->callback([options, &chosen] {
         chosen = [options] { return options->live.empty() ? virtual_registers(*options) : live_registers(*options); };
     });

@@ -19,7 +19,8 @@ TEST(LivePortSpec, TakesTheThreeWaysToReachACard) {
     EXPECT_EQ(uio->map, 1);
     EXPECT_EQ(uio->offset, 256u);
 
-    const auto memory = read_port_spec("memory:/sys/bus/pci/devices/0000:03:00.0/resource1,stride=4,interrupt=/dev/uio0,gap_ns=0");
+    const auto memory =
+        read_port_spec("memory:/sys/bus/pci/devices/0000:03:00.0/resource1,stride=4,interrupt=/dev/uio0,gap_ns=0");
     ASSERT_TRUE(memory) << memory.error().message;
     EXPECT_EQ(memory->reach, Reach::memory);
     EXPECT_EQ(memory->path, "/sys/bus/pci/devices/0000:03:00.0/resource1");

@@ -1,6 +1,7 @@
 // Live ports on plain files: which bytes an access touches, and what is said when a file is not what was hoped for.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 #include <unistd.h>
 
 #include <array>
@@ -8,7 +9,6 @@
 #include <filesystem>
 #include <fstream>
 #include <motionrack/live/port.hpp>
-#include <rapidcheck/gtest.h>
 
 namespace motionrack::live {
 namespace {
@@ -61,7 +61,8 @@ std::string refusal(const std::string& text, const CardMap& map = four) {
 
 RC_GTEST_PROP(LivePort, WritesTwoBytesAtTheRegistersPlaceAndNoOthers, ()) {
     const bool mapped = *rc::gen::arbitrary<bool>(), bytes = *rc::gen::arbitrary<bool>();
-    const auto offset = 2 * *rc::gen::inRange<std::size_t>(0, 3000), stride = 2 * *rc::gen::inRange<std::size_t>(1, 600);
+    const auto offset = 2 * *rc::gen::inRange<std::size_t>(0, 3000),
+               stride = 2 * *rc::gen::inRange<std::size_t>(1, 600);
     const auto number = *rc::gen::inRange<std::uint32_t>(0, 4);
     const auto value = *rc::gen::arbitrary<std::uint16_t>();
     const Folder folder;
@@ -87,7 +88,8 @@ TEST(LivePort, SaysThatAFileIsTooShortAndByHowMuch) {
     const std::string path = folder.file("card", std::string(9, '\0'));
     for (const char* kind : {"memory:", "port:"}) {
         EXPECT_EQ(refusal(kind + path), "");
-        EXPECT_THAT(refusal(kind + path + ",offset=2"), HasSubstr("has 9 bytes, but the card's registers end at byte 10 (offset 2, stride 2)"));
+        EXPECT_THAT(refusal(kind + path + ",offset=2"),
+                    HasSubstr("has 9 bytes, but the card's registers end at byte 10 (offset 2, stride 2)"));
         EXPECT_THAT(refusal(kind + path + ",stride=4"), HasSubstr("end at byte 14"));
     }
 }
@@ -96,7 +98,8 @@ TEST(LivePort, SaysWhoMayNotOpenAFileAndTheRemedy) {
     const Folder folder;
     const std::string path = folder.file("card", std::string(64, '\0'));
     std::filesystem::permissions(path, std::filesystem::perms::none);
-    std::filesystem::permissions(folder.path(), std::filesystem::perms::others_exec, std::filesystem::perm_options::add);
+    std::filesystem::permissions(folder.path(), std::filesystem::perms::others_exec,
+                                 std::filesystem::perm_options::add);
     // Root may open everything, so root becomes somebody else for a moment.
     const uid_t me = ::geteuid(), somebody = me == 0 ? 65534 : me;
     ASSERT_EQ(::seteuid(somebody), 0);
@@ -114,7 +117,8 @@ TEST(LivePort, SaysThatAFileCannotBeMapped) {
 
 TEST(LivePort, RefusesCardsWhoseRegistersAreNotWords) {
     const Folder folder;
-    EXPECT_THAT(refusal("memory:" + folder.file("card", std::string(64, '\0')), wide_card), HasSubstr("not words of 16 bits"));
+    EXPECT_THAT(refusal("memory:" + folder.file("card", std::string(64, '\0')), wide_card),
+                HasSubstr("not words of 16 bits"));
 }
 
 TEST(LivePort, AnAccessThatTheComputerRefusesIsToldAndIsTheLast) {
@@ -173,7 +177,8 @@ TEST(LivePort, LeavesTheCardItsGapBetweenTwoAccesses) {
     const Folder folder;
     auto owned = std::make_unique<Counted>();
     Counted& clock = *owned;
-    const auto port = Port::open(*read_port_spec("memory:" + folder.file("card", std::string(8, '\0'))), four, std::move(owned));
+    const auto port =
+        Port::open(*read_port_spec("memory:" + folder.file("card", std::string(8, '\0'))), four, std::move(owned));
     ASSERT_TRUE(port);
     (*port)->write(0, 1);
     EXPECT_EQ(clock.sleeps, 0);
@@ -188,8 +193,8 @@ TEST(LivePort, LeavesTheCardItsGapBetweenTwoAccesses) {
 
 TEST(LivePort, WithoutAnInterruptAWaitLetsItsTimePass) {
     const Folder folder;
-    const auto port =
-        Port::open(*read_port_spec("memory:" + folder.file("card", std::string(8, '\0'))), four, std::make_unique<Counted>());
+    const auto port = Port::open(*read_port_spec("memory:" + folder.file("card", std::string(8, '\0'))), four,
+                                 std::make_unique<Counted>());
     ASSERT_TRUE(port);
     EXPECT_FALSE((*port)->has_interrupt());
     EXPECT_FALSE((*port)->wait(milliseconds(3)));
