@@ -134,8 +134,8 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     data.notes = {
         fmt::format("Positions are those of the motors' rotors, looked at every {:.3g} ms; what happens between two looks is not drawn.",
                     to_seconds(job.monitor().period()) * 1e3),
-        "Speeds are those of the pulse train; acceleration is taken over four looks. Where the speed jumps (at a start, a stop, a corner: never by "
-        "more than the axis' start speed) there is no acceleration to draw; the greatest jump stands in the table.",
+        "Speeds are those of the pulse train; acceleration is taken over four looks. Where the speed jumps (at a start, a stop, a corner) there "
+        "is no acceleration to draw; the greatest jump stands in the table, less what whole pulses make of it in pieces of a few pulses.",
         "The machine is stiff: no vibration, no bending, no play unless the rack file says so.",
         "Deviation is the distance of X, Y, Z from the programmed path; a rotary axis that lags behind does not show in it."};
     return data;

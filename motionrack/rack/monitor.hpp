@@ -38,7 +38,7 @@ struct Sample {
 struct AxisStatistics {
     double top_speed = 0;   ///< per second, at every change of the pulse rate
     double top_accel = 0;   ///< per second squared, over 4 samples without a jump
-    double top_jump = 0;    ///< greatest change of speed at once (start, joint, stop), per second
+    double top_jump = 0;    ///< greatest change of speed at once (start, joint, stop), less what whole pulses make of it; per second
 };
 
 /// A planned move as it was really driven.
