@@ -1,0 +1,294 @@
+// Laws of the rotor, and where they bring it.
+#include <algorithm>
+#include <cmath>
+#include <motionrack/base/exponential.hpp>
+#include <motionrack/base/result.hpp>
+#include <motionrack/sim/parts/conditions.hpp>
+#include <motionrack/sim/parts/dc_motor.hpp>
+
+namespace motionrack::parts {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> all_faults = {"motor.load", "motor.stall", "motor.push"};
+constexpr Duration grid = microseconds(1);
+constexpr double grid_s = 1e-6;
+/// The rate is told again when the speed has changed by this part of the top speed.
+constexpr double telling = 1.0 / 16;
+
+int sign(double x) {
+    return (x > 0) - (x < 0);
+}
+
+}  // namespace
+
+// ---- one law --------------------------------------------------------------------------------------------------------
+
+double DcLaw::way(double seconds) const {
+    const double s = std::min(seconds, end);
+    if (lag == 0) return speed0 * s + aim * s * s * 0.5;
+    return aim * s + (speed0 - aim) * lag * (1 - exponential(-s / lag));
+}
+
+double DcLaw::speed(double seconds) const {
+    if (seconds >= end) return after;
+    return lag == 0 ? speed0 + aim * seconds : aim + (speed0 - aim) * exponential(-seconds / lag);
+}
+
+int DcLaw::direction() const {
+    return speed0 != 0 ? sign(speed0) : sign(aim);
+}
+
+double DcMotor::wanted_speed() const {
+    const double volts = std::fabs(state_.volts) - settings_.dead_band_v;
+    if (volts <= 0) return 0;
+    return sign(state_.volts) * std::min(volts * settings_.gain, settings_.top_speed);
+}
+
+/// How it goes on from `speed` with the present voltage and load.
+DcLaw DcMotor::law_from(double speed) const {
+    const double inertia = 1 + state_.load;
+    const double limit = settings_.top_accel / inertia, friction = settings_.friction / inertia, lag = settings_.lag_s * inertia;
+    const double wanted = wanted_speed(), error = wanted - speed;
+    int direction = sign(speed);
+    if (direction == 0) {
+        if (state_.held || wanted == 0 || state_.blocked == sign(wanted)) return {0, 0, 0, DcLaw::endless, 0};
+        const double push = std::clamp(wanted / lag, -limit, limit);
+        if (std::fabs(push) <= friction) return {0, 0, 0, DcLaw::endless, 0};
+        direction = sign(push);
+    }
+    DcLaw law{speed, 0, 0, DcLaw::endless, 0};
+    const double step = settings_.top_speed * telling;
+    auto ends = [&law](double at, double after) {
+        if (at < law.end) law.end = at, law.after = after;
+    };
+    if (std::fabs(error) > limit * lag * (1 + 1e-9)) {
+        law.aim = sign(error) * limit - direction * friction;
+        if (law.aim == 0) return law;
+        const double full = wanted - sign(error) * limit * lag;  // here the current comes off its limit
+        if ((full - speed) / law.aim > 0) ends((full - speed) / law.aim, full);
+        if (law.aim * direction < 0) ends(-speed / law.aim, 0);
+        ends(step / std::fabs(law.aim), speed + sign(law.aim) * step);
+        return law;
+    }
+    law.lag = lag;
+    law.aim = wanted - direction * friction * lag;
+    if (speed != 0 && law.aim * direction < 0) ends(lag * natural_log(1 - speed / law.aim), 0);
+    const double gap = law.aim - speed;
+    if (std::fabs(gap) > 1.5 * step) ends(lag * natural_log(gap / (gap - sign(gap) * step)), speed + sign(gap) * step);
+    return law;
+}
+
+// ---- the rotor ------------------------------------------------------------------------------------------------------
+
+DcMotor::DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSettings& settings)
+    : kernel_(kernel),
+      settings_(settings),
+      id_(kernel.add(*this, sim::Phase::parts, name)),
+      drive_(kernel.add_wire(name + ".drive", 0)) {
+    MOTIONRACK_ASSERT(settings.gain > 0 && settings.top_speed > 0 && settings.top_speed <= 1e6 && settings.friction >= 0);
+    MOTIONRACK_ASSERT(settings.top_accel > settings.friction && settings.lag_s >= 1e-4 && settings.lag_s <= 10);
+    MOTIONRACK_ASSERT(settings.dead_band_v >= 0 && settings.load >= 0);
+    MOTIONRACK_ASSERT(settings.end_minus.value_or(0) <= 0 && settings.end_plus.value_or(0) >= 0);
+    kernel.listen(drive_, id_, 0);
+    state_.load = settings.load;
+    state_.law.end = DcLaw::endless;
+}
+
+/// Whole microseconds since the law began.
+double DcMotor::seconds(Instant t) const {
+    return static_cast<double>((t - state_.since) / grid) * grid_s;
+}
+
+double DcMotor::position(Instant t) const {
+    return static_cast<double>(state_.base) + state_.part + state_.law.way(seconds(t));
+}
+
+std::int64_t DcMotor::count(Instant t) const {
+    return state_.base + static_cast<std::int64_t>(std::floor(state_.part + state_.law.way(seconds(t))));
+}
+
+double DcMotor::rate(Instant t) const {
+    return state_.law.speed(seconds(t));
+}
+
+void DcMotor::begin_law(double speed, Instant now) {
+    hand_over(now);
+    const double here = state_.part + state_.law.way(seconds(now)), whole = std::floor(here);
+    state_.base += static_cast<std::int64_t>(whole);
+    state_.part = here - whole;
+    state_.since = now;
+    state_.law = law_from(speed);
+}
+
+/// Voltage, load or a hand have changed something.
+void DcMotor::change(Instant now) {
+    const double before = rate(now);
+    begin_law(state_.held ? 0 : before, now);
+    if (state_.law.direction() != 0) state_.blocked = 0;
+    tell(before, now);
+    reschedule();
+}
+
+void DcMotor::tell(double before, Instant now) {
+    const double after = rate(now);
+    if (after == state_.told && before == after) return;
+    state_.told = after;
+    for (int i = 0; i < listener_count_; ++i) listeners_[static_cast<std::size_t>(i)]->rate_changed(before, after, now);
+}
+
+Instant DcMotor::law_end() const {
+    if (state_.law.end >= DcLaw::endless) return never;
+    return state_.since + grid * static_cast<std::int64_t>(std::ceil(state_.law.end / grid_s));
+}
+
+/// The first instant of the present law at which the count is there; never if it does not come there.
+Instant DcMotor::reaches(std::int64_t there) const {
+    const int direction = state_.law.direction();
+    const Instant end = law_end();
+    auto passed = [&](std::int64_t step) {
+        const std::int64_t here = count(state_.since + grid * step);
+        return direction > 0 ? here >= there : here <= there;
+    };
+    if (direction == 0) return never;
+    constexpr std::int64_t farthest = std::int64_t{1} << 40;  // microseconds, 12 days
+    const std::int64_t last = end == never ? farthest : (end - state_.since) / grid;
+    std::int64_t low = -1, high = 1;
+    while (high < last && !passed(high)) low = high, high *= 2;
+    high = std::min(high, last);
+    if (!passed(high)) return never;
+    while (high - low > 1) {
+        const std::int64_t middle = low + (high - low) / 2;
+        (passed(middle) ? high : low) = middle;
+    }
+    return state_.since + grid * high;
+}
+
+Instant DcMotor::next(Instant now) const {
+    Instant next = law_end();
+    const int direction = state_.law.direction();
+    const std::int64_t here = count(now);
+    std::int64_t low = sim::unwatched_below, high = sim::unwatched_above;
+    for (int i = 0; i < listener_count_; ++i) {
+        const Range& watch = state_.watches[static_cast<std::size_t>(i)];
+        if (watch.left(here)) return now;
+        low = std::max(low, watch.below);
+        high = std::min(high, watch.above);
+    }
+    if (settings_.end_plus) high = std::min(high, *settings_.end_plus);
+    if (settings_.end_minus) low = std::max(low, *settings_.end_minus);
+    if (direction > 0 && high != sim::unwatched_above) next = std::min(next, reaches(high));
+    if (direction < 0 && low != sim::unwatched_below) next = std::min(next, reaches(low));
+    return std::max(next, now);
+}
+
+/// At an end of travel the rotor stands at once.
+bool DcMotor::meet_ends(Instant now) {
+    const int direction = state_.law.direction();
+    const std::int64_t here = count(now);
+    const bool plus = direction > 0 && settings_.end_plus && here >= *settings_.end_plus;
+    const bool minus = direction < 0 && settings_.end_minus && here <= *settings_.end_minus;
+    if (!plus && !minus) return false;
+    const double before = rate(now);
+    hand_over(now);
+    state_.base = plus ? *settings_.end_plus : *settings_.end_minus;
+    state_.part = 0.5;
+    state_.since = now;
+    state_.blocked = direction;
+    state_.law = law_from(0);
+    kernel_.report(id_, static_cast<std::uint16_t>(AxisCondition::end_of_travel), direction, state_.base);
+    tell(before, now);
+    return true;
+}
+
+void DcMotor::tell_watches(Instant now) {
+    for (int i = 0; i < listener_count_; ++i) {
+        Range& watch = state_.watches[static_cast<std::size_t>(i)];
+        if (!watch.left(count(now))) continue;
+        watch = {};
+        listeners_[static_cast<std::size_t>(i)]->crossed(now);
+    }
+}
+
+void DcMotor::act(Instant now) {
+    if (!meet_ends(now) && law_end() <= now) {
+        const double before = state_.law.after;
+        begin_law(before, now);
+        tell(before, now);
+    }
+    tell_watches(now);
+    reschedule();
+}
+
+void DcMotor::on_wire(int, int level, Instant now) {
+    state_.volts = level * 1e-6;
+    change(now);
+}
+
+bool DcMotor::fault(std::string_view name, double value, Instant now) {
+    if (name == "motor.load" && value >= 0 && value <= 1000)
+        state_.load = value;
+    else if (name == "motor.stall")
+        state_.held = value != 0;
+    else if (name == "motor.push" && std::fabs(value) <= 1e12) {
+        change(now);
+        hand_over(now);
+        state_.base += static_cast<std::int64_t>(value);
+    } else
+        return false;
+    change(now);
+    return true;
+}
+
+std::span<const std::string_view> DcMotor::fault_names() {
+    return all_faults;
+}
+
+// ---- listeners ------------------------------------------------------------------------------------------------------
+
+void DcMotor::watch(int slot, std::int64_t below, std::int64_t above) {
+    state_.watches[static_cast<std::size_t>(slot)] = {below, above};
+    reschedule();
+}
+
+int DcMotor::listen(sim::MotionListener& listener) {
+    MOTIONRACK_ASSERT(listener_count_ < slots);
+    listeners_[static_cast<std::size_t>(listener_count_)] = &listener;
+    return listener_count_++;
+}
+
+void DcMotor::listen_edges(sim::EdgeListener* listener) {
+    state_.handed = kernel_.now();
+    edges_ = listener;
+}
+
+/// The edges since they were handed over last, each found by itself.
+void DcMotor::hand_over(Instant now) {
+    const Instant from = std::max(state_.handed, state_.since);
+    state_.handed = now;
+    const int direction = state_.law.direction();
+    if (!edges_ || direction == 0) return;
+    std::int64_t at = count(from);
+    const std::int64_t last = count(now);
+    while (at != last) {
+        batch_.size = 0;
+        batch_.origin = state_.since;
+        batch_.tick = grid;
+        batch_.step = direction;
+        batch_.first_count = at + direction;
+        while (at != last && batch_.size < sim::EdgeBatch::capacity) {
+            const std::int64_t steps = (reaches(at + direction) - batch_.origin) / grid;
+            if (steps > 0xFFFF'FFFF) {
+                if (batch_.size > 0) break;
+                batch_.origin += grid * steps;
+                batch_.at[batch_.size++] = 0;
+            } else {
+                batch_.at[batch_.size++] = static_cast<std::uint32_t>(steps);
+            }
+            at += direction;
+        }
+        edges_->edges(batch_);
+    }
+}
+
+}  // namespace motionrack::parts

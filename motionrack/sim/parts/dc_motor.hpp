@@ -1,0 +1,128 @@
+// A DC motor with tacho behind a servo amplifier: the speed follows the voltage, with a lag, as far as current and load let it.
+//
+//   volts --dead band--> x gain --saturation--> wanted speed --(current limit)--> torque --(inertia, friction)--> speed
+//                                                    ^------------ tacho -----------------------------------------'
+//
+//   speed ^        ______ wanted          ramp: the current is at its limit, the speed rises evenly
+//         |     .-'                       lag: the rest of the way, 1/e of it each `lag`
+//         |    /                          stop: the same downwards; friction ends it, so that the rotor stands after a finite time
+//         +---/--------------> time
+//
+// Between two changes of the voltage there are at most a ramp, a lag and a standstill; each is a closed form of time. The rotor is
+// looked at every whole microsecond of a law.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/parts/range.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace motionrack::parts {
+
+/// Of the amplifier and the motor alone; counts are those of the rotor's encoder.
+struct DcMotorSettings {
+    double gain = 10'000;        ///< > 0: counts a second for a volt
+    double top_speed = 100'000;  ///< > 0, at most 1e6: counts/s; saturation of the amplifier
+    double top_accel = 2e6;      ///< counts/s2 at the current limit; greater than the friction
+    double lag_s = 0.01;         ///< 0.0001 .. 10: the time constant of the speed
+    double friction = 20'000;    ///< counts/s2, >= 0: how fast it would brake without current
+    double dead_band_v = 0.005;  ///< V, 0 .. 5: below it the amplifier does nothing; it is taken off above
+    double load = 0;             ///< 0 .. 1000: the load's inertia in units of the motor's own
+    std::optional<std::int64_t> end_minus;  ///< counts where it runs into an end of travel; 0 lies between
+    std::optional<std::int64_t> end_plus;
+};
+
+/// One stretch of motion, times in seconds from its beginning.
+struct DcLaw {
+    double speed0 = 0;  ///< counts/s at the beginning
+    double aim = 0;     ///< lag: the speed that it tends to; ramp: counts/s2
+    double lag = 0;     ///< s; 0: a ramp
+    double end = 0;     ///< s; the law holds up to here, `endless`: for ever
+    double after = 0;   ///< the speed at the end
+    static constexpr double endless = 1e9;
+
+    double way(double seconds) const;
+    double speed(double seconds) const;
+    /// +1, -1, or 0: it stands.
+    int direction() const;
+};
+
+class DcMotor final : public sim::Device, public sim::Motion {
+  public:
+    /// Adds the device `name` and its wire NAME.drive (level in uV) to the kernel, before it starts.
+    DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSettings& settings);
+
+    // ---- the rotor
+    std::int64_t count(Instant t) const override;
+    double rate(Instant t) const override;
+    void watch(int slot, std::int64_t below, std::int64_t above) override;
+    int listen(sim::MotionListener& listener) override;
+    void listen_edges(sim::EdgeListener* listener) override;
+    void hand_over_edges() override { hand_over(kernel_.now()); }
+
+    /// The rotor in counts, with its fraction.
+    double position(Instant t) const;
+    /// What the tacho gives, as a part of the top speed.
+    double tacho(Instant t) const { return rate(t) / settings_.top_speed; }
+    /// +1, -1: stands at that end of travel.
+    int blocked() const { return state_.blocked; }
+    sim::WireId drive_wire() const { return drive_; }
+    sim::DeviceId id() const { return id_; }
+    const DcMotorSettings& settings() const { return settings_; }
+
+    /// motor.load x: the load's inertia; motor.stall: held fast while not 0; motor.push n: moved by n counts by hand.
+    static std::span<const std::string_view> fault_names();
+
+    void act(Instant now) override;
+    void on_wire(int pin, int level, Instant now) override;
+    void sync(Instant now) override { hand_over(now); }
+    std::span<std::byte> state() override { return sim::bytes_of(state_); }
+    bool fault(std::string_view name, double value, Instant now) override;
+
+  private:
+    static constexpr int slots = sim::Motion::max_listeners;
+    struct State {
+        std::int64_t base = 0;  ///< counts at `since`
+        double part = 0.5;      ///< of a count, at `since`
+        Instant since{};
+        DcLaw law;
+        double volts = 0;
+        double load = 0;
+        double told = 0;        ///< the rate that listeners know
+        Instant handed{};
+        std::array<Range, slots> watches{};
+        std::int32_t blocked = 0;
+        std::int32_t held = 0;
+    };
+
+    double seconds(Instant t) const;
+    double wanted_speed() const;
+    DcLaw law_from(double speed) const;
+    void begin_law(double speed, Instant now);
+    void change(Instant now);
+    void tell(double before, Instant now);
+    bool meet_ends(Instant now);
+    void tell_watches(Instant now);
+    Instant law_end() const;
+    Instant reaches(std::int64_t count) const;
+    Instant next(Instant now) const;
+    void reschedule() { kernel_.schedule(id_, next(kernel_.now())); }
+    void hand_over(Instant now);
+
+    sim::Kernel& kernel_;
+    DcMotorSettings settings_;
+    sim::DeviceId id_{};
+    sim::WireId drive_{};
+    State state_{};
+    std::array<sim::MotionListener*, slots> listeners_{};
+    int listener_count_ = 0;
+    sim::EdgeListener* edges_ = nullptr;
+    sim::EdgeBatch batch_{};
+};
+
+}  // namespace motionrack::parts

@@ -1,0 +1,36 @@
+// A cam on a moving part with a switch: active between two places, both included.
+//
+//   count  ----[from]~~~~~~~~~~[to]----->      wire: 1 between, 0 outside
+#pragma once
+
+#include <cstdint>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/motion.hpp>
+#include <string>
+
+namespace motionrack::parts {
+
+class ReferenceCam final : public sim::Device, private sim::MotionListener {
+  public:
+    /// Adds the device `name` and its wire of the same name to the kernel, before it starts. `from` <= `to`, counts of `place`.
+    ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t from, std::int64_t to);
+
+    sim::WireId wire() const { return wire_; }
+
+    void act(Instant now) override;
+
+  private:
+    void crossed(Instant now) override { look(now); }
+    void rate_changed(double, double, Instant) override {}
+    void look(Instant now);
+
+    sim::Kernel& kernel_;
+    sim::Motion& place_;
+    std::int64_t from_;
+    std::int64_t to_;
+    sim::DeviceId id_{};
+    sim::WireId wire_{};
+    int slot_ = 0;
+};
+
+}  // namespace motionrack::parts
