@@ -43,6 +43,9 @@ class Card final : public sim::Device,
     /// What turns the encoder at O1 and O2, in counts of all edges (method 1: in counts); before the kernel starts. Without it the
     /// wires o1 and o2 are counted.
     void connect_encoder(sim::Motion& counts);
+    /// Cuts what is connected off and forces the wires o1 and o2 to the levels that it has (`taken`), or releases them and puts it
+    /// back. In between what the wires are forced to counts.
+    void take_encoder(bool taken);
 
     // ---- looking inside
     /// The counter, -8,388,608 .. 8,388,607.
@@ -120,6 +123,7 @@ class Card final : public sim::Device,
     void show_fout(Instant now);
 
     // counter.cpp
+    bool connected() const { return encoder_ != nullptr && !state_.counter.cut; }
     std::int64_t counter(Instant t) const;
     void set_counter(std::int64_t value, Instant now);
     void watch_counter(std::int64_t below, std::int64_t above);

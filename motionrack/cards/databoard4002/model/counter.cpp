@@ -10,7 +10,7 @@ void Card::connect_encoder(sim::Motion& counts) {
 }
 
 std::int64_t Card::counter(Instant t) const {
-    if (!encoder_ || state_.counter.frozen) return state_.counter.count;
+    if (!connected() || state_.counter.frozen) return state_.counter.count;
     return state_.counter.closed.value(*encoder_, t);
 }
 
@@ -21,7 +21,7 @@ void Card::set_counter(std::int64_t value, Instant now) {
 
 void Card::watch_counter(std::int64_t below, std::int64_t above) {
     if (!encoder_) return;  // every counted edge asks for a pass
-    if (state_.counter.frozen)
+    if (state_.counter.frozen || state_.counter.cut)
         encoder_->watch(encoder_slot_, sim::unwatched_below, sim::unwatched_above);
     else
         state_.counter.closed.watch(*encoder_, encoder_slot_, below, above);
@@ -29,6 +29,33 @@ void Card::watch_counter(std::int64_t below, std::int64_t above) {
 
 void Card::crossed(Instant now) {
     encoder_->watch(encoder_slot_, sim::unwatched_below, sim::unwatched_above);
+    want_pass(now);
+    reschedule();
+}
+
+void Card::take_encoder(bool taken) {
+    CounterState& c = state_.counter;
+    if (!encoder_ || taken == (c.cut != 0)) return;
+    begin();
+    const Instant now = kernel_.now();
+    const std::int64_t count = encoder_->count(now), value = counter(now);
+    // With up and down pulses both lines are at rest between two of them.
+    const unsigned levels = settings_.counting == Counting::quadrature ? sim::lines_of(count) : 0;
+    c.count = value;
+    c.frozen = 0;
+    c.cut = taken;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const bool level = (levels >> i & 1) != 0;
+        c.lines[i] = {};
+        c.lines[i].raw = c.lines[i].taken = level;
+        kernel_.want(wires_[i], id_, taken);
+        if (taken) kernel_.force(wires_[i], level);
+        else kernel_.release(wires_[i]);
+    }
+    if (!taken) {
+        c.closed.set(value, *encoder_, now);
+        rate_changed(0, encoder_->rate(now), now);
+    }
     want_pass(now);
     reschedule();
 }
@@ -43,7 +70,7 @@ bool Card::too_quick(double rate) const {
 void Card::rate_changed(double, double rate, Instant now) {
     CounterState& c = state_.counter;
     const bool quick = too_quick(rate);
-    if (quick == (c.frozen != 0)) return;
+    if (c.cut || quick == (c.frozen != 0)) return;
     const std::int64_t count = encoder_->count(now);
     if (quick) {
         c.count = counter(now);
@@ -63,7 +90,7 @@ void Card::rate_changed(double, double rate, Instant now) {
 
 void Card::line_changed(int line, int level, Instant now) {
     Line& l = state_.counter.lines[static_cast<std::size_t>(line)];
-    if (encoder_ || l.raw == (level != 0)) return;
+    if (connected() || l.raw == (level != 0)) return;
     if (l.changes > 0 && l.free_at <= now) look_at_lines(now);
     l.raw = level != 0;
     if (now < l.free_at)

@@ -76,7 +76,8 @@ struct CounterState {
     sim::ClosedFormCounter closed;  ///< behind a motion
     std::int64_t count = 0;         ///< behind wires; or while frozen
     std::int64_t frozen_from = 0;   ///< the motion's count when it became too quick
-    std::uint64_t frozen = 0;
+    std::uint32_t frozen = 0;
+    std::uint32_t cut = 0;          ///< the motion is cut off, the wires are counted instead
     std::array<Line, 2> lines{};
 };
 

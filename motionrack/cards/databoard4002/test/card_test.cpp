@@ -274,6 +274,31 @@ TEST(Databoard4002, ALineThatChangesTooQuicklyLosesCountsAndSaysSo) {
     EXPECT_THAT(host.conditions(), ElementsAre(CardCondition::line_too_quick));
 }
 
+TEST(Databoard4002, AnEncoderThatIsCutOffLeavesItsCountAndTheWiresGoOn) {
+    Host host;
+    host.start();
+    host.command('R', 16'344, 2);
+    host.command('N', 102, 3);
+    host.command('G');
+    host.run(milliseconds(50));
+    const sim::WireId o1 = host.kernel.find_wire("c1.o1"), o2 = host.kernel.find_wire("c1.o2");
+    host.card.take_encoder(true);
+    host.kernel.settle();
+    EXPECT_EQ(host.card.position(), 102);
+    for (int count = 103; count <= 105; ++count) {
+        host.kernel.force(o1, sim::lines_of(count) & 1);
+        host.kernel.force(o2, sim::lines_of(count) >> 1);
+        host.run(microseconds(10));
+    }
+    EXPECT_EQ(host.card.position(), 105);
+    host.card.take_encoder(false);
+    host.kernel.settle();
+    host.command('N', 5, 3);
+    host.command('G');
+    host.run(milliseconds(50));
+    EXPECT_EQ(host.card.position(), 110);
+}
+
 TEST(Databoard4002, EveryConditionHasASentence) {
     for (int code = 1; code <= static_cast<int>(CardCondition::watchdog_reset); ++code) {
         const std::string text = describe({milliseconds(12), {}, static_cast<std::uint16_t>(code), 3, 2}, "c1");
