@@ -56,11 +56,23 @@ constexpr std::array<DefaultWire, 8> mcx314_wires = {{
 constexpr std::array<std::string_view, 2> mcx314_variants = {"mcx314", "mcx314as"};
 constexpr std::array<std::string_view, 2> bus_widths = {"16-bit", "8-bit"};
 
-constexpr std::array<Field, 4> mcx314_settings = {
+constexpr std::array<std::string_view, 2> slow_drives = {"at V", "at SV"};
+constexpr std::array<std::string_view, 2> software_limits = {"beyond", "at"};
+
+constexpr std::array<Field, 7> mcx314_settings = {
     with_choices(field<&Mcx314Settings::variant>("variant", 0, 0, "",
                                                  "the chip: the original, or the one with filters, automatic home "
                                                  "search, synchronous actions and wide ranges"),
                  mcx314_variants),
+    with_choices(field<&Mcx314Settings::slow_drives>("slow_drives", 0, 0, "",
+                                                     "the speed of a drive with V <= SV; the sources do not agree"),
+                 slow_drives),
+    with_choices(field<&Mcx314Settings::software_limits>(
+                     "software_limits", 0, 0, "",
+                     "whether + software limits begin beyond COMP+ or at it; the sources do not agree"),
+                 software_limits),
+    field<&Mcx314Settings::ao_after_reset>("ao_after_reset", 0, 65'535, "pulses",
+                                           "AO until the host writes it; the sources do not say"),
     field<&Mcx314Settings::clock_hz>("clock_hz", 16'000'000, 16'000'000, "Hz",
                                      "the chip's clock; the model knows the documented one"),
     with_choices(field<&Mcx314Settings::bus>("bus", 0, 0, "", "how wide the host's bus is"), bus_widths),

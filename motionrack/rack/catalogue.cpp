@@ -23,7 +23,7 @@ class Mcx314Card final : public Card {
           narrow_(config.mcx314.bus == BusWidth::bits8),
           byte_access_(nanoseconds(config.mcx314.bus_access_ns)),
           access_(narrow_ ? 2 * byte_access_ : byte_access_),
-          chip_(kernel, config.name, {variant_of(config.mcx314)}),
+          chip_(kernel, config.name, options_of(config.mcx314)),
           port_(kernel, registers_on_bus(), chip_.id(), chip_.interrupt_wire(), access_, &log),
           driver_(port_, port_) {}
 
@@ -75,8 +75,13 @@ class Mcx314Card final : public Card {
     std::string describe(const sim::Condition& condition) const override { return mcx314::describe(condition, name_); }
 
   private:
-    static mcx314::Variant variant_of(const Mcx314Settings& settings) {
-        return settings.variant == Mcx314Variant::mcx314as ? mcx314::Variant::mcx314as : mcx314::Variant::mcx314;
+    static mcx314::ChipOptions options_of(const Mcx314Settings& settings) {
+        mcx314::ChipOptions options;
+        if (settings.variant == Mcx314Variant::mcx314as) options.variant = mcx314::Variant::mcx314as;
+        if (settings.slow_drives == Mcx314SlowDrives::at_sv) options.slow_drive = mcx314::SlowDrive::at_sv;
+        if (settings.software_limits == Mcx314SoftwareLimits::at) options.software_limit = mcx314::SoftwareLimit::at;
+        options.offset_after_reset = static_cast<std::uint16_t>(settings.ao_after_reset);
+        return options;
     }
     mcx314::AxisMap axis_map(const RackConfig& config) const {
         mcx314::AxisMap map;

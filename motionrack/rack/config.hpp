@@ -23,10 +23,16 @@ namespace motionrack::rack {
 enum class BusWidth : std::uint8_t { bits16, bits8 };
 /// The two chips that a card of type mcx314 may have.
 enum class Mcx314Variant : std::uint8_t { mcx314, mcx314as };
+/// Where the sources do not agree: the speed of a drive with V <= SV, where + software limits begin.
+enum class Mcx314SlowDrives : std::uint8_t { at_v, at_sv };
+enum class Mcx314SoftwareLimits : std::uint8_t { beyond, at };
 
 /// Settings of a card of type mcx314.
 struct Mcx314Settings {
     Mcx314Variant variant = Mcx314Variant::mcx314;
+    Mcx314SlowDrives slow_drives = Mcx314SlowDrives::at_v;
+    Mcx314SoftwareLimits software_limits = Mcx314SoftwareLimits::beyond;
+    std::int64_t ao_after_reset = 8;  ///< 0 .. 65,535 pulses
     std::int64_t clock_hz = 16'000'000;  ///< only this: the model's tick is 125 ns
     BusWidth bus = BusWidth::bits16;     ///< on 8 bits a register takes two accesses
     std::int64_t bus_access_ns = 250;    ///< 0 .. 100,000 ns for an access

@@ -59,7 +59,8 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
     : kernel_(kernel),
       id_(kernel.add(*this, sim::Phase::cards, name)),
       options_(options),
-      extended_(options.variant == Variant::mcx314as) {
+      extended_(options.variant == Variant::mcx314as),
+      limit_begins_(options.software_limit == SoftwareLimit::at ? 1 : 0) {
     for (int a = 0; a < axes_of_chip; ++a) {
         const std::string prefix = name + "." + axis_letters[a];
         outputs_[a].chip = ears_[a].chip = this;
@@ -86,7 +87,10 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
     expls_n_ = kernel_.add_wire(name + ".expls_n", 1);
     kernel_.listen(expls_n_, id_, step_pin);
     int_n_ = kernel_.add_wire(name + ".int_n", 1);
-    for (int a = 0; a < axes_of_chip; ++a) compare(a);
+    for (int a = 0; a < axes_of_chip; ++a) {
+        state_.axis[a].offset = options_.offset_after_reset;
+        compare(a);
+    }
     state_.next_event = state_.next_sample = far;
     kernel_.schedule(id_, Instant{0});
 }

@@ -336,7 +336,8 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     sim::Kernel& kernel_;
     sim::DeviceId id_;
     ChipOptions options_;
-    bool extended_ = false;  // an MCX314As
+    bool extended_ = false;          // an MCX314As
+    std::int64_t limit_begins_ = 0;  // 1: software limits begin at COMP+, not beyond
     State state_{};
     std::array<Output, axes_of_chip> outputs_;
     std::array<EncoderEar, axes_of_chip> ears_;

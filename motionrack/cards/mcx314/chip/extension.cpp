@@ -92,7 +92,8 @@ void Chip::prepare_drive(int a) {
     set_drive_speed(a);
 }
 
-/// V is, or stays, `v`; what the drive goes to is HV in a slow drive of a home search, and no more than the cap.
+/// V is, or stays, `v`; what the drive goes to is HV in a slow drive of a home search, no more than the cap, and where
+/// the options say so no less than SV.
 void Chip::set_drive_speed(int a, std::uint16_t v) {
     Extension& ext = state_.extension[a];
     ext.v = v;
@@ -100,6 +101,7 @@ void Chip::set_drive_speed(int a, std::uint16_t v) {
         v = ext.hv;
     else if (ext.cap != 0)
         v = std::min(v, ext.cap);
+    if (options_.slow_drive == SlowDrive::at_sv) v = std::max(v, state_.axis[a].start_speed);
     state_.axis[a].speed = v;
 }
 

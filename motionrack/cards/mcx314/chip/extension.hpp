@@ -41,7 +41,7 @@ struct ChipFilter {
 struct Extension {
     std::uint16_t em6 = 0, em7 = 0, sm6 = 0, sm7 = 0;
     std::uint16_t hv = 0;
-    std::uint16_t v = 0;         ///< V as written; Axis::speed is what the drive goes to
+    std::uint16_t v = 0;         ///< V as written, of any chip; Axis::speed is what the drive goes to
     std::uint16_t cap = 0;       ///< most speed of a drive without triangle; 0: none
     std::uint16_t filtered = 0;  ///< pins behind a filter, bit Pin
     std::uint16_t wires = 0;     ///< levels of their wires

@@ -22,6 +22,7 @@ void Chip::reset() {
         fresh.shown = axis.shown;
         fresh.mark = axis.mark;
         fresh.told_rate = axis.told_rate;
+        fresh.offset = options_.offset_after_reset;
         axis = fresh;
     }
     for (Extension& extension : state_.extension) extension = {};
@@ -177,10 +178,10 @@ void Chip::data_write(int code, int a) {
             break;
         case 0x04:
             axis.start_speed = state_.wr6;
+            set_drive_speed(a);
             break;
         case 0x05:
-            axis.speed = state_.wr6;
-            if (extended_) set_drive_speed(a, state_.wr6);
+            set_drive_speed(a, state_.wr6);
             break;
         case 0x06:
             axis.pulses = extended_ ? value : value & 0x0FFF'FFFFu;

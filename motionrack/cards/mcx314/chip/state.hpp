@@ -146,7 +146,7 @@ struct PulseMark {
 struct Axis {
     std::uint32_t range = 0, pulses = 0, decel_point = 0, centre = 0;
     std::uint16_t jerk = 0, accel = 0, decel = 0, start_speed = 0, offset = 8;
-    std::uint16_t speed = 0;       ///< V, or in some drives of the MCX314As what stands for it
+    std::uint16_t speed = 0;       ///< V, or what stands for it (set_drive_speed)
     std::uint16_t decel_jerk = 0;  ///< K, of the MCX314As L
     std::uint16_t comparisons = 0; ///< those that interrupts and actions hear of, as bits of RR3
     std::uint16_t wr1 = 0, wr2 = 0, wr3 = 0;

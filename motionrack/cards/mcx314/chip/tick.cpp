@@ -101,8 +101,8 @@ std::uint16_t Chip::active_inputs(const Axis& axis, bool& decelerating, bool& im
 bool Chip::beyond_software_limit(int a) const {
     const Axis& axis = state_.axis[a];
     if ((axis.wr2 & 3u) == 0) return false;
-    const std::int32_t counter = bit(axis.wr2, 5) ? encoder_position(axis, a) : axis.lp;
-    if (axis.direction > 0) return bit(axis.wr2, 0) && counter > axis.comp_plus;
+    const std::int64_t counter = bit(axis.wr2, 5) ? encoder_position(axis, a) : axis.lp;
+    if (axis.direction > 0) return bit(axis.wr2, 0) && counter > axis.comp_plus - limit_begins_;
     return bit(axis.wr2, 1) && counter < axis.comp_minus;
 }
 

@@ -99,7 +99,8 @@ class HandWheel final : public sim::Motion {
 
 class Bench {
   public:
-    explicit Bench(Variant variant = Variant::mcx314) : chip(kernel, "c", {variant}) {}
+    explicit Bench(Variant variant = Variant::mcx314) : Bench(ChipOptions{variant}) {}
+    explicit Bench(const ChipOptions& options) : chip(kernel, "c", options) {}
 
     // ---- the bus
     void write(int number, unsigned value) {

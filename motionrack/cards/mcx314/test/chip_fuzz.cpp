@@ -28,7 +28,12 @@ struct Fixed {
 
 class Run {
   public:
-    Run(Feed& feed, Verdict& verdict) : feed_(feed), verdict_(verdict) {
+    Run(Feed& feed, Verdict& verdict, Variant variant)
+        : feed_(feed),
+          verdict_(verdict),
+          extended_(variant == Variant::mcx314as),
+          chip_(kernel_, "c", {variant}),
+          shadow_(extended_) {
         for (int a = 0; a < axis_count; ++a)
             for (int i = 0; i < 10; ++i)
                 inputs_[a][i] = kernel_.find_wire(std::string("c.") + "xyzu"[a] + input_names[i]);
@@ -52,6 +57,7 @@ class Run {
   private:
     // ---- what is done
     void something() {
+        if (extended_ && feed_.below(12) == 0) return extension();
         const std::uint32_t roll = feed_.below(100);
         if (roll < 4)
             drive();
@@ -147,6 +153,17 @@ class Run {
         if (feed_.below(4) != 0) command(0, 0x37);
         if (feed_.below(2) != 0) command(0, 0x34 + feed_.below(2));
     }
+    // What only the MCX314As has; actions are rare, since they excuse every drive.
+    void extension() {
+        static constexpr std::uint32_t codes[] = {0x62, 0x62, 0x62, 0x63, 0x65, 0x14, 0x61, 0x61, 0x0E, 0x60, 0x60, 0x60};
+        const std::uint32_t code = codes[feed_.below(12)], axes = plausible_axes();
+        if (feed_.below(40) == 0) return data_of(axes, 0x64, feed_.word() << 16 | (feed_.word() & 0xE3FF));
+        if (code != 0x60) return data_of(axes, code, 1 + feed_.word() % 8'000);
+        const std::uint32_t filters = feed_.below(3) == 0 ? (feed_.word() & 0x7F00) : 0;
+        const std::uint32_t low = feed_.word() & feed_.word() & (feed_.below(4) == 0 ? 0xFFu : 0xEFu);
+        const std::uint32_t high = feed_.word() & (feed_.below(4) == 0 ? 0xFFFFu : 0x7EFFu);
+        data_of(axes, 0x60, high << 16 | filters | low);
+    }
     void wire() {
         const std::uint32_t which = feed_.below(44);
         const sim::WireId id = which >= 40 ? common_[which % 2] : inputs_[which / 10][which % 10];
@@ -203,7 +220,7 @@ class Run {
             if (effect.writes_lp >> a & 1u) base_[a] = static_cast<std::uint32_t>(chip_.lp(a)) - count_of(a);
         for (int a = 0; a < axis_count; ++a)
             if (effect.fixed_direction != 0 && (effect.axes & ~drove & driving() & ~shadow_.external) >> a & 1u)
-                fixed_[a] = {true, (shadow_.software_limits >> a & 1u) != 0, false, chip_.pulses(a).count(kernel_.now()),
+                fixed_[a] = {true, ((shadow_.software_limits | shadow_.unknown) >> a & 1u) != 0, false, chip_.pulses(a).count(kernel_.now()),
                              effect.fixed_direction};
         check();
     }
@@ -211,7 +228,7 @@ class Run {
     void foresee(const Effect& effect, unsigned drove) {
         for (int a = 0; a < axis_count; ++a) {
             Fixed& fixed = fixed_[a];
-            if ((effect.stops | shadow_.software_limits) >> a & 1u) fixed.excused = true;
+            if ((effect.stops | shadow_.software_limits | (shadow_.acts != 0 ? 15u : 0u)) >> a & 1u) fixed.excused = true;
             if (effect.writes_p >> a & 1u) fixed.rewritten = true;
             // A drive may be over and wait for its position: what follows may belong to it or not.
             const bool may_follow = (shadow_.in_position & drove & (effect.begins ? 15u : effect.writes_p)) >> a & 1u;
@@ -236,6 +253,8 @@ class Run {
         require(path || (status & 0x1E00u) == 0, "CNEXT or ZONE without an interpolation");
         for (int a = 0; a < axis_count; ++a) {
             verdict_.mix(count_of(a));
+            if ((shadow_.recounted | (shadow_.acts != 0 ? 15u : 0u)) >> a & 1u)
+                base_[a] = static_cast<std::uint32_t>(chip_.lp(a)) - count_of(a);
             require(static_cast<std::uint32_t>(chip_.lp(a)) == base_[a] + count_of(a), "LP and the pulses do not add up", a);
             if (fixed_[a].on && !(status >> a & 1u)) end_fixed(a);
         }
@@ -284,6 +303,7 @@ class Run {
         for (const sim::WireId input : common_) kernel_.force(input, 1);
         kernel_.settle();
         command(0, 0x37);
+        if (extended_) data_of(15, 0x64, 0), data_of(15, 0x60, 0);
         command(15, 0x0F);
         write(4, 0);
         write(2, 0);
@@ -297,8 +317,9 @@ class Run {
 
     Feed& feed_;
     Verdict& verdict_;
+    bool extended_;
     sim::Kernel kernel_;
-    Chip chip_{kernel_, "c"};
+    Chip chip_;
     Shadow shadow_;
     std::array<std::array<sim::WireId, 10>, axis_count> inputs_{};
     std::array<sim::WireId, 2> common_{};
@@ -309,8 +330,8 @@ class Run {
 
 }  // namespace
 
-void run(Feed& feed, std::int64_t accesses, Verdict& verdict) {
-    Run(feed, verdict).go(accesses);
+void run(Feed& feed, std::int64_t accesses, Verdict& verdict, Variant variant) {
+    Run(feed, verdict, variant).go(accesses);
 }
 
 }  // namespace motionrack::mcx314::fuzz

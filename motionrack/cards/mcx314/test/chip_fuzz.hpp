@@ -4,6 +4,7 @@
 //   counts add up      LP = what was written to it + pulses since; edges = counts
 //   every state ends   after 27h with all inputs released nothing drives any more, and nothing waits for 25h
 //   exactly P          a fixed drive ends at P unless a stop was commanded or is latched, or P was lowered below it
+//                      (of an MCX314As: while no synchronous action is set up, which may stop drives and write P)
 //   reads are reads    reading RR0, RR1, RR2, RR4 .. RR7 changes nothing that can be seen, then or later
 #pragma once
 
@@ -37,6 +38,6 @@ struct Verdict {
 };
 
 /// Runs `accesses` accesses on a chip of its own, fewer if the feed is empty or something does not hold.
-void run(Feed& feed, std::int64_t accesses, Verdict& verdict);
+void run(Feed& feed, std::int64_t accesses, Verdict& verdict, Variant variant = Variant::mcx314);
 
 }  // namespace motionrack::mcx314::fuzz

@@ -18,8 +18,13 @@ struct Effect {
 
 class Shadow {
   public:
+    explicit Shadow(bool extended = false) : extended_(extended) {}
+
     std::array<std::int64_t, 4> pulses{};               ///< P
     unsigned software_limits = 0, in_position = 0, external = 0;  ///< axes that have been given them by now
+    unsigned acts = 0;       ///< axes that synchronous actions are set up for
+    unsigned recounted = 0;  ///< axes whose LP may change otherwise than by pulses: rings, PCLR
+    unsigned unknown = 0;    ///< axes whose P synchronous actions may have written
 
     Effect write(std::uint32_t offset, std::uint16_t value, std::uint16_t mask) {
         auto put = [&](std::uint16_t& word) { word = static_cast<std::uint16_t>((word & ~mask) | (value & mask)); };
@@ -50,7 +55,7 @@ class Shadow {
     Effect command(std::uint16_t value) {
         Effect effect;
         if ((value & 0x8000u) != 0) {
-            *this = Shadow{};
+            *this = Shadow{extended_};
             effect.stops = effect.writes_lp = effect.writes_p = 15;
             return effect;
         }
@@ -63,11 +68,24 @@ class Shadow {
         if (code == 0x26 || code == 0x27) effect.stops = effect.axes;
         if (code == 0x20 || code == 0x21) effect.fixed_direction = code == 0x20 ? 1 : -1;
         effect.begins = (code >= 0x20 && code <= 0x25) || (code >= 0x30 && code <= 0x35);
+        if (extended_) extended_command(code, effect);
+        const std::int64_t written = std::int64_t{wr7_} << 16 | wr6_;
         for (unsigned a = 0; a < 4; ++a)
-            if (effect.writes_p >> a & 1u) pulses[a] = (std::int64_t{wr7_} << 16 | wr6_) & 0x0FFF'FFFF;
+            if (effect.writes_p >> a & 1u) pulses[a] = extended_ ? written : written & 0x0FFF'FFFF;
         return effect;
     }
+    void extended_command(unsigned code, Effect& effect) {
+        if (code == 0x62) effect.begins = true;
+        if (code == 0x60 || code == 0x64 || code == 0x0B) effect.writes_lp = 15;  // rings, actions of this instant
+        for (unsigned a = 0; a < 4; ++a) {
+            if (!(effect.axes >> a & 1u)) continue;
+            if (code == 0x60) recounted = with(recounted, a, (wr6_ & 0x0010u) != 0 || (wr7_ & 0x0100u) != 0);
+            if (code == 0x64) acts = with(acts, a, (wr6_ | wr7_) != 0);
+        }
+        unknown = acts != 0 ? 15u : unknown & ~effect.writes_p;
+    }
 
+    bool extended_ = false;
     unsigned selected_ = 1;
     bool patterns_ = false;
     std::uint8_t wr0_high_ = 0;

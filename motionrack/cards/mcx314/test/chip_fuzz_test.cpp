@@ -26,27 +26,32 @@ std::int64_t from_environment(const char* name, std::int64_t otherwise) {
     return text && *text ? std::strtoll(text, nullptr, 0) : otherwise;
 }
 
-Verdict run_all(std::uint64_t seed, std::int64_t accesses) {
+Verdict run_all(std::uint64_t seed, std::int64_t accesses, Variant variant) {
     Verdict verdict;
     for (std::uint64_t chip = 0; verdict.accesses < accesses && verdict.problem.empty(); ++chip) {
         Dice dice(seed * 1'000'003 + chip);
-        run(dice, std::min<std::int64_t>(20'000, accesses - verdict.accesses), verdict);
+        run(dice, std::min<std::int64_t>(20'000, accesses - verdict.accesses), verdict, variant);
         if (!verdict.problem.empty()) verdict.problem += ", chip " + std::to_string(chip);
     }
     return verdict;
 }
 
-TEST(ChipFuzz, AMillionRandomAccessesBreakNothingAndAreRepeatable) {
+class ChipFuzz : public testing::TestWithParam<Variant> {};
+
+TEST_P(ChipFuzz, AMillionRandomAccessesBreakNothingAndAreRepeatable) {
     const auto seed = static_cast<std::uint64_t>(from_environment("MOTIONRACK_SEED", 1));
     const std::int64_t accesses = from_environment("MOTIONRACK_ACCESSES", 1'000'000);
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << accesses << " accesses" << std::endl;
-    const Verdict first = run_all(seed, accesses);
+    const Verdict first = run_all(seed, accesses, GetParam());
     ASSERT_EQ(first.problem, "");
     std::cout << first.pulses << " pulses, " << first.exact_drives << " fixed drives that ended at P" << std::endl;
     EXPECT_GT(first.exact_drives, accesses / 1'000);
-    const Verdict second = run_all(seed, accesses);
+    const Verdict second = run_all(seed, accesses, GetParam());
     EXPECT_EQ(first.hash, second.hash);
 }
+
+INSTANTIATE_TEST_SUITE_P(Of, ChipFuzz, testing::Values(Variant::mcx314, Variant::mcx314as),
+                         [](const auto& each) { return each.param == Variant::mcx314 ? "Mcx314" : "Mcx314As"; });
 
 }  // namespace
 }  // namespace motionrack::mcx314::fuzz

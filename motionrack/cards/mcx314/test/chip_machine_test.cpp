@@ -116,7 +116,7 @@ void watch_programs(std::set<std::string>& taken, std::uint64_t first, std::uint
     constexpr std::uint64_t seed = 1;
     std::cout << "seed " << seed << ", programs " << first << " .. " << first + count - 1 << std::endl;
     for (std::uint64_t number = first; number < first + count; ++number) {
-        const twin::Program program = twin::make_program(seed, number, variant == Variant::mcx314as);
+        const twin::Program program = twin::make_program(seed, number, {variant});
         if (program.ticks > 20'000) continue;
         Watched watched(taken, variant);
         watched.run(program);

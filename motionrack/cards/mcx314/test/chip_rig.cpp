@@ -241,7 +241,7 @@ class Bench {
     Requests requests_;
     sim::Kernel kernel_;
     Hand hand_{kernel_};
-    Chip chip_{kernel_, "c", {program_.extended ? Variant::mcx314as : Variant::mcx314}};
+    Chip chip_{kernel_, "c", program_.options};
     Follower follower_{kernel_, out_.changes};
     std::array<Edges, axis_count> edges_{Edges{out_.pulses, 0}, Edges{out_.pulses, 1}, Edges{out_.pulses, 2},
                                          Edges{out_.pulses, 3}};

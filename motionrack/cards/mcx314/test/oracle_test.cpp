@@ -18,6 +18,8 @@ std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
     return text && *text ? std::strtoull(text, nullptr, 0) : otherwise;
 }
 
+constexpr ChipOptions as{Variant::mcx314as};
+
 // How much was compared.
 struct Compared {
     std::int64_t ticks = 0, pulses = 0, ops = 0, requests = 0, changes = 0;
@@ -37,12 +39,12 @@ std::string fault(const Program& program, const Way& way, Compared* compared = n
 
 // Runs `count` programs from number `first` on, the way that `way_of(number)` says; stops at the first difference.
 template <class WayOf>
-void compare(std::uint64_t first, std::uint64_t count, bool extended, const WayOf& way_of) {
+void compare(std::uint64_t first, std::uint64_t count, const ChipOptions& options, const WayOf& way_of) {
     const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 1);
     std::cout << "MOTIONRACK_SEED=" << seed << ", programs " << first << " .. " << first + count - 1 << std::endl;
     Compared compared;
     for (std::uint64_t number = first; number < first + count; ++number) {
-        const Program program = make_program(seed, number, extended);
+        const Program program = make_program(seed, number, options);
         const Way way = way_of(program);
         if (fault(program, way, &compared).empty()) continue;
         const Program small = shrink(program, [&](const Program& p) { return !fault(p, way).empty(); });
@@ -55,37 +57,47 @@ void compare(std::uint64_t first, std::uint64_t count, bool extended, const WayO
 }
 
 TEST(Mcx314Oracle, RandomProgramsLookTheSameOnTheChipAndOnItsTwin) {
-    compare(0, from_environment("MOTIONRACK_PROGRAMS", 10'000), false, [](const Program& p) {
+    compare(0, from_environment("MOTIONRACK_PROGRAMS", 10'000), {}, [](const Program& p) {
         return Way{p.number % 2 == 0, p.number % 4 >= 2, false, 0, 0};
     });
 }
 
 TEST(Mcx314Oracle, RandomProgramsOfTheAsLookTheSameOnTheChipAndOnItsTwin) {
-    compare(10'000'000, from_environment("MOTIONRACK_PROGRAMS", 6'000), true, [](const Program& p) {
+    compare(10'000'000, from_environment("MOTIONRACK_PROGRAMS", 6'000), as, [](const Program& p) {
         return Way{p.number % 2 == 0, p.number % 4 >= 2, false, 0, 0};
     });
 }
 
+TEST(Mcx314Oracle, SoTheyDoWithTheOtherReadingsOfTheSources) {
+    const auto way = [](const Program& p) { return Way{p.number % 2 == 0, p.number % 4 >= 2, p.number % 3 == 0, 0, 0}; };
+    std::uint64_t first = 20'000'000;
+    for (const Variant variant : {Variant::mcx314, Variant::mcx314as}) {
+        compare(first += 1000, 500, {variant, SlowDrive::at_sv, SoftwareLimit::beyond, 0}, way);
+        compare(first += 1000, 500, {variant, SlowDrive::at_v, SoftwareLimit::at, 300}, way);
+        compare(first += 1000, 500, {variant, SlowDrive::at_sv, SoftwareLimit::at, 8}, way);
+    }
+}
+
 TEST(Mcx314Oracle, FollowedOutputPinsChangeAtTheSameInstants) {
     const auto followed = [](const Program& p) { return Way{p.number % 2 == 0, false, true, 0, 0}; };
-    compare(3'000'000, 600, false, followed);
-    compare(13'000'000, 600, true, followed);
+    compare(3'000'000, 600, {}, followed);
+    compare(13'000'000, 600, as, followed);
 }
 
 TEST(Mcx314Oracle, ARunCutIntoSlicesGivesTheSame) {
     const auto in_slices = [](const Program& p) {
         return Way{p.number % 2 == 0, p.number % 4 >= 2, p.number % 3 == 0, p.number, 0};
     };
-    compare(1'000'000, 400, false, in_slices);
-    compare(11'000'000, 400, true, in_slices);
+    compare(1'000'000, 400, {}, in_slices);
+    compare(11'000'000, 400, as, in_slices);
 }
 
 TEST(Mcx314Oracle, ARestoredSnapshotGivesTheSameRest) {
     const auto restored = [](const Program& p) {
         return Way{p.number % 2 == 0, false, p.number % 3 == 0, 0, 1 + p.number % (p.ops.size() - 1)};
     };
-    compare(2'000'000, 400, false, restored);
-    compare(12'000'000, 400, true, restored);
+    compare(2'000'000, 400, {}, restored);
+    compare(12'000'000, 400, as, restored);
 }
 
 }  // namespace

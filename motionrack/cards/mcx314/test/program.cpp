@@ -19,7 +19,8 @@ namespace {
 
 class Maker : private ExtensionActions {
   public:
-    Maker(std::uint64_t seed, std::uint64_t number, bool extended) : ExtensionActions(seed, number, extended) {}
+    Maker(std::uint64_t seed, std::uint64_t number, const ChipOptions& options)
+        : ExtensionActions(seed, number, options) {}
 
     Program make() {
         static constexpr std::int64_t lengths[] = {2'000, 2'000, 2'000, 2'000, 4'000, 4'000, 8'000, 8'000};
@@ -35,7 +36,7 @@ class Maker : private ExtensionActions {
         external_ = random_.one_in(4);
         const std::int64_t theme = random_.between(0, 3);  // single axes, interpolation, both, everything
         initial();
-        if (program_.extended) begin_extension();
+        if (program_.extended()) begin_extension();
         if (random_.one_in(4)) retarget();
         while (now_ < program_.ticks) {
             action(theme);
@@ -76,7 +77,7 @@ class Maker : private ExtensionActions {
     // ---- actions
     // ------------------------------------------------------------------------------------------------------------
     void action(std::int64_t theme) {
-        if (program_.extended && random_.one_in(4)) return extension();
+        if (program_.extended() && random_.one_in(4)) return extension();
         const bool calm = busy_ < 10;  // drives are mostly left to run
         const std::int64_t roll = random_.between(0, calm && !random_.one_in(4) ? 67 : 99);
         const bool path = theme == 1 || (theme >= 2 && random_.one_in(2));
@@ -261,7 +262,7 @@ class Maker : private ExtensionActions {
     void read_everything() {
         read(0);
         for (unsigned a = 0; a < 4; ++a) {
-            for (int code = 0x10; code <= (program_.extended ? 0x14 : 0x13); ++code) {
+            for (int code = 0x10; code <= (program_.extended() ? 0x14 : 0x13); ++code) {
                 command(1u << a, code);
                 read(12);
                 read(14);
@@ -287,8 +288,8 @@ class Maker : private ExtensionActions {
 
 }  // namespace
 
-Program make_program(std::uint64_t seed, std::uint64_t number, bool extended) {
-    return Maker(seed, number, extended).make();
+Program make_program(std::uint64_t seed, std::uint64_t number, const ChipOptions& options) {
+    return Maker(seed, number, options).make();
 }
 
 }  // namespace motionrack::mcx314::twin

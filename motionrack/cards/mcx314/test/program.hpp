@@ -31,13 +31,14 @@ struct Op {
 struct Program {
     std::uint64_t seed = 0;
     std::uint64_t number = 0;
-    bool extended = false;   ///< for an MCX314As
+    ChipOptions options;     ///< of the chip that it is for
     std::int64_t ticks = 0;  ///< runs to this tick after the last op
     std::vector<Op> ops;
+    bool extended() const { return options.variant == Variant::mcx314as; }
 };
 
 /// Program `number` of `seed`: always the same.
-Program make_program(std::uint64_t seed, std::uint64_t number, bool extended = false);
+Program make_program(std::uint64_t seed, std::uint64_t number, const ChipOptions& options = {});
 
 /// The register traffic as text, one line an op.
 std::string to_text(const Program& program);

@@ -91,7 +91,11 @@ const char* name_of_command(int code) {
 std::string to_text(const Program& program) {
     static constexpr const char* pins[] = {"IN0",  "IN1",   "IN2",   "IN3",  "EXPP",
                                            "EXPM", "INPOS", "ALARM", "LMTP", "LMTM"};
-    std::string out = std::string(program.extended ? "MCX314As, " : "") + "seed " + std::to_string(program.seed) + ", program " + std::to_string(program.number) + ", " +
+    const ChipOptions& options = program.options;
+    std::string out = std::string(program.extended() ? "MCX314As, " : "") +
+                      (options.slow_drive == SlowDrive::at_sv ? "slow drives at SV, " : "") +
+                      (options.software_limit == SoftwareLimit::at ? "limits at COMP+, " : "") + "AO " +
+                      std::to_string(options.offset_after_reset) + ", seed " + std::to_string(program.seed) + ", program " + std::to_string(program.number) + ", " +
                       std::to_string(program.ticks) + " ticks\n";
     unsigned wr6 = 0, wr7 = 0;
     for (const Op& op : program.ops) {

@@ -65,7 +65,7 @@ void find_crossings(Outcome& out) {
 }  // namespace
 
 Outcome run_on_twin(const Program& program, bool follow) {
-    Twin twin(program.extended);
+    Twin twin(program.options);
     Outcome out;
     Pins pins(twin, out.changes);
     bool requested = false;

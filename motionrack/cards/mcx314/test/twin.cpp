@@ -87,7 +87,8 @@ std::uint16_t Twin::active_inputs(const Axis& axis, bool& decelerating, bool& im
 
 bool Twin::beyond_software_limit(const Axis& axis) const {
     const std::int32_t counter = bit(axis.wr2, 5) ? axis.ep : axis.lp;
-    if (axis.direction > 0) return bit(axis.wr2, 0) && counter > axis.comp_plus;
+    const bool at = options_.software_limit == SoftwareLimit::at && counter == axis.comp_plus;
+    if (axis.direction > 0) return bit(axis.wr2, 0) && (counter > axis.comp_plus || at);
     return bit(axis.wr2, 1) && counter < axis.comp_minus;
 }
 

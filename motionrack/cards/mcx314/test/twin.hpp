@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/cards/mcx314/chip/options.hpp>
 #include <motionrack/cards/mcx314/test/twin_extension.hpp>
 #include <motionrack/cards/mcx314/test/twin_path.hpp>
 #include <motionrack/cards/mcx314/test/twin_pattern.hpp>
@@ -82,8 +83,7 @@ struct Axis {
 
 class Twin {
   public:
-    /// `extended`: an MCX314As.
-    explicit Twin(bool extended = false);
+    explicit Twin(const ChipOptions& options = {});
 
     /// The register bus, byte offsets 0, 2, .. 14; an access comes after the last tick and before the next.
     void write(std::uint32_t offset, std::uint16_t value);
@@ -224,6 +224,7 @@ class Twin {
     std::uint16_t status2(int a) const;
     std::uint16_t levels(int a) const;
 
+    const ChipOptions options_;
     const bool extended_;
     std::array<Axis, axis_count> axes_;
     std::array<std::int64_t, axis_count> count_{}, made_{};

@@ -10,7 +10,7 @@ constexpr bool bit(std::uint16_t value, int n) {
 }
 }  // namespace
 
-Twin::Twin(bool extended) : extended_(extended) {
+Twin::Twin(const ChipOptions& options) : options_(options), extended_(options.variant == Variant::mcx314as) {
     reset();
 }
 
@@ -23,6 +23,7 @@ void Twin::reset() {
         fresh.pulse_end = axis.pulse_end;
         fresh.pulse_direction = axis.pulse_direction;
         axis = fresh;
+        axis.reg.offset = options_.offset_after_reset;
     }
     selected_ = 1;
     wr4_ = wr5_ = wr6_ = wr7_ = rr6_ = rr7_ = 0;

@@ -27,9 +27,10 @@ bool Twin::speed_step(int a) {
 
 // V, or what stands for it: HV in slow drives of a home search, no more than the cap where a triangle is avoided.
 std::int64_t Twin::drive_speed(const Axis& axis) const {
-    if (axis.as.slow()) return used(axis.as.hv, 1, 8'000);
-    const std::int64_t v = used_speed(axis.reg);
-    return axis.as.cap != 0 && axis.as.cap < v ? axis.as.cap : v;
+    std::int64_t v = axis.as.slow() ? used(axis.as.hv, 1, 8'000) : used_speed(axis.reg);
+    if (!axis.as.slow() && axis.as.cap != 0 && axis.as.cap < v) v = axis.as.cap;
+    if (options_.slow_drive == SlowDrive::at_sv && v < used_start_speed(axis.reg)) return used_start_speed(axis.reg);
+    return v;
 }
 
 std::int64_t Twin::target(int a) const {
