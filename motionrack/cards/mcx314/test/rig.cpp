@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <motionrack/cards/mcx314/test/rig.hpp>
+#include <tuple>
 #include <utility>
 
 namespace motionrack::mcx314::twin {
@@ -13,11 +14,20 @@ void sort_pulses(std::vector<Pulse>& pulses) {
     });
 }
 
+// Wires that move more than once at an instant may move an output along with them; only where that ends counts. A pulse
+// that begins with a change to rest does count.
 void sort_changes(std::vector<Change>& changes) {
-    std::stable_sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) {
-        if (a.half_tick != b.half_tick) return a.half_tick < b.half_tick;
-        return a.axis != b.axis ? a.axis < b.axis : a.pin < b.pin;
-    });
+    const auto place = [](const Change& c) { return std::tuple(c.half_tick, c.axis, c.pin); };
+    std::stable_sort(changes.begin(), changes.end(),
+                     [&](const Change& a, const Change& b) { return place(a) < place(b); });
+    std::vector<Change> settled;
+    for (const Change& change : changes) {
+        if (change.pin >= pulse_pins && !settled.empty() && place(settled.back()) == place(change))
+            settled.pop_back();  // there and back again
+        else
+            settled.push_back(change);
+    }
+    changes = std::move(settled);
 }
 
 namespace {

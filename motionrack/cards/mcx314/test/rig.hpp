@@ -9,8 +9,8 @@
 
 namespace motionrack::mcx314::twin {
 
-/// Output pins of an axis.
-inline constexpr int output_count = 11;
+/// Output pins of an axis, and those of them that pulses come on.
+inline constexpr int output_count = 11, pulse_pins = 2;
 
 /// What is seen right after an op (for a read: with its value).
 struct Sight {
