@@ -1,0 +1,300 @@
+// Orders in mm and seconds to the function library's; what may be trusted.
+#include <motionrack/cards/mcx314/axes/single_axis.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace motionrack::mcx314 {
+
+namespace {
+
+constexpr Duration look_every = milliseconds(1);
+constexpr unsigned software_limits = field("WR2", "SLMTP").mask | field("WR2", "SLMTM").mask;
+
+}  // namespace
+
+SingleAxis::SingleAxis(Driver& driver, const SingleAxisSettings& settings)
+    : driver_(driver), settings_(settings),
+      real_(driver, settings.channel, {settings.limits.pulses_per_unit}, {settings.counts_per_unit}), home_(driver, settings.channel),
+      manual_(driver, settings.channel) {}
+
+Result<void> SingleAxis::set_up() {
+    const control::AxisLimits& limits = settings_.limits;
+    trust(false);
+    MOTIONRACK_CHECK(driver_.LPS(mask(), 0));
+    MOTIONRACK_CHECK(driver_.EPS(mask(), 0));
+    MOTIONRACK_CHECK(driver_.SetCompP(mask(), static_cast<std::int64_t>(std::floor(limits.max_position * limits.pulses_per_unit + 0.5))));
+    return driver_.SetCompM(mask(), static_cast<std::int64_t>(std::floor(limits.min_position * limits.pulses_per_unit + 0.5)));
+}
+
+// ---- what is refused -------------------------------------------------------------------------------------------------
+
+tl::unexpected<Error> SingleAxis::refuse(const char* what, const std::string& why) const {
+    return fail(Trouble::refused, fmt::format("{} of axis {}: {}. Nothing was moved.", what, settings_.name, why));
+}
+
+Result<void> SingleAxis::check_speed(const char* what, double speed) const {
+    if (std::isfinite(speed) && speed > 0 && speed <= settings_.limits.max_speed) return {};
+    return refuse(what, fmt::format("the speed is {} {}/s, but may be above 0 and up to {}", speed, settings_.unit, settings_.limits.max_speed));
+}
+
+Result<void> SingleAxis::check_free(const char* what) {
+    if (busy()) return refuse(what, "it moves; stop it and wait until it stands");
+    const AxisStatus status = driver_.axis_status(settings_.channel);
+    if (field("RR2", "EMG").test(status.rr2)) return refuse(what, "the emergency stop is active; release it");
+    if (field("RR2", "ALARM").test(status.rr2)) return refuse(what, "its drive reports an alarm; clear it");
+    return {};
+}
+
+Result<void> SingleAxis::check_into_limit(const char* what, bool negative) {
+    const AxisStatus status = driver_.axis_status(settings_.channel);
+    if (!(negative ? field("RR2", "HLMTM") : field("RR2", "HLMTP")).test(status.rr2)) return {};
+    return refuse(what, fmt::format("it stands on the {} limit switch; move it in {} direction", negative ? "-" : "+", negative ? "+" : "-"));
+}
+
+// ---- moves -----------------------------------------------------------------------------------------------------------
+
+RealDrive SingleAxis::drive_at(double speed, bool with_jerk) const {
+    const control::AxisLimits& limits = settings_.limits;
+    RealDrive drive;
+    drive.speed = speed;
+    drive.start_speed = std::min(speed, limits.start_speed);
+    drive.acceleration = limits.max_accel;
+    drive.jerk = with_jerk ? limits.max_jerk : 0;
+    return drive;
+}
+
+Result<void> SingleAxis::begin_move(double distance, double speed) {
+    MOTIONRACK_CHECK(real_.set(drive_at(speed, settings_.limits.max_jerk > 0)));
+    MOTIONRACK_CHECK(real_.move(distance));
+    moving_ = true;
+    stopping_ = false;
+    return {};
+}
+
+Result<void> SingleAxis::move_to(double position, double speed) {
+    const control::AxisLimits& limits = settings_.limits;
+    if (!trusted_) return refuse("Move", "its position is not trusted; home it, or say where it is with set_position");
+    MOTIONRACK_CHECK(check_speed("Move", speed));
+    if (!(position >= limits.min_position && position <= limits.max_position))
+        return refuse("Move", fmt::format("{} {} is outside its travel of {} to {}", position, settings_.unit, limits.min_position, limits.max_position));
+    MOTIONRACK_CHECK(check_free("Move"));
+    const double distance = position - real_.position();
+    MOTIONRACK_CHECK(check_into_limit("Move", distance < 0));
+    return begin_move(distance, speed);
+}
+
+Result<void> SingleAxis::move_by(double distance, double speed) {
+    if (trusted_) return move_to(real_.position() + distance, speed);
+    MOTIONRACK_CHECK(check_speed("Move", speed));
+    const double most = 268'435'455 / settings_.limits.pulses_per_unit;
+    if (!(std::fabs(distance) <= most)) return refuse("Move", fmt::format("the distance is {} {}, but may be up to {:.0f}", distance, settings_.unit, most));
+    MOTIONRACK_CHECK(check_free("Move"));
+    MOTIONRACK_CHECK(check_into_limit("Move", distance < 0));
+    return begin_move(distance, speed);
+}
+
+Result<void> SingleAxis::jog(double speed, Instant now) {
+    if (speed == 0) return manual_.jog(0, now);
+    MOTIONRACK_CHECK(check_speed("Jog", std::fabs(speed)));
+    if (manual_.state() == ManualState::standing) {
+        MOTIONRACK_CHECK(check_free("Jog"));
+        MOTIONRACK_TRY(const RealSetting setting, real_.set(drive_at(settings_.limits.max_speed, false)));
+        ManualSettings manual;
+        manual.sv = setting.start_speed.value;
+        manual.a = setting.acceleration.value;
+        manual.hold = settings_.hold;
+        MOTIONRACK_CHECK(manual_.set(manual));
+    }
+    const double unit = driver_.multiple(settings_.channel) / settings_.limits.pulses_per_unit;
+    const auto v = static_cast<std::int64_t>(std::clamp(std::floor(std::fabs(speed) / unit + 0.5), 1.0, 8'000.0));
+    return manual_.jog(speed < 0 ? -v : v, now);
+}
+
+// ---- homing ----------------------------------------------------------------------------------------------------------
+
+Result<HomeSettings> SingleAxis::home_settings(const control::HomeOrder& order) const {
+    const control::AxisLimits& limits = settings_.limits;
+    MOTIONRACK_CHECK(check_speed("Homing", order.speed));
+    const auto outside = [&](const char* what, double value, double least, double greatest) -> Result<void> {
+        if (value >= least && value <= greatest) return {};
+        return refuse("Homing", fmt::format("{} is {}, but may be {} to {}", what, value, least, greatest));
+    };
+    const double most_way = 268'435'455 / limits.pulses_per_unit, most_place = 2'147'483'647 / limits.pulses_per_unit;
+    MOTIONRACK_CHECK(outside("the home position", order.position, -most_place, most_place));
+    MOTIONRACK_CHECK(outside("the clearance", order.clearance, 0, most_way));
+    MOTIONRACK_CHECK(outside("the settling time in s", order.settle_s, 0, 10));
+    MOTIONRACK_CHECK(outside("the longest search", order.travel, 0, most_way));
+    MOTIONRACK_CHECK(outside("the slow speed", order.slow_speed, 1e-9, std::min(order.speed, limits.start_speed)));
+    const bool index = order.type == control::HomeType::index_after_switch || order.type == control::HomeType::twice_and_index;
+    if (index && !(settings_.counts_per_unit > 0)) return refuse("Homing", "it has no encoder, so no index; home it with type 1 or 2");
+    MOTIONRACK_TRY(const RealSetting setting, real_setting({limits.pulses_per_unit}, drive_at(order.speed, false)));
+    const auto pulses = [&](double way) { return static_cast<std::int64_t>(std::min(268'435'455.0, std::floor(way * limits.pulses_per_unit + 0.5))); };
+    const double unit = 8e6 / static_cast<double>(setting.R) / limits.pulses_per_unit;
+    HomeSettings out;
+    out.type = static_cast<int>(order.type);
+    out.negative = !order.towards_plus;
+    out.input = order.switch_input;
+    out.active_high = order.switch_active_high;
+    out.index_input = order.index_input;
+    out.index_high = order.index_active_high;
+    out.range = setting.R;
+    out.sv = setting.start_speed.value;
+    out.v = setting.speed.value;
+    out.a = setting.acceleration.value;
+    out.slow_v = std::clamp<std::int64_t>(static_cast<std::int64_t>(order.slow_speed / unit), 1, out.sv);
+    out.travel = std::max<std::int64_t>(1, pulses(order.travel > 0 ? order.travel : 1.2 * (limits.max_position - limits.min_position)));
+    out.turn = settings_.pulses_per_turn;
+    out.clearance = std::min(out.travel, pulses(order.clearance));
+    out.settle = from_seconds(order.settle_s);
+    out.turn_at_limit = order.turn_at_limit;
+    out.home_position = static_cast<std::int64_t>(std::floor(order.position * limits.pulses_per_unit + 0.5));
+    out.home_counts = static_cast<std::int64_t>(std::floor(order.position * settings_.counts_per_unit + 0.5));
+    out.name = settings_.name;
+    out.unit = settings_.unit;
+    out.pulses_per_unit = limits.pulses_per_unit;
+    return out;
+}
+
+Result<void> SingleAxis::home(const control::HomeOrder& order, Instant now) {
+    MOTIONRACK_TRY(const HomeSettings settings, home_settings(order));
+    MOTIONRACK_CHECK(check_free("Homing"));
+    MOTIONRACK_CHECK(home_.start(settings, now));
+    trust(false);
+    stopping_ = false;
+    return {};
+}
+
+control::HomeOutcome SingleAxis::home_outcome() const {
+    const HomeReport& report = home_.report();
+    const HomeSettings& settings = home_.settings();
+    const double unit = 1 / settings_.limits.pulses_per_unit;
+    // Where it failed there is no home to count from: then by the counter as it was.
+    const auto place = [&](std::int32_t lp) { return static_cast<double>(report.homed ? report.relative(lp) : lp) * unit; };
+    const auto since = [&](Instant at) { return to_seconds(at - report.from); };
+    control::HomeOutcome out;
+    out.type = static_cast<control::HomeType>(report.type);
+    out.towards_plus = !report.negative;
+    out.homed = report.homed;
+    out.sentence = report.sentence;
+    for (const HomeEdge& edge : report.edges) {
+        const bool index = edge.input != report.input;
+        out.edges.push_back({index ? "index" : edge.active ? "switch on" : "switch off", std::string(edge.state), place(edge.lp),
+                             static_cast<double>(edge.within) * unit, edge.speed_hz * unit, since(edge.at)});
+    }
+    for (const HomeStay& stay : report.stays)
+        out.stays.push_back({std::string(stay.state), since(stay.from), to_seconds(stay.took), place(stay.from_lp), place(stay.to_lp)});
+    out.notes = report.notes;
+    out.bounces = report.bounces;
+    out.position = report.homed ? static_cast<double>(settings.home_position) * unit : report.stays.empty() ? 0 : place(report.stays.back().to_lp);
+    out.moved_by = report.homed ? static_cast<double>(settings.home_position - report.zero_lp) * unit : 0;
+    if (const auto way = report.switch_to_index()) out.switch_to_index = static_cast<double>(*way) * unit;
+    out.from = report.from;
+    out.took_s = to_seconds(report.took);
+    return out;
+}
+
+// ---- position, stops -------------------------------------------------------------------------------------------------
+
+/// Software limits are in force exactly while the counter can be believed.
+void SingleAxis::trust(bool on) {
+    trusted_ = on;
+    const unsigned rest = driver_.mode2(settings_.channel) & ~software_limits;
+    driver_.WriteMode2(mask(), static_cast<std::uint16_t>(on ? rest | software_limits : rest));
+}
+
+Result<void> SingleAxis::set_position(double position) {
+    const double most = 2'147'483'647 / std::max(settings_.limits.pulses_per_unit, settings_.counts_per_unit);
+    if (!(std::fabs(position) <= most))
+        return refuse("Position", fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));
+    if (busy()) return refuse("Position", "it moves; stop it and wait until it stands");
+    MOTIONRACK_CHECK(real_.set_position(position));
+    if (settings_.counts_per_unit > 0)
+        MOTIONRACK_CHECK(driver_.EPS(mask(), static_cast<std::int64_t>(std::floor(position * settings_.counts_per_unit + 0.5))));
+    trust(true);
+    return {};
+}
+
+void SingleAxis::stop() {
+    home_.stop();
+    manual_.stop();
+    driver_.SlowStop(mask());
+    stopping_ = driver_.moving(mask());
+}
+
+void SingleAxis::stop_now() {
+    const double speed = driver_.ReadCV(settings_.channel) * driver_.multiple(settings_.channel) / settings_.limits.pulses_per_unit;
+    driver_.QuickStop(mask());
+    home_.stop();
+    manual_.stop();
+    if (trusted_ && speed > settings_.limits.start_speed) trust(false);
+    stopping_ = driver_.moving(mask());
+}
+
+// ---- carrying on -----------------------------------------------------------------------------------------------------
+
+/// A drive of ours has ended: was it by something that stops motors dead?
+void SingleAxis::note_end() {
+    const AxisStatus status = driver_.axis_status(settings_.channel);
+    if (trusted_ && (status.alarm() || status.emergency())) trust(false);
+}
+
+void SingleAxis::step(Instant now) {
+    if (home_.running()) {
+        home_.step(now);
+        if (!home_.running() && home_.homed()) trust(true);
+        return;
+    }
+    if (manual_.state() != ManualState::standing) {
+        manual_.step(now);
+        if (manual_.state() == ManualState::standing) note_end();
+    } else if ((moving_ || stopping_) && !driver_.moving(mask())) {
+        moving_ = stopping_ = false;
+        note_end();
+    }
+}
+
+Result<void> SingleAxis::wait(Duration timeout) {
+    Interrupt& host = driver_.interrupt();
+    const Instant end = host.now() + timeout;
+    const bool homing = home_.running();
+    bool asked = false;
+    while (true) {
+        step(host.now());
+        if (!busy()) break;
+        if (!asked && host.stop_requested()) {
+            asked = true;
+            stop();
+        }
+        if (host.now() >= end)
+            return fail(Trouble::machine, fmt::format("Axis {} still moves after {:.3f} s, at {:.4f} {}; nothing was stopped. Wait longer, or stop it.",
+                                                      settings_.name, to_seconds(timeout), position(), settings_.unit));
+        const Instant before = host.now();
+        if (host.wait(look_every)) driver_.read_interrupts(settings_.channel);
+        if (host.now() == before) host.pass(look_every);
+    }
+    if (homing && !home_.homed()) return home_.report().result();
+    if (asked) return fail(Trouble::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.", settings_.name, position(), settings_.unit));
+    const AxisStatus status = driver_.axis_status(settings_.channel);
+    if (!homing && !status.why_stopped().empty())
+        return fail(Trouble::machine, fmt::format("Axis {} was stopped at {:.4f} {}: {}. {}", settings_.name, position(), settings_.unit,
+                                                  status.why_stopped(), trusted_ ? "Move it the other way." : "Its position is not trusted; home it."));
+    return {};
+}
+
+control::AxisState SingleAxis::state() {
+    using control::AxisState;
+    if (home_.running()) return AxisState::homing;
+    switch (manual_.state()) {
+        case ManualState::jogging: return AxisState::jogging;
+        case ManualState::turning:
+        case ManualState::stopping: return AxisState::stopping;
+        default: break;
+    }
+    if (driver_.moving(mask())) return stopping_ ? AxisState::stopping : AxisState::moving;
+    const AxisStatus status = driver_.axis_status(settings_.channel);
+    return field("RR2", "EMG").test(status.rr2) || field("RR2", "ALARM").test(status.rr2) ? AxisState::error : AxisState::standstill;
+}
+
+}  // namespace motionrack::mcx314
