@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <motionrack/cards/mcx314/axes/axes.hpp>
+#include <motionrack/cards/mcx314/axes/single_axis.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/cards/mcx314/chip/byte_bus.hpp>
@@ -58,9 +60,32 @@ class Mcx314Card final : public Card {
     sim::VirtualPort& port() override { return port_; }
 
     Result<control::PathAxes*> path_axes(const RackConfig& config, const control::Point& position) override {
+        single_ = {};
         axes_.emplace(driver_, axis_map(config), access_);
         MOTIONRACK_CHECK(axes_->set_up(position));
         return &*axes_;
+    }
+
+    Result<control::Axis*> axis(const RackConfig& config, char letter) override {
+        const RackAxis* found = config.axis(letter);
+        MOTIONRACK_ASSERT(found != nullptr && found->card == name_);
+        if (axes_ || !singles_ready_) {
+            axes_.reset();
+            MOTIONRACK_CHECK(mcx314::SingleAxis::prepare(driver_));
+            singles_ready_ = true;
+        }
+        std::unique_ptr<mcx314::SingleAxis>& one = single_[static_cast<std::size_t>(found->index())];
+        if (one) return one.get();
+        mcx314::SingleAxisSettings settings;
+        settings.name = std::string(1, letter);
+        settings.unit = found->unit();
+        settings.channel = channel_number(found->channel);
+        settings.limits = config.limits()[static_cast<std::size_t>(found->index())];
+        settings.counts_per_unit = found->counts_per_unit();
+        settings.pulses_per_turn = found->pulses_per_rev();
+        one = std::make_unique<mcx314::SingleAxis>(driver_, settings);
+        MOTIONRACK_CHECK(one->set_up());
+        return one.get();
     }
 
     double kept_back() const override { return mcx314::Axes::kept_back; }
@@ -107,6 +132,8 @@ class Mcx314Card final : public Card {
     sim::VirtualPort port_;
     mcx314::Driver driver_;
     std::optional<mcx314::Axes> axes_;
+    std::array<std::unique_ptr<mcx314::SingleAxis>, 6> single_ = {};
+    bool singles_ready_ = false;
 };
 
 Result<std::int64_t> Mcx314Card::inspect(std::string_view name) const {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <motionrack/base/card_map.hpp>
+#include <motionrack/control/axis.hpp>
 #include <motionrack/control/path_axes.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/register_view.hpp>
@@ -49,6 +50,9 @@ class Card {
     virtual sim::VirtualPort& port() = 0;
     /// The card's axes as a group that follows paths, set up at `position`; `channel[i]` moves axis i of the rack.
     virtual Result<control::PathAxes*> path_axes(const RackConfig& config, const control::Point& position) = 0;
+    /// One axis of the rack that this card moves, by itself; its position is not trusted at first. Takes the card from path_axes(), and
+    /// the other way round.
+    virtual Result<control::Axis*> axis(const RackConfig& config, char letter) = 0;
     /// Part of each acceleration that the planner keeps back for this card.
     virtual double kept_back() const = 0;
     /// Rates that change by more than this at once (pulses a second) are jumps, not ramps.

@@ -68,6 +68,19 @@ struct RackSwitches {
     double bounce_ms = 1.0;             ///< ms that contacts bounce at each change; 0: clean edges
 };
 
+enum class HomingDirection : std::uint8_t { minus, plus };
+
+/// How an axis is homed; see control/home.hpp.
+struct RackHoming {
+    std::int64_t type = 2;                                  ///< 1 .. 4: control::HomeType
+    HomingDirection direction = HomingDirection::minus;     ///< in which the home switch is searched
+    std::optional<double> speed;                            ///< of the search; absent: a quarter of max_speed
+    std::optional<double> slow_speed;                       ///< of the last approach; absent: a quarter of start_speed
+    std::optional<double> position;                         ///< what home is called; absent: where the switch's edge is
+    double clearance = 0.1;                                 ///< mm or degrees driven on after the switch is released
+    std::int64_t order = 0;                                 ///< axes of the lowest order are homed first, those of the same together
+};
+
 /// One axis of the machine. Positions and speeds are in mm (linear) or degrees (rotary), the axis' "unit", and seconds.
 struct RackAxis {
     char letter = 'X';  ///< X Y Z A B C
@@ -89,6 +102,7 @@ struct RackAxis {
     bool reversed = false;  ///< the motor is mounted the other way round; the direction signal is inverted to match
     RackMotor motor;
     RackSwitches switches;
+    RackHoming homing;
 
     /// 0 .. 5: the index in control::axis_letters.
     int index() const;

@@ -40,6 +40,7 @@ class AxisCheck {
         card_and_channel();
         travel();
         switches();
+        homing();
         motor();
         if (const RackCard* card = config_.card(axis_.card)) {
             if (const CardType* type = find_card_type(card->type)) chip(*card, *type);
@@ -126,6 +127,22 @@ class AxisCheck {
                  "switch.",
                  with_unit(key, axis_.unit()), axis_.letter, number_text(at), axis_.unit(), end, axis_.unit(),
                  number_text(travel_end)));
+    }
+
+    /// Moves do not depend on it, so what `motionrack home` will refuse is a warning here.
+    void homing() {
+        const RackHoming& h = axis_.homing;
+        const auto above = [&](std::string_view key, const std::optional<double>& value, double most, std::string_view limit) {
+            if (!value || *value <= most || !source_.sound({key})) return;
+            warn(key, "homing",
+                 fmt::format("{} of axis {} is {}, above its {}, which is {}: the axis cannot be homed like that.", with_unit(key, axis_.unit()),
+                             axis_.letter, number_text(*value), with_unit(limit, axis_.unit()), number_text(most)));
+        };
+        above("speed_{u}_s", h.speed, axis_.max_speed, "max_speed_{u}_s");
+        above("slow_speed_{u}_s", h.slow_speed, axis_.start_speed, "start_speed_{u}_s");
+        if (h.type >= 3 && axis_.encoder_counts_per_rev == 0 && source_.sound({"home_type", "encoder_counts_per_rev"}))
+            warn("home_type", "homing",
+                 fmt::format("Axis {} is to be homed to its encoder's index (type {}), but it has no encoder.", axis_.letter, h.type));
     }
 
     void motor() {

@@ -59,6 +59,23 @@ constexpr std::array<Field, 5> switch_table = {
     field<&RackSwitches::bounce_ms>("bounce_ms", 0, 100, "ms", "time that contacts bounce; 0: clean edges"),
 };
 
+constexpr std::array<std::string_view, 2> directions = {"minus", "plus"};
+
+constexpr std::array<Field, 7> homing_table = {
+    field<&RackHoming::type>("home_type", 1, 4, "",
+                             "1 stop at the switch, 2 and again slowly, 3 as 1 and on to the index, 4 as 2 and on to it"),
+    with_choices(field<&RackHoming::direction>("direction", 0, 0, "", "where the home switch is searched"), directions),
+    absent_means(field<&RackHoming::speed>("speed_{u}_s", 0.000001, 1e6, "{u}/s", "speed of the search"),
+                 "a quarter of the greatest speed"),
+    absent_means(field<&RackHoming::slow_speed>("slow_speed_{u}_s", 0.000001, 1e6, "{u}/s",
+                                                "speed of the last approach, at most the start speed"),
+                 "a quarter of the start speed"),
+    absent_means(field<&RackHoming::position>("position_{u}", -1e7, 1e7, "{u}", "what the home place is called"),
+                 "where the switch's edge is"),
+    field<&RackHoming::clearance>("clearance_{u}", 0, 1000, "{u}", "way driven on after the switch is released"),
+    field<&RackHoming::order>("order", 0, 5, "", "0 is homed first; axes of the same number together"),
+};
+
 constexpr std::array<Field, 2> controller_table = {
     field<&RackController::default_path_tolerance_mm>("default_path_tolerance_mm", 0, 100, "mm",
                                                       "how far G64 without P may leave the path"),
@@ -103,6 +120,9 @@ std::span<const Field> motor_fields() {
 }
 std::span<const Field> switch_fields() {
     return switch_table;
+}
+std::span<const Field> homing_fields() {
+    return homing_table;
 }
 std::span<const Field> controller_fields() {
     return controller_table;

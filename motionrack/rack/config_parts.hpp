@@ -20,6 +20,7 @@ std::span<const Field> card_fields();        ///< [card.NAME] into RackCard, wit
 std::span<const Field> axis_fields();        ///< [axis.X] into RackAxis
 std::span<const Field> motor_fields();       ///< [axis.X.motor] into RackMotor
 std::span<const Field> switch_fields();      ///< [axis.X.switches] into RackSwitches
+std::span<const Field> homing_fields();      ///< [axis.X.homing] into RackHoming
 std::span<const Field> controller_fields();  ///< [controller] into RackController
 
 /// An end of a wire at an axis' parts.
@@ -45,7 +46,7 @@ struct AxisSource {
     std::vector<std::string_view> refused = {};
 
     bool sound(std::initializer_list<std::string_view> keys) const;
-    /// The place of the key, in the axis' own table or its table `sub` ("motor", "switches").
+    /// The place of the key, in the axis' own table or its table `sub` ("motor", "switches", "homing").
     Place place(std::string_view key, std::string_view sub = {}) const;
 };
 

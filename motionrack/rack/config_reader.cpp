@@ -11,7 +11,7 @@ namespace motionrack::rack {
 namespace {
 
 constexpr std::array<std::string_view, 5> top_level = {"rack", "card", "axis", "controller", "wires"};
-constexpr std::array<std::string_view, 2> axis_tables = {"motor", "switches"};
+constexpr std::array<std::string_view, 3> axis_tables = {"motor", "switches", "homing"};
 
 class RackReader {
   public:
@@ -219,6 +219,7 @@ class RackReader {
         };
         read_sub("motor", motor_fields(), &axis.motor);
         read_sub("switches", switch_fields(), &axis.switches);
+        read_sub("homing", homing_fields(), &axis.homing);
         config_.axes.push_back(std::move(axis));
         sources_.push_back(std::move(source));
     }

@@ -99,6 +99,8 @@ std::string rack_file_reference() {
     out += "## [axis.NAME.motor]\nPulses are microsteps.\n\n" + rows(motor_fields(), &linear.motor, &rotary.motor);
     out += "## [axis.NAME.switches]\nMachine positions where they act.\n\n" +
            rows(switch_fields(), &linear.switches, &rotary.switches);
+    out += "## [axis.NAME.homing]\nHow `motionrack home` finds the home switch.\n\n" +
+           rows(homing_fields(), &linear.homing, &rotary.homing);
     out += "## [controller]\n" + rows(controller_fields(), &rack.controller, &rack.controller);
     out += wires_text();
     out += "## Card types\n\n";

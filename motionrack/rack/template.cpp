@@ -99,6 +99,8 @@ void write_axis(Writer& out, const RackAxis& axis) {
     out.fields(motor_fields(), &axis.motor, &defaults.motor, unit);
     out.section(name + ".switches", "machine positions where they act; leave a switch out and the axis has none");
     out.fields(switch_fields(), &axis.switches, &defaults.switches, unit);
+    out.section(name + ".homing", "how the axis finds its home switch (motionrack home)");
+    out.fields(homing_fields(), &axis.homing, &defaults.homing, unit);
 }
 
 std::string write(RackConfig config) {

@@ -68,6 +68,17 @@ ChartRange range_of(const SvgChart& chart);
 /// Values over time, thinned so that extremes stay.
 std::string svg_chart(const SvgChart& chart, const SvgLook& look = {});
 
+/// A named stretch of time.
+struct SvgSpan {
+    std::string name;
+    double from_s = 0;
+    double to_s = 0;
+};
+
+/// Charts of the same stretch of time one below the other, and below them a band that names parts of it. `look.height` is that of
+/// everything; the charts' series must begin and end at the same seconds.
+std::string svg_timeline(const std::string& title, std::span<const SvgChart> charts, std::span<const SvgSpan> spans, const SvgLook& look = {});
+
 /// A step of 1, 2 or 5 times a power of ten that divides `span` into about `parts`; 1 if there is no such step.
 double nice_step(double span, int parts);
 

@@ -11,7 +11,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr double left = 56, right = 12, top = 24, bottom = 22;
+constexpr double left = chart_left, right = chart_right, top = 24, bottom = 22;
 constexpr std::size_t buckets = 220;
 
 /// Seconds and values to pixels.

@@ -12,6 +12,7 @@ namespace {
 constexpr const char* footer = R"(Examples:
   motionrack run part.ngc --rack router.toml     run a program, write report.html
   motionrack check part.ngc --rack router.toml   list everything wrong, move nothing
+  motionrack home XY --rack router.toml          find the home switches, tell what was found
   motionrack new router > router.toml            a commented rack file to start from
   motionrack describe mcx314                     the card's registers, commands and states
 
@@ -29,6 +30,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     Action chosen;
     add_run(app, chosen);
+    add_home(app, chosen);
     add_check(app, chosen);
     add_new(app, chosen);
     add_describe(app, chosen);

@@ -46,6 +46,7 @@ std::vector<FieldCase> all_fields() {
         add(axis_fields(), fmt::format("axis.{}", letter), letter, unit);
         add(motor_fields(), fmt::format("axis.{}.motor", letter), letter, unit);
         add(switch_fields(), fmt::format("axis.{}.switches", letter), letter, unit);
+        add(homing_fields(), fmt::format("axis.{}.homing", letter), letter, unit);
     }
     return out;
 }

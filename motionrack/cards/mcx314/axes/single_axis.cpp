@@ -10,6 +10,7 @@ namespace motionrack::mcx314 {
 namespace {
 
 constexpr Duration look_every = milliseconds(1);
+constexpr std::uint16_t outputs_and_limits = field("WR2", "PLSMD").mask | field("WR2", "LMTMD").mask;
 constexpr unsigned software_limits = field("WR2", "SLMTP").mask | field("WR2", "SLMTM").mask;
 
 }  // namespace
@@ -18,6 +19,14 @@ SingleAxis::SingleAxis(Driver& driver, const SingleAxisSettings& settings)
     : driver_(driver), settings_(settings),
       real_(driver, settings.channel, {settings.limits.pulses_per_unit}, {settings.counts_per_unit}), home_(driver, settings.channel),
       manual_(driver, settings.channel) {}
+
+Result<void> SingleAxis::prepare(Driver& driver) {
+    driver.RESET();
+    driver.WriteMode1(xyzu, 0);
+    driver.WriteMode2(xyzu, outputs_and_limits);
+    driver.WriteMode3(xyzu, 0);
+    return driver.SetAO(xyzu, 0);
+}
 
 Result<void> SingleAxis::set_up() {
     const control::AxisLimits& limits = settings_.limits;

@@ -24,7 +24,9 @@ struct SingleAxisSettings {
 
 class SingleAxis final : public control::Axis {
   public:
-    /// The driver must outlive this; the chip must have been reset and its pulse outputs be set.
+    /// The whole chip, once: reset, pulse and direction, limit switches that act Low and slow down.
+    static Result<void> prepare(Driver& driver);
+    /// The driver must outlive this and be prepared.
     SingleAxis(Driver& driver, const SingleAxisSettings& settings);
 
     /// Counters 0, software limits off: the position is not trusted.

@@ -44,15 +44,17 @@ bool Home::limit_in_way(const Look& look, HomeWay w) const {
     return (settings_.negative == (w == HomeWay::towards) ? minus_limit : plus_limit).test(look.status.rr2);
 }
 
-/// A change of the home input is an edge once a state; contacts that change again are bouncing.
+/// The change of the home input that a drive waits for is an edge, once; every other change is a bounce.
 void Home::note_switch(const Look& look, Instant now) {
     if (look.switch_on == switch_on_) return;
     switch_on_ = look.switch_on;
     steady_since_ = now;
-    if (edge_in_state_)
+    const bool waited_for = state_->does == HomeDoes::wait_end && (state_->until == HomeUntil::on || state_->until == HomeUntil::off) &&
+                            switch_on_ == (state_->until == HomeUntil::on);
+    if (waited_for && !edge_in_state_)
+        add_edge(settings_.input, switch_on_, look, false, now);
+    else
         ++report_.bounces;
-    else if (state_->does == HomeDoes::wait_end)
-        add_edge(settings_.input, look.switch_on, look, false, now);
 }
 
 void Home::add_edge(int input, bool active, const Look& look, bool exact, Instant now) {

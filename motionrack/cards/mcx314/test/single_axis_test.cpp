@@ -33,6 +33,7 @@ control::HomeOrder order(int type = 2) {
 struct AxisRig : HomeRig {
     explicit AxisRig(const RigAxis& axis = {}, const SingleAxisSettings& s = settings()) : HomeRig({axis}), x(driver, s) {
         start();
+        EXPECT_TRUE(SingleAxis::prepare(driver));
         EXPECT_TRUE(x.set_up());
     }
     void home(int type = 2) {

@@ -1,0 +1,96 @@
+// home: finds the home switches of a rack's axes and tells what was found.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cctype>
+#include <cmath>
+#include <csignal>
+#include <memory>
+#include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/rack/homing.hpp>
+
+namespace motionrack::cli {
+
+namespace {
+
+/// Set by Ctrl-C; the axes then decelerate.
+std::atomic<bool> stop_asked{false};
+
+void on_interrupt(int) { stop_asked.store(true); }
+
+struct HomeOptions {
+    std::string axes, rack, picture;
+    int type = 0;
+    bool json = false, quiet = false;
+};
+
+/// "part.svg" of one axis; of several "part_X.svg".
+std::string picture_name(const std::string& path, char axis, std::size_t axes) {
+    if (axes == 1) return path;
+    const std::size_t dot = path.rfind('.'), slash = path.rfind('/');
+    const std::size_t at = dot == std::string::npos || (slash != std::string::npos && dot < slash) ? path.size() : dot;
+    return path.substr(0, at) + "_" + axis + path.substr(at);
+}
+
+int write_pictures(const rack::HomingOutcome& outcome, const HomeOptions& options) {
+    int code = exit_done;
+    for (const rack::HomedAxis& axis : outcome.axes) {
+        if (options.picture.empty() || !axis.begun) continue;
+        const std::string name = picture_name(options.picture, axis.letter, outcome.axes.size());
+        if (const Result<void> done = write_text(name, rack::homing_picture(axis)); !done)
+            code = report(done.error());
+        else if (!options.json && !options.quiet)
+            fmt::print("written: {}\n", name);
+    }
+    return code;
+}
+
+int home(const HomeOptions& options) {
+    int code = exit_done;
+    const auto config = load_rack(options.rack, code);
+    if (!config) return code;
+    rack::Rack rack(*config);
+    rack.start();
+    rack::HomingSettings settings;
+    for (const char c : options.axes)
+        if (c != ',' && c != ' ') settings.axes += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (options.type != 0) settings.type = options.type;
+    settings.stop = &stop_asked;
+    ProgressLine progress(options.quiet || options.json);
+    settings.progress = [&progress](const rack::HomingProgress& p) {
+        // What it takes is not known before: the bar shows how many axes have arrived.
+        progress.show(p.axes > 0 ? static_cast<double>(p.homed) / p.axes + 0.003 * std::fmod(p.seconds, 30) / 30 : 0,
+                      fmt::format("{} of {} homed, {}, {:.2f} s", p.homed, p.axes, p.states, p.seconds));
+    };
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    const rack::HomingOutcome outcome = rack::home_axes(rack, settings);
+    progress.clear();
+    if (!outcome.ended) code = report(outcome.ended.error());
+    fmt::print("{}", options.json ? rack::homing_json(outcome) + "\n" : rack::homing_text(outcome));
+    const int wrote = write_pictures(outcome, options);
+    return code == exit_done ? wrote : code;
+}
+
+}  // namespace
+
+void add_home(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<HomeOptions>();
+    CLI::App* command = app.add_subcommand("home", "Home the axes of a rack: find their switches, tell what was found");
+    command->add_option("AXES", options->axes, "letters, as XY or X,Y (default: every axis that has a home switch)");
+    command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
+    command->add_option("--type", options->type,
+                        "1 stop at the switch, 2 and again slowly, 3 as 1 and on to the encoder's index, 4 as 2 and on to it (default: the rack file's)")
+        ->check(CLI::Range(1, 4));
+    command->add_option("--picture", options->picture, "write position, speed and states over time as SVG; of several axes NAME_X.svg ..");
+    command->add_flag("--json", options->json, "print what was found as JSON");
+    command->add_flag("-q,--quiet", options->quiet, "no progress");
+    command->footer("Example: motionrack home XY --rack my.toml --picture home.svg\nHow each axis searches is said in [axis.X.homing] of the rack file. "
+                    "Ctrl-C stops the axes, decelerating.");
+    command->callback([options, &chosen] { chosen = [options] { return home(*options); }; });
+}
+
+}  // namespace motionrack::cli

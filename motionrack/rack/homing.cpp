@@ -1,0 +1,245 @@
+// The loop that homes several axes, one look at all of them every millisecond.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <motionrack/rack/homing.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+constexpr Duration sample_period = milliseconds(1);
+constexpr std::size_t most_samples = 200'000;
+
+/// The stop input of the axis' channel that `end` of the axis is wired to; -1 if none is.
+int stop_input(const RackConfig& config, const RackAxis& axis, std::string_view end) {
+    for (const RackWire& wire : config.wires) {
+        if (wire.from.owner != EndOwner::axis || config.axes[static_cast<std::size_t>(wire.from.index)].letter != axis.letter) continue;
+        if (wire.from.pin != end || wire.to.owner != EndOwner::card) continue;
+        if (config.cards[static_cast<std::size_t>(wire.to.index)].name != axis.card) continue;
+        const std::string before = axis.channel + "in";
+        int input = -1;
+        if (wire.to.pin.rfind(before, 0) == 0 && wire.to.pin.size() == before.size() + 1)
+            std::from_chars(wire.to.pin.data() + before.size(), wire.to.pin.data() + wire.to.pin.size(), input);
+        if (input >= 0) return input;
+    }
+    return -1;
+}
+
+class Homing {
+  public:
+    Homing(Rack& rack, const HomingSettings& settings) : rack_(rack), settings_(settings) {}
+
+    HomingOutcome run() {
+        out_.ended = choose();
+        if (out_.ended) {
+            began_ = rack_.kernel().now();
+            rack_.set_stop_flag(settings_.stop);
+            std::vector<std::int64_t> orders;
+            for (const Work& work : works_) orders.push_back(work.running->config.homing.order);
+            std::sort(orders.begin(), orders.end());
+            orders.erase(std::unique(orders.begin(), orders.end()), orders.end());
+            for (const std::int64_t order : orders) {
+                home_group(order);
+                if (!out_.ended) break;
+            }
+        }
+        gather();
+        return std::move(out_);
+    }
+
+  private:
+    struct Work {
+        RunningAxis* running = nullptr;
+        control::Axis* axis = nullptr;
+        control::HomeOrder order;
+        bool begun = false;
+        bool ended = false;
+        Instant at{};
+        HomingSamples samples;
+        std::size_t every = 1;
+        std::size_t skipped = 0;
+    };
+
+    RunningAxis* find(char letter) {
+        for (RunningAxis& axis : rack_.axes())
+            if (axis.config.letter == letter) return &axis;
+        return nullptr;
+    }
+
+    Result<void> choose() {
+        std::string letters = settings_.axes;
+        if (letters.empty())
+            for (const RunningAxis& axis : rack_.axes())
+                if (axis.config.switches.home) letters += axis.config.letter;
+        if (letters.empty())
+            return fail(Trouble::refused, "No axis of the rack has a home switch. Nothing was moved; give an axis one (home_mm in its switches).");
+        for (const char letter : letters) {
+            RunningAxis* running = find(letter);
+            if (running == nullptr)
+                return fail(Trouble::refused, fmt::format("The rack has no axis {}. Nothing was moved.", letter));
+            if (std::any_of(works_.begin(), works_.end(), [&](const Work& work) { return work.running == running; })) continue;
+            Work work;
+            work.running = running;
+            RackAxis config = running->config;
+            if (settings_.type) config.homing.type = *settings_.type;
+            MOTIONRACK_TRY(work.order, home_order(rack_.config(), config));
+            MOTIONRACK_TRY(work.axis, running->card->axis(rack_.config(), letter));
+            works_.push_back(std::move(work));
+        }
+        return {};
+    }
+
+    void home_group(std::int64_t order) {
+        std::vector<Work*> group;
+        for (Work& work : works_)
+            if (work.running->config.homing.order == order) group.push_back(&work);
+        const Instant now = rack_.kernel().now();
+        for (Work* work : group) {
+            if (Result<void> begun = work->axis->home(work->order, now); !begun) {
+                out_.ended = std::move(begun);
+                break;
+            }
+            work->begun = true;
+            work->at = now;
+        }
+        if (!out_.ended) stop(group);
+        follow(group);
+    }
+
+    static void stop(const std::vector<Work*>& group) {
+        for (Work* work : group)
+            if (work->begun && !work->ended) work->axis->stop();
+    }
+
+    /// Until every axis of the group has ended. One that fails stops the others; so do the time-out and the user.
+    void follow(const std::vector<Work*>& group) {
+        sim::VirtualPort& port = group.front()->running->card->port();
+        const Instant end = port.now() + settings_.timeout;
+        Instant next_progress{};
+        bool stopped = !out_.ended;
+        while (true) {
+            bool running = false;
+            for (Work* work : group) {
+                if (!work->begun || work->ended) continue;
+                work->axis->step(port.now());
+                sample(*work);
+                if (work->axis->state() == control::AxisState::homing) {
+                    running = true;
+                } else {
+                    work->ended = true;
+                    note_end(*work);
+                }
+            }
+            if (!running) break;
+            if (!stopped && (!out_.ended || port.stop_requested() || port.now() >= end)) {
+                stopped = true;
+                stop(group);
+            }
+            if (settings_.progress && port.now() >= next_progress) {
+                next_progress = port.now() + milliseconds(50);
+                tell(group);
+            }
+            port.pass(sample_period);
+        }
+    }
+
+    void note_end(Work& work) {
+        const control::HomeOutcome found = work.axis->home_outcome();
+        if (!found.homed && out_.ended)
+            out_.ended = fail(rack_.cards().front()->port().stop_requested() ? Trouble::stopped : Trouble::machine, found.sentence);
+    }
+
+    void sample(Work& work) {
+        if (work.skipped++ % work.every != 0) return;
+        const Instant now = rack_.kernel().now();
+        HomingSamples& s = work.samples;
+        if (s.seconds.size() >= most_samples) {
+            for (std::size_t i = 0; i < s.seconds.size() / 2; ++i)
+                s.seconds[i] = s.seconds[2 * i], s.position[i] = s.position[2 * i], s.speed[i] = s.speed[2 * i];
+            s.seconds.resize(most_samples / 2), s.position.resize(most_samples / 2), s.speed.resize(most_samples / 2);
+            work.every *= 2;
+        }
+        s.seconds.push_back(to_seconds(now - work.at));
+        s.position.push_back(static_cast<float>(work.running->machine->position(now)));
+        s.speed.push_back(static_cast<float>(work.running->machine->speed()));
+    }
+
+    void tell(const std::vector<Work*>& group) {
+        HomingProgress p;
+        p.seconds = to_seconds(rack_.kernel().now() - began_);
+        p.axes = static_cast<int>(works_.size());
+        p.homed = static_cast<int>(std::count_if(works_.begin(), works_.end(), [](const Work& work) { return work.axis->trusted(); }));
+        for (const Work* work : group) {
+            if (!p.states.empty()) p.states += ", ";
+            p.states += fmt::format("{} {}", work->running->config.letter, work->axis->home_state());
+        }
+        settings_.progress(p);
+    }
+
+    void gather() {
+        const Instant now = rack_.kernel().now();
+        for (Work& work : works_) {
+            HomedAxis one;
+            one.letter = work.running->config.letter;
+            one.unit = work.running->config.unit();
+            one.order = work.order;
+            one.begun = work.begun;
+            if (work.begun) one.outcome = work.axis->home_outcome();
+            one.began_s = work.begun ? to_seconds(work.at - began_) : 0;
+            one.counter_position = work.axis->position();
+            one.measured_position = work.axis->measured_position();
+            one.machine_position = work.running->machine->position(rack_.kernel().now());
+            one.lost_pulses = work.running->machine->lost_steps(rack_.kernel().now());
+            one.samples = std::move(work.samples);
+            out_.axes.push_back(std::move(one));
+        }
+        out_.seconds = to_seconds(now - began_);
+    }
+
+    Rack& rack_;
+    const HomingSettings& settings_;
+    std::vector<Work> works_;
+    Instant began_{};
+    HomingOutcome out_;
+};
+
+}  // namespace
+
+Result<control::HomeOrder> home_order(const RackConfig& config, const RackAxis& axis) {
+    const RackHoming& h = axis.homing;
+    const auto refuse = [&](const std::string& why) {
+        return fail(Trouble::refused, fmt::format("Axis {} cannot be homed: {}. Nothing was moved.", axis.letter, why));
+    };
+    if (!axis.switches.home)
+        return refuse(fmt::format("it has no home switch; give it one (home_{} in its switches)", axis.unit()));
+    if (h.type < 1 || h.type > 4) return refuse(fmt::format("its homing type is {}, but may be 1 to 4", h.type));
+    const bool plus = h.direction == HomingDirection::plus;
+    control::HomeOrder order;
+    order.type = static_cast<control::HomeType>(h.type);
+    order.towards_plus = plus;
+    order.speed = h.speed.value_or(std::max(axis.max_speed / 4, std::min(axis.start_speed, axis.max_speed)));
+    order.slow_speed = h.slow_speed.value_or(std::min(axis.start_speed, order.speed) / 4);
+    // The switch is active at and below its place: upwards it is its release that is searched.
+    order.position = h.position.value_or(*axis.switches.home + (plus ? axis.switches.hysteresis : 0));
+    order.clearance = h.clearance;
+    order.switch_active_high = plus;
+    order.switch_input = stop_input(config, axis, "home");
+    if (order.switch_input < 0)
+        return refuse(fmt::format("its home switch is not wired to a stop input of its channel ({0}in0 .. {0}in3 of card {1})", axis.channel, axis.card));
+    if (h.type < 3) return order;
+    order.index_input = stop_input(config, axis, "enc_z");
+    if (order.index_input < 0)
+        return refuse(fmt::format("type {} needs the encoder's index, which is not there or not wired to a stop input of its channel; home it with type 1 "
+                                  "or 2", h.type));
+    return order;
+}
+
+bool HomingOutcome::all_homed() const {
+    return ended.has_value() && std::all_of(axes.begin(), axes.end(), [](const HomedAxis& axis) { return axis.outcome.homed; });
+}
+
+HomingOutcome home_axes(Rack& rack, const HomingSettings& settings) { return Homing(rack, settings).run(); }
+
+}  // namespace motionrack::rack

@@ -1,0 +1,189 @@
+// Homing the axes of a rack: what its file orders, several axes, what is refused, what is told.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+#include <motionrack/rack/homing.hpp>
+#include <motionrack/rack/template.hpp>
+#include <nlohmann/json.hpp>
+
+namespace motionrack::rack {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* two_axes = R"(
+[card.motion]
+type = "mcx314"
+[axis.X]
+card = "motion"
+channel = "x"
+start_mm = 40
+[axis.X.switches]
+limit_minus_mm = -8
+limit_plus_mm = 302
+home_mm = 2
+[axis.X.homing]
+home_type = 4
+[axis.Y]
+card = "motion"
+channel = "y"
+start_mm = 7
+[axis.Y.switches]
+limit_minus_mm = -8
+limit_plus_mm = 302
+home_mm = 1
+)";
+
+RackConfig config_of(const std::string& text) {
+    const RackReading reading = read_rack_text(text);
+    EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].message);
+    return *reading.config;
+}
+
+HomingOutcome homed(const std::string& text, const HomingSettings& settings = {}) {
+    Rack rack(config_of(text));
+    rack.start();
+    return home_axes(rack, settings);
+}
+
+TEST(RackHomes, AllAxesWithASwitchAtOnceAndTheirCountersAreTheMachine) {
+    const HomingOutcome out = homed(two_axes);
+    ASSERT_TRUE(out.ended) << out.ended.error().message;
+    EXPECT_TRUE(out.all_homed());
+    ASSERT_EQ(out.axes.size(), 2u);
+    const HomedAxis &x = out.axes[0], &y = out.axes[1];
+    EXPECT_NEAR(y.counter_position, 1, 1e-9);
+    EXPECT_NEAR(y.machine_position, 1, 1e-9);
+    EXPECT_NEAR(y.measured_position, 1, 1e-9);
+    EXPECT_NEAR(x.machine_position, 0, 1e-9) << "the index is at whole turns of 5 mm, the switch at 2 mm";
+    EXPECT_NEAR(*x.outcome.switch_to_index, 2, 1e-9);
+    EXPECT_NEAR(x.counter_position, 2, 1e-9) << "the file does not say that the index is at 0 mm";
+    EXPECT_LT(y.outcome.took_s, x.outcome.took_s);
+    EXPECT_NEAR(out.seconds, x.outcome.took_s, 0.005);
+}
+
+TEST(RackHomes, ThePositionOfTheFileIsWhatHomeIsCalled) {
+    const HomingOutcome out = homed(std::string(two_axes) + "[axis.Y.homing]\nposition_mm = -3.5\nspeed_mm_s = 10\nslow_speed_mm_s = 0.25\n");
+    ASSERT_TRUE(out.ended) << out.ended.error().message;
+    EXPECT_NEAR(out.axes[1].counter_position, -3.5, 0.5 / 640);
+    EXPECT_NEAR(out.axes[1].machine_position, 1, 1e-9);
+    EXPECT_DOUBLE_EQ(out.axes[1].order.speed, 10);
+    for (const control::HomeEdge& edge : out.axes[1].outcome.edges) EXPECT_LE(edge.speed, 10.01);
+}
+
+TEST(RackHomes, UpwardsItFindsWhereTheSwitchIsReleased) {
+    const HomingOutcome out = homed(std::string(two_axes) + "[axis.Y.homing]\ndirection = \"plus\"\n");
+    ASSERT_TRUE(out.ended) << out.ended.error().message;
+    EXPECT_NEAR(out.axes[1].machine_position, 1.05, 1.01 / 640);
+    EXPECT_NEAR(out.axes[1].counter_position, 1.05, 1.01 / 640);
+}
+
+TEST(RackHomes, LowerOrdersGoFirst) {
+    const HomingOutcome out = homed(std::string(two_axes) + "[axis.Y.homing]\norder = 2\n");
+    ASSERT_TRUE(out.ended) << out.ended.error().message;
+    EXPECT_DOUBLE_EQ(out.axes[0].began_s, 0);
+    EXPECT_GE(out.axes[1].began_s, out.axes[0].outcome.took_s);
+    EXPECT_NEAR(out.seconds, out.axes[0].outcome.took_s + out.axes[1].outcome.took_s, 0.005);
+}
+
+TEST(RackHomes, AfterAFailureTheLaterOnesAreNotBegun) {
+    // The index is where the switch acts: type 4 will not have it.
+    std::string text = std::string(two_axes) + "[axis.Y.homing]\norder = 1\n";
+    text.replace(text.find("home_mm = 2"), 11, "home_mm = 0");
+    const HomingOutcome out = homed(text);
+    ASSERT_FALSE(out.ended);
+    EXPECT_EQ(out.ended.error().trouble, Trouble::machine);
+    EXPECT_THAT(out.ended.error().message, HasSubstr("Shift the switch by half a motor turn"));
+    EXPECT_FALSE(out.axes[1].begun);
+    EXPECT_DOUBLE_EQ(out.axes[1].machine_position, 7);
+    EXPECT_THAT(homing_text(out), HasSubstr("not begun"));
+}
+
+TEST(RackHomes, RefusesWhatItCannotDo) {
+    const auto message = [](const std::string& text, const HomingSettings& settings = {}) {
+        const HomingOutcome out = homed(text, settings);
+        EXPECT_FALSE(out.ended);
+        EXPECT_EQ(out.ended.error().trouble, Trouble::refused);
+        return out.ended.error().message;
+    };
+    HomingSettings unknown;
+    unknown.axes = "XQ";
+    EXPECT_THAT(message(two_axes, unknown), HasSubstr("no axis Q"));
+    EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin0\" = \"open\"\n"),
+                HasSubstr("not wired to a stop input of its channel (xin0 .. xin3 of card motion)"));
+    EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin2\" = \"open\"\n"), HasSubstr("type 4 needs the encoder's index"));
+    EXPECT_THAT(message(std::string(two_axes) + "[axis.Y.homing]\nspeed_mm_s = 101\n"), HasSubstr("the speed is 101 mm/s, but may be above 0 and up to 100"));
+    EXPECT_THAT(message("card.c1 = \"mcx314\""), HasSubstr("No axis of the rack has a home switch"));
+}
+
+TEST(RackHomes, ThroughAnotherStopInputToo) {
+    const HomingOutcome out = homed(std::string(two_axes) + "[wires]\n\"motion.yin0\" = \"open\"\n\"motion.yin3\" = \"Y.home\"\n");
+    ASSERT_TRUE(out.ended) << out.ended.error().message;
+    EXPECT_EQ(out.axes[1].order.switch_input, 3);
+    EXPECT_NEAR(out.axes[1].machine_position, 1, 1e-9);
+}
+
+TEST(RackHomes, StopsWhenAskedAndKeepsWhatWasSeen) {
+    std::atomic<bool> stop{false};
+    HomingSettings settings;
+    settings.stop = &stop;
+    settings.progress = [&](const HomingProgress& p) { stop = p.seconds > 0.3; };
+    const HomingOutcome out = homed(two_axes, settings);
+    ASSERT_FALSE(out.ended);
+    EXPECT_EQ(out.ended.error().trouble, Trouble::stopped);
+    EXPECT_FALSE(out.all_homed());
+    EXPECT_GT(out.axes[0].samples.seconds.size(), 300u);
+    EXPECT_LT(out.seconds, 1.0);
+}
+
+TEST(RackHomes, AProgramRunsAfterwardsOnTheSameCard) {
+    Rack rack(config_of(two_axes));
+    rack.start();
+    ASSERT_TRUE(home_axes(rack, {}).all_homed());
+    const Result<control::PathAxes*> path = rack.path_axes();
+    EXPECT_TRUE(path);
+    HomingSettings again;
+    again.axes = "Y";
+    again.type = 1;
+    EXPECT_TRUE(home_axes(rack, again).all_homed());
+}
+
+TEST(RackHomes, TextJsonAndPictureTellTheSame) {
+    const HomingOutcome out = homed(two_axes);
+    const std::string text = homing_text(out);
+    EXPECT_THAT(text, HasSubstr("axis X  type 4, - direction"));
+    EXPECT_THAT(text, HasSubstr("INDEX_WAIT"));
+    EXPECT_THAT(text, HasSubstr("from the switch to the index  2.0000 mm"));
+    EXPECT_THAT(text, HasSubstr("all homed in"));
+    const nlohmann::json json = nlohmann::json::parse(homing_json(out));
+    EXPECT_TRUE(json["homed"]);
+    EXPECT_TRUE(json["error"].is_null());
+    EXPECT_EQ(json["axes"].size(), 2u);
+    EXPECT_EQ(json["axes"][0]["states"].back()["state"], "HOMED");
+    EXPECT_NEAR(json["axes"][0]["switch_to_index"].get<double>(), 2, 1e-9);
+    const std::string picture = homing_picture(out.axes[0]);
+    EXPECT_THAT(picture, HasSubstr("SEARCH "));
+    EXPECT_THAT(picture, HasSubstr("Axis X is homed, type 4"));
+    EXPECT_THAT(picture, testing::Not(HasSubstr("nan")));
+}
+
+TEST(RackHomes, EveryTemplateHomesItsAxes) {
+    for (const char* name : {"router", "stage", "single"}) {
+        Rack rack(config_of(*rack_template(name)));
+        rack.start();
+        const HomingOutcome out = home_axes(rack, {});
+        EXPECT_TRUE(out.ended) << name << ": " << (out.ended ? "" : out.ended.error().message);
+    }
+}
+
+TEST(RackHomes, ChecksWarnOfAHomingThatWillBeRefused) {
+    const RackReading reading = read_rack_text(std::string(two_axes) + "[axis.Y.homing]\nspeed_mm_s = 101\nslow_speed_mm_s = 3\n");
+    ASSERT_TRUE(reading.config);
+    ASSERT_EQ(reading.warnings.size(), 2u);
+    EXPECT_THAT(reading.warnings[0].message, HasSubstr("speed_mm_s of axis Y is 101, above its max_speed_mm_s, which is 100"));
+    EXPECT_THAT(reading.warnings[1].message, HasSubstr("slow_speed_mm_s of axis Y is 3, above its start_speed_mm_s"));
+}
+
+}  // namespace
+}  // namespace motionrack::rack

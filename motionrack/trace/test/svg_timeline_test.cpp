@@ -1,0 +1,48 @@
+// Charts above a band of names.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <motionrack/trace/svg.hpp>
+#include <regex>
+
+namespace motionrack::trace {
+namespace {
+
+const std::vector<double> seconds = {0, 1, 2, 3};
+const std::vector<float> values = {0, 5, 5, 1};
+
+std::string picture(const std::vector<SvgSpan>& spans) {
+    const std::vector<SvgChart> charts = {{"position, mm", {{"", "z", seconds, values}}, {}}, {"speed, mm/s", {{"", "y", seconds, values}}, {}}};
+    return svg_timeline("A <title>", charts, spans, {720, 500, true});
+}
+
+TEST(SvgTimeline, HasEveryChartAndEveryName) {
+    const std::string out = picture({{"first 1 s", 0, 1}, {"second & last", 1, 3}});
+    EXPECT_THAT(out, testing::HasSubstr("A &lt;title&gt;"));
+    EXPECT_THAT(out, testing::HasSubstr("position, mm"));
+    EXPECT_THAT(out, testing::HasSubstr("speed, mm/s"));
+    EXPECT_THAT(out, testing::HasSubstr("first 1 s</text>"));
+    EXPECT_THAT(out, testing::HasSubstr("second &amp; last</text>"));
+}
+
+TEST(SvgTimeline, NamesOfShortSpansDoNotCoverEachOther) {
+    std::vector<SvgSpan> spans;
+    for (int i = 0; i < 12; ++i) spans.push_back({"state", 2.9 + i * 0.005, 2.905 + i * 0.005});
+    const std::string out = picture(spans);
+    const std::regex place(R"(translate\(([0-9.]+) )");
+    std::vector<double> at;
+    for (auto it = std::sregex_iterator(out.begin(), out.end(), place); it != std::sregex_iterator(); ++it) at.push_back(std::stod((*it)[1]));
+    ASSERT_EQ(at.size(), 12u);
+    for (std::size_t i = 1; i < at.size(); ++i) EXPECT_GE(at[i] - at[i - 1], 13.9);
+    EXPECT_LE(at.back(), 720);
+}
+
+TEST(SvgTimeline, NothingToShowIsAPictureToo) {
+    const std::string out = svg_timeline("empty", {}, {}, {});
+    EXPECT_THAT(out, testing::EndsWith("</svg>\n"));
+    EXPECT_THAT(out, testing::Not(testing::HasSubstr("nan")));
+    EXPECT_THAT(out, testing::Not(testing::HasSubstr("inf")));
+}
+
+}  // namespace
+}  // namespace motionrack::trace
