@@ -16,6 +16,9 @@ bool shown(const control::HomeStay& stay) { return stay.state.size() < 6 || stay
 /// "-0.0000" is 0.
 double plain(double value) { return std::fabs(value) < 5e-5 ? 0 : value; }
 
+/// As JSON: to a nanosecond, a nanometre.
+double rounded(double value) { return std::round(value * 1e9) / 1e9; }
+
 std::string head_line(const HomedAxis& axis) {
     const control::HomeOutcome& o = axis.outcome;
     std::string out = fmt::format("axis {}  type {}, {} direction, {:.4g} {}/s, slowly {:.4g} {}/s\n", axis.letter, static_cast<int>(axis.order.type),
@@ -53,20 +56,20 @@ nlohmann::ordered_json axis_json(const HomedAxis& axis) {
     nlohmann::ordered_json j = {{"axis", std::string(1, axis.letter)}, {"unit", axis.unit}, {"type", static_cast<int>(axis.order.type)},
                                 {"direction", axis.order.towards_plus ? "plus" : "minus"}, {"speed", axis.order.speed},
                                 {"slow_speed", axis.order.slow_speed}, {"begun", axis.begun}, {"homed", o.homed},
-                                {"seconds", o.took_s}, {"sentence", o.sentence}};
+                                {"seconds", rounded(o.took_s)}, {"sentence", o.sentence}};
     j["states"] = nlohmann::ordered_json::array();
     for (const control::HomeStay& stay : o.stays)
-        j["states"].push_back({{"state", stay.state}, {"from_s", stay.from_s}, {"took_s", stay.took_s}, {"from", stay.from}, {"to", stay.to}});
+        j["states"].push_back({{"state", stay.state}, {"from_s", rounded(stay.from_s)}, {"took_s", rounded(stay.took_s)}, {"from", rounded(stay.from)}, {"to", rounded(stay.to)}});
     j["edges"] = nlohmann::ordered_json::array();
     for (const control::HomeEdge& edge : o.edges)
-        j["edges"].push_back({{"what", edge.what}, {"state", edge.state}, {"seconds", edge.seconds}, {"position", edge.position},
-                              {"within", edge.within}, {"speed", edge.speed}});
-    j["switch_to_index"] = o.switch_to_index ? nlohmann::ordered_json(*o.switch_to_index) : nlohmann::ordered_json(nullptr);
+        j["edges"].push_back({{"what", edge.what}, {"state", edge.state}, {"seconds", rounded(edge.seconds)}, {"position", rounded(edge.position)},
+                              {"within", rounded(edge.within)}, {"speed", rounded(edge.speed)}});
+    j["switch_to_index"] = o.switch_to_index ? nlohmann::ordered_json(rounded(*o.switch_to_index)) : nlohmann::ordered_json(nullptr);
     j["bounces"] = o.bounces;
     j["notes"] = o.notes;
-    j["counter_position"] = axis.counter_position;
-    j["measured_position"] = axis.measured_position;
-    j["machine_position"] = axis.machine_position;
+    j["counter_position"] = rounded(axis.counter_position);
+    j["measured_position"] = rounded(axis.measured_position);
+    j["machine_position"] = rounded(axis.machine_position);
     j["lost_pulses"] = axis.lost_pulses;
     return j;
 }
@@ -81,7 +84,7 @@ std::string homing_text(const HomingOutcome& outcome) {
 }
 
 std::string homing_json(const HomingOutcome& outcome) {
-    nlohmann::ordered_json j = {{"homed", outcome.all_homed()}, {"seconds", outcome.seconds},
+    nlohmann::ordered_json j = {{"homed", outcome.all_homed()}, {"seconds", rounded(outcome.seconds)},
                                 {"error", outcome.ended ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(outcome.ended.error().message)}};
     j["axes"] = nlohmann::ordered_json::array();
     for (const HomedAxis& axis : outcome.axes) j["axes"].push_back(axis_json(axis));

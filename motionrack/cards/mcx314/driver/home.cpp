@@ -44,7 +44,7 @@ bool Home::limit_in_way(const Look& look, HomeWay w) const {
     return (settings_.negative == (w == HomeWay::towards) ? minus_limit : plus_limit).test(look.status.rr2);
 }
 
-/// The change of the home input that a drive waits for is an edge, once; every other change is a bounce.
+/// The change of the home input that a drive waits for is its edge, once; every other change is a bounce.
 void Home::note_switch(const Look& look, Instant now) {
     if (look.switch_on == switch_on_) return;
     switch_on_ = look.switch_on;
@@ -52,21 +52,23 @@ void Home::note_switch(const Look& look, Instant now) {
     const bool waited_for = state_->does == HomeDoes::wait_end && (state_->until == HomeUntil::on || state_->until == HomeUntil::off) &&
                             switch_on_ == (state_->until == HomeUntil::on);
     if (waited_for && !edge_in_state_)
-        add_edge(settings_.input, switch_on_, look, false, now);
+        edge_in_state_ = true;
     else
         ++report_.bounces;
 }
 
-void Home::add_edge(int input, bool active, const Look& look, bool exact, Instant now) {
-    HomeEdge edge{state_->name, input, active, look.lp, driver_.ReadEPS(axis_), exact ? 0 : length(way(last_lp_, look.lp)),
-                  hertz(exact ? speed() : std::max(look.cv, last_cv_)), now};
-    report_.edges.push_back(edge);
-    edge_in_state_ = true;
-    if (input == settings_.input && active) {
-        report_.switch_lp = edge.lp;
-        report_.switch_within = edge.within;
-        report_.switch_speed_hz = edge.speed_hz;
-    }
+/// The chip slows down at the first contact, whatever the contacts do at the instant of a look: that tells where the edge was.
+void Home::note_braking(const Look& look, Instant now) {
+    if (braking_ || state_->until != HomeUntil::on || !(look.switch_on || look.status.decelerating())) return;
+    braking_ = edge_here(look, now);
+}
+
+HomeEdge Home::edge_here(const Look& look, Instant now) {
+    // At constant speed the chip stops at the edge itself; else it was after the last look, or within that look's own accesses.
+    const bool exact = state_->pace != HomePace::fast;
+    const bool index = state_->until == HomeUntil::index;
+    return {state_->name, index ? settings_.index_input : settings_.input, index || state_->until == HomeUntil::on, look.lp, driver_.ReadEPS(axis_),
+            exact ? 0 : length(way(last_lp_, look.lp)) + 1, hertz(exact ? speed() : std::max(look.cv, last_cv_)), now};
 }
 
 // ---- beginning -----------------------------------------------------------------------------------------------------
@@ -219,6 +221,7 @@ void Home::drive(const Look& look, Instant now) {
     MOTIONRACK_ASSERT(written.has_value());  // check_ready() has seen the ranges
     driver_.Drive(mask(), settings_.negative == (state_->way == HomeWay::towards));
     at_speed_ = false;
+    braking_.reset();
     deadline_ = now + std::min(settings_.timeout, drive_time(planned_, speed()));
     leave_by(HomeCause::done, look, now);
 }
@@ -227,6 +230,7 @@ void Home::drive(const Look& look, Instant now) {
 void Home::wait_end(const Look& look, Instant now) {
     if (look.driving) {
         at_speed_ = at_speed_ || (look.cv >= settings_.v && !look.switch_on);
+        note_braking(look, now);
         if (now >= deadline_) fail(HomeFault::time, look, now);
         return;
     }
@@ -250,17 +254,19 @@ void Home::wait_end(const Look& look, Instant now) {
 
 /// The input that was waited for ended the drive. Its level now may be a bounce; the chip's own word counts.
 void Home::drive_reached(const Look& look, Instant now) {
-    const bool exact = state_->pace != HomePace::fast;
+    const HomeEdge edge = braking_ && state_->pace == HomePace::fast ? *braking_ : edge_here(look, now);
+    report_.edges.push_back(edge);
     if (state_->until == HomeUntil::index) {
-        add_edge(settings_.index_input, true, look, true, now);
-        report_.index_lp = look.lp;
-    } else if (!edge_in_state_) {
-        add_edge(settings_.input, state_->until == HomeUntil::on, look, exact, now);
-    } else if (exact) {  // seen a moment before the drive's end, which was at the edge
-        report_.edges.pop_back();
-        add_edge(settings_.input, state_->until == HomeUntil::on, look, true, now);
+        report_.index_lp = edge.lp;
+    } else {
+        if (!edge_in_state_) switch_on_ = edge.active;
+        edge_in_state_ = true;
     }
-    switch_on_ = look.switch_on;
+    if (state_->until == HomeUntil::on) {
+        report_.switch_lp = edge.lp;
+        report_.switch_within = edge.within;
+        report_.switch_speed_hz = edge.speed_hz;
+    }
     if (stopped_early() && leave_by(HomeCause::early, look, now)) {
         again_ = true;
         return;

@@ -81,7 +81,8 @@ class Home {
     Look look();
     Result<void> check_ready();
     void note_switch(const Look& look, Instant now);
-    void add_edge(int input, bool active, const Look& look, bool exact, Instant now);
+    void note_braking(const Look& look, Instant now);
+    HomeEdge edge_here(const Look& look, Instant now);
     bool limit_in_way(const Look& look, HomeWay way) const;
     void enter(std::string_view name, const Look& look, Instant now);
     bool leave_by(HomeCause cause, const Look& look, Instant now);
@@ -114,7 +115,8 @@ class Home {
     bool running_ = false;
     bool stop_asked_ = false;
     bool switch_on_ = false;     ///< as last seen, or as the chip's stop tells
-    bool edge_in_state_ = false; ///< one edge a state; the rest is bounce
+    bool edge_in_state_ = false; ///< the change that the state waits for was seen; the rest is bounce
+    std::optional<HomeEdge> braking_;  ///< the first look at which a search was found to slow down
     bool at_speed_ = false;      ///< V was reached in this drive
     bool turned_ = false;        ///< at a limit
     bool again_ = false;         ///< with a run-up

@@ -123,9 +123,10 @@ std::string Home::why_failed(const Look& look) const {
     const std::string axis = settings_.name.empty() ? std::string(1, "XYZU"[axis_]) : settings_.name;
     const bool found = report_.switch_lp.has_value();
     if (report_.homed)
-        return fmt::format("Axis {} is homed with type {}: the counter was at {} where it is {} since.", axis, settings_.type,
-                           place(report_.zero_lp), settings_.unit == "pulses" ? grouped(settings_.home_position)
-                                                                               : place(static_cast<std::int32_t>(settings_.home_position)));
+        return settings_.unit == "pulses"
+                   ? fmt::format("Axis {} is homed: its counter read {} where it is {} since.", axis, grouped(report_.zero_lp), grouped(settings_.home_position))
+                   : fmt::format("Axis {} is homed: its counter read {:.4f} where it is {:.4f} {} since.", axis, report_.zero_lp / settings_.pulses_per_unit,
+                                 static_cast<double>(settings_.home_position) / settings_.pulses_per_unit, settings_.unit);
     const std::string index = fmt::format("the encoder's index (IN{}, active {})", settings_.index_input, settings_.index_high ? "High" : "Low");
     const bool at_limit = limit_in_way(look, HomeWay::towards) || limit_in_way(look, HomeWay::away);
     const std::string how_far = text(failed_after_) + (at_limit ? ", where a limit switch ended the search" : "");
