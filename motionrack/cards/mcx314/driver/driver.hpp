@@ -38,7 +38,7 @@ class Driver {
     /// Writes the smallest whole multiple with which V <= 8,000 reaches `pulses_a_second`, 1 .. 4,000,000.
     Result<void> SetMaxSpeed(unsigned axes, std::int64_t pulses_a_second);
     Result<void> SetMaxSpeed(std::int64_t pulses_a_second) { return SetMaxSpeed(xyzu, pulses_a_second); }
-    /// R as it is, 16,000 .. 13,856,000: axes two and three of constant vector speed take more than 8,000,000.
+    /// R as it is, 16,000 .. 13,856,407: axes two and three of constant vector speed take more than 8,000,000.
     Result<void> WriteRange(unsigned axes, std::int64_t range);
 
     // ---- speeds and ramps -----------------------------------------------------------------------------------------

@@ -70,6 +70,47 @@ TEST(ChipPath, TheQueueIsOneDeepAndCnextTellsOfIt) {
     EXPECT_EQ(b.lp(Y), 60);
 }
 
+TEST(ChipPath, AHeldLineStartsWhenAx1IsFreed) {
+    Bench b;
+    b.start();
+    b.speeds(X | Y, 800'000, 100, 100);
+    b.write(5, xyz);
+    b.command(X, 0x24);
+    command_segment(b, {0x30, 0, 0, 20, 10});
+    b.advance(milliseconds(10));
+    EXPECT_EQ(b.read(0) & 0x0103u, 0u);
+    b.command(Y, 0x25);
+    b.advance(milliseconds(10));
+    EXPECT_EQ(b.read(0) & 0x0103u, 0u) << "AX1 is held, not AX2";
+    b.command(X, 0x25);
+    EXPECT_EQ(b.read(0) & 0x0103u, 0x0103u);
+    ASSERT_TRUE(b.finish(X | Y));
+    EXPECT_EQ(b.lp(X), 20);
+    EXPECT_EQ(b.lp(Y), 10);
+}
+
+TEST(ChipPath, TheInterruptAtAJointIsClearedByTheNextSegmentOr3Dh) {
+    Bench b;
+    b.start();
+    b.speeds(X | Y, 800'000, 100, 100);
+    b.write(5, xyz | 0x4000);
+    command_segment(b, {0x30, 0, 0, 20, 10});
+    command_segment(b, {0x30, 0, 0, 20, 10});
+    EXPECT_FALSE(b.interrupt()) << "a command alone is no joint";
+    ASSERT_TRUE(b.wait(milliseconds(100)));
+    EXPECT_EQ(b.lp(X), 20) << "it comes with the last pulse of the first";
+    command_segment(b, {0x30, 0, 0, 20, 10});
+    EXPECT_FALSE(b.interrupt());
+    ASSERT_TRUE(b.wait(milliseconds(100)));
+    b.status(X, 3);
+    EXPECT_TRUE(b.interrupt()) << "it is not in RR3";
+    b.command(0, 0x3D);
+    EXPECT_FALSE(b.interrupt());
+    ASSERT_TRUE(b.finish(X | Y));
+    EXPECT_EQ(b.lp(X), 60);
+    EXPECT_FALSE(b.interrupt());
+}
+
 RC_GTEST_PROP(ChipPath, AnyLineStaysWithinHalfAPulseOfTheIdealOne, ()) {
     const auto px = *rc::gen::inRange(-400, 401), py = *rc::gen::inRange(-400, 401), pz = *rc::gen::inRange(-400, 401);
     const int longest = std::max({std::abs(px), std::abs(py), std::abs(pz)});

@@ -1,8 +1,11 @@
-// The contract tests' card here: a virtual chip of its own for each test.
+// The contract tests' card here: a virtual chip of its own for each test. MOTIONRACK_VARIANT=mcx314as in the environment
+// makes it the other variant, which must do all that the original does.
+#include <cstdlib>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
 #include <motionrack/cards/mcx314/test/contract_port.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/virtual_port.hpp>
+#include <string_view>
 
 namespace motionrack::mcx314 {
 
@@ -11,13 +14,17 @@ namespace {
 class VirtualContractPort final : public ContractPort {
   public:
     VirtualContractPort()
-        : chip_(kernel_, "c"), port_(kernel_, chip_, chip_.id(), chip_.interrupt_wire(), nanoseconds(500)) {
+        : chip_(kernel_, "c", {variant()}), port_(kernel_, chip_, chip_.id(), chip_.interrupt_wire(), nanoseconds(500)) {
         kernel_.start();
     }
     RegisterPort& registers() override { return port_; }
     Interrupt& interrupt() override { return port_; }
 
   private:
+    static Variant variant() {
+        const char* name = std::getenv("MOTIONRACK_VARIANT");
+        return name && std::string_view(name) == "mcx314as" ? Variant::mcx314as : Variant::mcx314;
+    }
     sim::Kernel kernel_;
     Chip chip_;
     sim::VirtualPort port_;

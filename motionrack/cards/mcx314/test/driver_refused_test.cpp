@@ -79,6 +79,8 @@ const std::vector<Ranged>& ranged() {
         {"SetAO", [](Driver& d, unsigned a, std::int64_t n) { return d.SetAO(a, n); }, 0, 65'535},
         {"Pulse", [](Driver& d, unsigned a, std::int64_t n) { return d.Pulse(a, n); }, -268'435'455, 268'435'455},
         {"ManualDec", [](Driver& d, unsigned a, std::int64_t n) { return d.ManualDec(a, n); }, 0, 268'435'455},
+        {"SetDecPoint", [](Driver& d, unsigned a, std::int64_t n) { return d.SetDecPoint(a, n); }, 0, 268'435'455},
+        {"WriteRange", [](Driver& d, unsigned a, std::int64_t n) { return d.WriteRange(a, n); }, 16'000, 13'856'407},
         {"SetFP", [](Driver& d, unsigned a, std::int64_t n) { return d.SetFP(a, n); }, -8'388'608, 8'388'607},
         {"SetCP", [](Driver& d, unsigned a, std::int64_t n) { return d.SetCP(a, n); }, -8'388'608, 8'388'607},
         {"LPS", [](Driver& d, unsigned a, std::int64_t n) { return d.LPS(a, n); }, -2'147'483'648LL, 2'147'483'647LL},
