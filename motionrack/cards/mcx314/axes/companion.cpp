@@ -61,7 +61,8 @@ Result<void> Axes::steer_companion(const Segment& segment) {
     const std::int64_t goal = companion_target_ + segmenter_->companion_pulses_ahead(c, direction);
     if (direction * (goal - at) <= 0) return {};
     const double hertz = std::max(0.0, static_cast<double>(direction * left)) / segment_seconds(segment);
-    const auto v = static_cast<std::int32_t>(std::clamp(std::floor(hertz * range_ / 8e6 + 0.5), 1.0, double{companion_top_speed_}));
+    const auto top = static_cast<double>(companion_top_speed_);
+    const auto v = static_cast<std::int32_t>(std::clamp(std::floor(hertz * range_ / 8e6 + 0.5), 1.0, top));
     if (!driving) return drive_companion(at, goal, v);
     // Once it brakes it goes on to the end that it had; what is left is driven from there.
     if (std::llabs(at - companion_from_) >= companion_brakes_at_) return {};

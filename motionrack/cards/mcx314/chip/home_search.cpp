@@ -9,7 +9,7 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr unsigned limit_causes = 3u << 12, error_causes = 0xFu << 12;
+constexpr unsigned error_causes = 0xFu << 12;
 
 bool step_enabled(const Extension& ext, int step) {
     return bit(ext.em7, 2 * step - 2);

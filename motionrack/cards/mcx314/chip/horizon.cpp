@@ -138,7 +138,8 @@ std::int64_t Chip::steps_to_comparison(const Axis& axis, std::int32_t counter, i
         if (distance >= 1) steps = std::min(steps, distance);
     }
     if (axis.ring) {
-        const std::int64_t place = static_cast<std::uint32_t>(counter), end = static_cast<std::uint32_t>(axis.comp_plus);
+        const std::int64_t place = static_cast<std::uint32_t>(counter);
+        const std::int64_t end = static_cast<std::uint32_t>(axis.comp_plus);
         steps = std::min(steps, direction > 0 ? end - place + 1 : place + 1);
     }
     return steps;

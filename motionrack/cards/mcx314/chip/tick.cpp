@@ -315,7 +315,8 @@ void Chip::check_final(int a) {
                          : std::int64_t{axis.pulses} - gen.n <= final_pulses(axis) + axis.offset;
     } else if (gen.drive == Drive::path && state_.decel_enabled && !state_.queued) {
         now = gen.manual ? gen.n >= axis.decel_point
-                         : state_.path.command.line() && state_.path.longest - gen.n <= final_pulses(axis) + axis.offset;
+                         : state_.path.command.line() &&
+                               state_.path.longest - gen.n <= final_pulses(axis) + axis.offset;
     }
     if (!now) return;
     gen.final = true;
