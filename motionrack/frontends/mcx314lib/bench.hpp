@@ -1,0 +1,57 @@
+// The chips that a process has open through mcx314lib.h, and which of them is selected.
+//
+//   MOTIONRACK_RACK ─┐
+//   mcx314_open ─────┴─► Chip 1 ─ Driver ─ Manual x4 ─┐
+//                        Chip 2 ─ Driver ─ Manual x4 ─┴─► one Session (a rack and its time), or one each
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <motionrack/cards/mcx314/driver/driver.hpp>
+#include <motionrack/cards/mcx314/driver/manual.hpp>
+#include <motionrack/rack/session.hpp>
+
+namespace motionrack::mcx314lib {
+
+/// An open card with its library.
+class Chip {
+  public:
+    Chip(std::shared_ptr<rack::Session> world, rack::Card& on)
+        : session(std::move(world)), card(on), driver(on.port(), on.port()) {}
+
+    Instant now() const { return card.port().now(); }
+    mcx314::Manual& manual(int channel) { return manuals[static_cast<std::size_t>(channel)]; }
+    /// Lets manual operations look; true if one goes on.
+    bool step();
+
+    std::shared_ptr<rack::Session> session;
+    rack::Card& card;
+    mcx314::Driver driver;
+    std::array<mcx314::Manual, 4> manuals{{{driver, 0}, {driver, 1}, {driver, 2}, {driver, 3}}};
+    unsigned home_axes = mcx314::axis_x;
+};
+
+class Bench {
+  public:
+    /// See mcx314_open; a null rack or card is left open.
+    Result<int> open(const char* rack, const char* card);
+    Result<void> select(int handle);
+    Result<void> close(int handle);
+    /// The selected chip; without any chip the rack of the environment variable MOTIONRACK_RACK is opened.
+    Result<Chip*> selected();
+    /// Lets time pass in the world of `chip`; manual operations of all its chips look every millisecond.
+    Result<void> pass(Chip& chip, Duration duration);
+
+  private:
+    Result<void> check_open(int handle) const;
+    std::string handles() const;
+    bool is_open(const rack::Card& card) const;
+    bool step(const rack::Session& world);
+
+    std::map<int, std::unique_ptr<Chip>> chips_;
+    int selected_ = 0;  // 0: none
+    int last_ = 0;
+};
+
+}  // namespace motionrack::mcx314lib

@@ -1,0 +1,71 @@
+// Errors, and checks of what the function library itself cannot be given.
+#include <fmt/format.h>
+
+#include <motionrack/frontends/mcx314lib/calls.hpp>
+#include <mcx314lib.h>
+
+namespace motionrack::mcx314lib {
+
+namespace {
+
+thread_local std::string last_error;
+
+}  // namespace
+
+Shared& shared() {
+    static Shared one;
+    return one;
+}
+
+void failed(const char* who, std::string_view sentence) noexcept {
+    try {
+        const std::string start = std::string(who) + ": ";
+        last_error = (sentence.rfind(start, 0) == 0 ? "" : start) + std::string(sentence);
+        const auto [handler, user] = [] {
+            const std::lock_guard<std::mutex> alone(shared().lock);
+            return std::pair(shared().handler, shared().user);
+        }();
+        // A copy: the handler may call functions that fail.
+        if (handler != nullptr) handler(std::string(last_error).c_str(), user);
+    } catch (...) {
+        last_error.clear();
+    }
+}
+
+Result<unsigned> mask_of(int axis) {
+    if (axis >= 1 && axis <= static_cast<int>(mcx314::xyzu)) return static_cast<unsigned>(axis);
+    return fail(Trouble::refused, fmt::format("the axis mask is {}, but X is 1, Y 2, Z 4, U 8, and sums of these are 1 to 15. "
+                                              "Nothing was written.",
+                                              axis));
+}
+
+Result<int> channel_of(int axis) {
+    for (int i = 0; i < 4; ++i)
+        if (axis == 1 << i) return i;
+    return fail(Trouble::refused, fmt::format("the axis is {}, but it must be one of X 1, Y 2, Z 4, U 8. Nothing was written.", axis));
+}
+
+Result<unsigned> mode_word(int word) {
+    if (word >= 0 && word <= 0xFFFF) return static_cast<unsigned>(word);
+    return fail(Trouble::refused,
+                fmt::format("WR1Reg is {}, but a word is 0 to 65535. Nothing was written, nothing moved.", word));
+}
+
+Result<void> check_pointer(const void* pointer, std::string_view what) {
+    if (pointer != nullptr) return {};
+    return fail(Trouble::bad_input, fmt::format("{} is a null pointer. Nothing was done.", what));
+}
+
+}  // namespace motionrack::mcx314lib
+
+// ---- errors -----------------------------------------------------------------------------------------------------------
+
+const char* mcx314_last_error(void) { return motionrack::mcx314lib::last_error.c_str(); }
+void mcx314_clear_error(void) { motionrack::mcx314lib::last_error.clear(); }
+
+void mcx314_on_error(void (*handler)(const char* sentence, void* user), void* user) {
+    motionrack::mcx314lib::Shared& shared = motionrack::mcx314lib::shared();
+    const std::lock_guard<std::mutex> alone(shared.lock);
+    shared.handler = handler;
+    shared.user = user;
+}

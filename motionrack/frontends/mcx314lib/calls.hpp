@@ -1,0 +1,81 @@
+// How every function of mcx314lib.h runs: one at a time, on the selected chip; an error becomes a sentence, nothing is thrown
+// out.
+#pragma once
+
+#include <exception>
+#include <motionrack/frontends/mcx314lib/bench.hpp>
+#include <mutex>
+#include <new>
+#include <string>
+#include <string_view>
+
+namespace motionrack::mcx314lib {
+
+/// What the process shares, and its lock.
+struct Shared {
+    std::mutex lock;
+    Bench bench;
+    void (*handler)(const char*, void*) = nullptr;
+    void* user = nullptr;
+};
+Shared& shared();
+
+/// Keeps the sentence for this thread, with the function's name in front, and calls the handler. The lock must be free.
+void failed(const char* who, std::string_view sentence) noexcept;
+
+/// Runs `call` with the bench; it gives a Result<Value>.
+template <class Value, class Call>
+Value with_bench(const char* who, Value otherwise, Call call) noexcept {
+    try {
+        Result<Value> result = [&] {
+            const std::lock_guard<std::mutex> alone(shared().lock);
+            return call(shared().bench);
+        }();
+        if (result) return *result;
+        failed(who, result.error().text());
+    } catch (const std::bad_alloc&) {
+        failed(who, "there is not enough memory; nothing was done.");
+    } catch (const std::exception& e) {
+        failed(who, e.what());
+    } catch (...) {
+        failed(who, "something went wrong in the library that it has no words for.");
+    }
+    return otherwise;
+}
+
+/// Runs `call` with the selected chip; it gives a Result<Value>.
+template <class Value, class Call>
+Value with_chip(const char* who, Value otherwise, Call call) noexcept {
+    return with_bench(who, otherwise, [&](Bench& bench) -> Result<Value> {
+        MOTIONRACK_TRY(Chip * chip, bench.selected());
+        MOTIONRACK_CHECK(bench.pass(*chip, Duration{0}));  // manual operations look; refused at the end of time
+        return call(*chip);
+    });
+}
+
+/// Runs `call` with the selected chip; it gives a Result<void>. 0, or -1 where it failed.
+template <class Call>
+int done(const char* who, Call call) noexcept {
+    return with_chip(who, -1, [&](Chip& chip) -> Result<int> {
+        MOTIONRACK_CHECK(call(chip));
+        return 0;
+    });
+}
+
+/// An axis mask as the library takes it; channel_of: of one axis, as a channel 0 X .. 3 U.
+Result<unsigned> mask_of(int axis);
+Result<int> channel_of(int axis);
+/// WR1 as homing takes it.
+Result<unsigned> mode_word(int word);
+Result<void> check_pointer(const void* pointer, std::string_view what);
+
+/// The same with an axis mask: `call` takes the chip and the mask.
+template <class Call>
+int on_axes(const char* who, int axis, Call call) noexcept {
+    return done(who, [&](Chip& chip) -> Result<void> {
+        MOTIONRACK_TRY(const unsigned axes, mask_of(axis));
+        return call(chip, axes);
+    });
+}
+
+}  // namespace motionrack::mcx314lib

@@ -1,0 +1,41 @@
+// An open chip over the C library, with what tests look at.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <mcx314lib.h>
+
+#include <string>
+
+namespace motionrack::mcx314lib_test {
+
+inline constexpr int x = 1, y = 2, z = 4, u = 8, all = 15;
+inline constexpr const char* one_card = "card.c1 = \"mcx314\"";
+
+inline std::int64_t peek(const std::string& name) {
+    std::int64_t value = 0;
+    EXPECT_EQ(mcx314_peek(name.c_str(), &value), 0) << mcx314_last_error();
+    return value;
+}
+
+class Open {
+  public:
+    explicit Open(const char* rack = one_card, const char* card = nullptr) : handle(mcx314_open(rack, card)) {
+        EXPECT_GT(handle, 0) << mcx314_last_error();
+        mcx314_clear_error();
+    }
+    ~Open() { mcx314_close(handle); }
+    Open(const Open&) = delete;
+    Open& operator=(const Open&) = delete;
+
+    int handle;
+};
+
+/// Speeds in units of 10 pulses a second.
+inline void set_up() {
+    SetRange(800'000);
+    SetSV(all, 100);
+    SetV(all, 4000);
+    SetA(all, 400);
+}
+
+}  // namespace motionrack::mcx314lib_test
