@@ -26,6 +26,7 @@ function(motionrack_c_library target export_name headers)
   install(TARGETS ${target}_archive ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 endfunction()
 motionrack_c_library(motionrack_c c ${CMAKE_INSTALL_INCLUDEDIR}/motionrack)
+motionrack_c_library(mcx314lib mcx314lib ${CMAKE_INSTALL_INCLUDEDIR})
 
 # ---- headers: those of the rooms; the program and the C library have none but c.h ----
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/motionrack DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp"
@@ -70,7 +71,8 @@ list(FILTER runtime EXCLUDE REGEX "^(c|gcc|gcc_s|gcc_eh|.*/.*)$")
 list(TRANSFORM runtime PREPEND "-l")
 list(JOIN runtime " " pc_libs_private)
 configure_file(cmake/motionrack.pc.in ${PROJECT_BINARY_DIR}/motionrack.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/motionrack.pc DESTINATION ${pc_dir})
+configure_file(cmake/mcx314lib.pc.in ${PROJECT_BINARY_DIR}/mcx314lib.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/motionrack.pc ${PROJECT_BINARY_DIR}/mcx314lib.pc DESTINATION ${pc_dir})
 
 # ---- the program, and what it says of itself ----
 install(TARGETS motionrack RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

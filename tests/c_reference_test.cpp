@@ -1,4 +1,4 @@
-// docs/reference/c.md is made from motionrack/c.h, and the header names what the tables have.
+// Pages of docs/reference are made from the C headers, and motionrack/c.h names what the tables have.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,8 @@ std::string contents(const fs::path& path) {
 /// The header as Markdown: sections are headings, each declaration a block of code with its comment below.
 class Page {
   public:
-    explicit Page(const std::string& header) {
+    /// `title`: first lines; `api`: what stands before each function.
+    Page(const std::string& header, std::string title, std::string api) : title_(std::move(title)), api_(std::move(api)) {
         std::istringstream in(header);
         for (std::string line; std::getline(in, line);) take(line);
         end_declaration();
@@ -48,7 +49,7 @@ class Page {
         } else if (line.empty() || line[0] == '#' || line.rfind("extern", 0) == 0 || (line == "}" && declaration_.empty())) {
             end_declaration();
         } else {
-            declaration_ += (line.rfind("MR_API ", 0) == 0 ? line.substr(7) : line) + "\n";
+            declaration_ += (line.rfind(api_, 0) == 0 ? line.substr(api_.size()) : line) + "\n";
         }
     }
 
@@ -59,7 +60,7 @@ class Page {
         while (!line.empty() && line.back() == ' ') line.pop_back();
         if (!line.empty() || inside_) comment_.push_back(line);
         if (!inside_ && text_.empty()) {
-            text_ = "# The C interface\n\n`motionrack/c.h`, as a page: this one is made from it.\n\n";
+            text_ = title_;
             end_declaration();
         }
     }
@@ -82,19 +83,27 @@ class Page {
         comment_.clear();
     }
 
+    std::string title_, api_;
     std::string text_;
     std::string declaration_;
     std::vector<std::string> comment_;
     bool inside_ = false;
 };
 
-TEST(CReference, ThePageIsMadeFromTheHeader) {
-    std::string page = Page(contents(root / "motionrack/c.h")).text();
-    while (page.size() > 1 && page[page.size() - 2] == '\n') page.pop_back();
-    if (page == contents(root / "docs/reference/c.md")) return;
-    const fs::path made = fs::temp_directory_path() / "motionrack_c.md";
-    std::ofstream(made, std::ios::binary) << page;
-    ADD_FAILURE() << "docs/reference/c.md is not what motionrack/c.h says; take " << made;
+/// A page of docs/reference is what the header makes of it.
+void is_made_from(const std::string& page, const std::string& header, const std::string& title, const std::string& api) {
+    std::string text = Page(contents(root / header), title, api).text();
+    while (text.size() > 1 && text[text.size() - 2] == '\n') text.pop_back();
+    if (text == contents(root / "docs/reference" / page)) return;
+    const fs::path made = fs::temp_directory_path() / ("motionrack_" + page);
+    std::ofstream(made, std::ios::binary) << text;
+    ADD_FAILURE() << "docs/reference/" << page << " is not what " << header << " says; take " << made;
+}
+
+TEST(CReference, ThePagesAreMadeFromTheHeaders) {
+    is_made_from("c.md", "motionrack/c.h", "# The C interface\n\n`motionrack/c.h`, as a page: this one is made from it.\n\n", "MR_API ");
+    is_made_from("mcx314lib.md", "motionrack/frontends/mcx314lib/mcx314lib.h",
+                 "# The MCX314's function library in C\n\n`mcx314lib.h`, as a page: this one is made from it.\n\n", "MCX314_API ");
 }
 
 TEST(CReference, TheHeaderHasEveryQuantityAndFaultWithItsMeaning) {

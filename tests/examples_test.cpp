@@ -66,6 +66,12 @@ TEST(Examples, TheCExamplePrintsWhatItsFolderSays) {
     EXPECT_EQ(ran.out, text_of(examples / "07_c" / "expected.txt"));
 }
 
+TEST(Examples, TheFunctionLibraryInCPrintsWhatItsFolderSays) {
+    const Ran ran = run(examples, std::string("MOTIONRACK_RACK=racks/single.toml ") + MOTIONRACK_MCX314LIB_EXAMPLE);
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.out, text_of(examples / "09_mcx314lib" / "expected.txt"));
+}
+
 TEST(Examples, TheBuiltInExampleIsThePart) {
     const Ran built_in = run(examples, std::string(MOTIONRACK_PROGRAM) + " run --no-report");
     EXPECT_EQ(built_in.code, 0);

@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "chip.hpp"
+#include <motionrack/frontends/mcx314lib/test/chip.hpp>
 
 namespace motionrack::mcx314lib_test {
 namespace {

@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "chip.hpp"
+#include <motionrack/frontends/mcx314lib/test/chip.hpp>
 
 namespace motionrack::mcx314lib_test {
 namespace {
