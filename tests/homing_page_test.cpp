@@ -78,7 +78,9 @@ TEST(HomingPage, ShowsTheseProgramsAndNoOthers) {
     for (std::size_t at = text.find("```cpp\n"); at != std::string::npos; at = text.find("```cpp\n", at + 7), ++blocks) {
         std::istringstream code(text.substr(at + 7, text.find("```", at + 7) - at - 7));
         for (std::string line; std::getline(code, line);) {
-            if (!line.empty()) EXPECT_NE(own.find("    " + line + "\n"), std::string::npos) << line;
+            if (!line.empty()) {
+                EXPECT_NE(own.find("    " + line + "\n"), std::string::npos) << line;
+            }
         }
     }
     EXPECT_EQ(blocks, 3);
@@ -109,7 +111,9 @@ TEST(HomingPage, WhatItSaysTheCommandPrintsIsPrinted) {
     ASSERT_NE(at, std::string::npos);
     std::istringstream shown(text.substr(at, text.find("\n\n[", at) - at));
     for (std::string line; std::getline(shown, line) && (line.empty() || line.rfind("    ", 0) == 0);) {
-        if (!line.empty()) EXPECT_NE(printed.find(line.substr(4) + "\n"), std::string::npos) << line;
+        if (!line.empty()) {
+            EXPECT_NE(printed.find(line.substr(4) + "\n"), std::string::npos) << line;
+        }
     }
 }
 

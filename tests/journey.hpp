@@ -49,7 +49,9 @@ inline void expect_exact(const JobOutcome& outcome, double jump = 1.15) {
         EXPECT_LE(axis.top.top_speed, axis.limits.max_speed * 1.001) << axis.index;
         // What four samples can tell: one speed step of the chip more or less.
         EXPECT_LE(axis.top.top_accel, axis.limits.max_accel * 1.02) << axis.index;
-        if (jump > 0) EXPECT_LE(axis.top.top_jump, axis.limits.start_speed * jump) << axis.index;
+        if (jump > 0) {
+            EXPECT_LE(axis.top.top_jump, axis.limits.start_speed * jump) << axis.index;
+        }
     }
 }
 
