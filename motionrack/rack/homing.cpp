@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <motionrack/rack/homing.hpp>
+#include <motionrack/rack/toml_reader.hpp>
 
 namespace motionrack::rack {
 
@@ -68,6 +69,12 @@ class Homing {
         return nullptr;
     }
 
+    std::string all() const {
+        std::string out;
+        for (const RunningAxis& axis : rack_.axes()) out += (out.empty() ? "" : ", ") + std::string(1, axis.config.letter);
+        return out;
+    }
+
     Result<void> choose() {
         std::string letters = settings_.axes;
         if (letters.empty())
@@ -78,7 +85,8 @@ class Homing {
         for (const char letter : letters) {
             RunningAxis* running = find(letter);
             if (running == nullptr)
-                return fail(Trouble::refused, fmt::format("The rack has no axis {}. Nothing was moved.", letter));
+                return fail(Trouble::refused,
+                            fmt::format("The rack has no axis {}; its axes are {}. Nothing was moved.", in_quotes(std::string(1, letter)), all()));
             if (std::any_of(works_.begin(), works_.end(), [&](const Work& work) { return work.running == running; })) continue;
             Work work;
             work.running = running;

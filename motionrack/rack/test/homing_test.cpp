@@ -109,7 +109,7 @@ TEST(RackHomes, RefusesWhatItCannotDo) {
     };
     HomingSettings unknown;
     unknown.axes = "XQ";
-    EXPECT_THAT(message(two_axes, unknown), HasSubstr("no axis Q"));
+    EXPECT_THAT(message(two_axes, unknown), HasSubstr("no axis 'Q'; its axes are X, Y"));
     EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin0\" = \"open\"\n"),
                 HasSubstr("not wired to a stop input of its channel (xin0 .. xin3 of card motion)"));
     EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin2\" = \"open\"\n"), HasSubstr("type 4 needs the encoder's index"));
