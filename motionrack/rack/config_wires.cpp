@@ -211,13 +211,14 @@ class WireResolver {
 
     void too_many_inputs() {
         std::map<std::string, int> inputs;
-        for (const auto& [to, wire] : wires_) {
-            const std::string from = config_.end_name(wire.from);
+        for (const auto& input : wires_) {
+            const WireEnd& output = input.second.from;
+            const std::string from = config_.end_name(output);
             if (++inputs[from] != most_inputs + 1) continue;
             // An input that the file names: the default rule alone wires fewer.
             const auto named = std::find_if(named_.begin(), named_.end(), [&](const auto& each) {
                 const auto its = wires_.find(each.first);
-                return its != wires_.end() && its->second.from == wire.from;
+                return its != wires_.end() && its->second.from == output;
             });
             error(named != named_.end() ? named->second->key_place : Place{},
                   fmt::format("{} drives more than {} inputs, the most that one output can drive here; leave some open.", from,

@@ -25,18 +25,18 @@ typedef unsigned (*read_counter)(int);
 typedef void (*nothing)(void);
 
 /* The argument lists of the source; what differs does not compile. */
-static const one_int one[] = {SetRange, SetMaxSpeed, SLMTP, SLMTM, SLMTSig, EnableALM, EnableInPos};
-static const two_ints two[] = {SetPulseMode, SetMultiple, SetSV, SetV, SetA, SetD, SetAA, SetAO, Pulse, ManualDec, ManDec,
+const one_int one[] = {SetRange, SetMaxSpeed, SLMTP, SLMTM, SLMTSig, EnableALM, EnableInPos};
+const two_ints two[] = {SetPulseMode, SetMultiple, SetSV, SetV, SetA, SetD, SetAA, SetAO, Pulse, ManualDec, ManDec,
                                SetC, SetCP, SetP, SetFP, HLMTP, HLMTM, HLMTSig, EncoderMode, EncoderCWCCW, ALMSig, InPosSig,
                                SetCompP, SetCompM};
-static const four_ints four[] = {TCurve_C, HomeType1, HomeType2, HomeType3, HomeType4};
-static const five_ints five[] = {TCurve_F, SCurve_C};
-static const six_ints six[] = {SCurve_F};
-static const line lines[] = {Line2D_C, Line3D_C, Line2D_T, Line3D_T, Line2D_S, Line3D_S};
-static const circle circles[] = {CircleCW_C, CircleCCW_C, CircleCW_T, CircleCCW_T};
-static const set_counter setters[] = {LPS, EPS};
-static const read_counter readers[] = {ReadLPS, ReadEPS, ReadCV, ReadCA};
-static const nothing none[] = {AutoDec, RESET};
+const four_ints four[] = {TCurve_C, HomeType1, HomeType2, HomeType3, HomeType4};
+const five_ints five[] = {TCurve_F, SCurve_C};
+const six_ints six[] = {SCurve_F};
+const line lines[] = {Line2D_C, Line3D_C, Line2D_T, Line3D_T, Line2D_S, Line3D_S};
+const circle circles[] = {CircleCW_C, CircleCCW_C, CircleCW_T, CircleCCW_T};
+const set_counter setters[] = {LPS, EPS};
+const read_counter readers[] = {ReadLPS, ReadEPS, ReadCV, ReadCA};
+const nothing none[] = {AutoDec, RESET};
 #define COUNT(table) (sizeof(table) / sizeof(table)[0])
 
 static void every_function_of_the_source_is_there(void) {
