@@ -45,6 +45,7 @@ TEST_P(HowTo, ShowsTheProgramItsOutputAndItsPicture) {
     EXPECT_NE(page.find("\nIt prints\n\n" + indented(printed, "    ") + "\n"), std::string::npos) << printed;
     EXPECT_NE(text_of(root / "examples/mcx314" / (name + ".cpp")).find(indented(code_of(page), "    ")), std::string::npos)
         << "the page's program is not that of examples/mcx314/" << name << ".cpp";
+    EXPECT_NE(page.find("](../../pictures/mcx314_" + name + ".svg)"), std::string::npos) << "the page does not show its picture";
     EXPECT_EQ(text_of(root / "docs/pictures" / ("mcx314_" + name + ".svg")), text_of(picture))
         << "make it anew: example_mcx314 " << name << " docs/pictures/mcx314_" << name << ".svg";
     fs::remove(picture);

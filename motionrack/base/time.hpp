@@ -21,6 +21,9 @@ constexpr Duration microseconds(std::int64_t n) { return Duration{n * 10'000}; }
 constexpr Duration milliseconds(std::int64_t n) { return Duration{n * 10'000'000}; }
 constexpr Duration whole_seconds(std::int64_t n) { return Duration{n * 10'000'000'000}; }
 
+/// `by` (>= 0) after `from` (>= 0), at most `never`: the end of a wait that may be endless.
+constexpr Instant later(Instant from, Duration by) { return by > never - from ? never : from + by; }
+
 /// Seconds as a double, for people and pictures; never used to order events.
 constexpr double to_seconds(Duration d) { return static_cast<double>(d.count()) * 1e-10; }
 

@@ -158,8 +158,11 @@ int mcx314_at_limit(int axis) {
 const char* mcx314_report(int axis) {
     report_text.clear();
     on_axes(__func__, axis, [](Chip& chip, unsigned axes) -> Result<void> {
-        for (int i = 0; i < 4; ++i)
-            if (axes >> i & 1) report_text += (report_text.empty() ? "" : "\n") + chip.driver.report(i).text();
+        for (int i = 0; i < 4; ++i) {
+            if (!(axes >> i & 1)) continue;
+            if (!report_text.empty()) report_text += '\n';
+            report_text += chip.driver.report(i).text();
+        }
         return {};
     });
     return report_text.c_str();

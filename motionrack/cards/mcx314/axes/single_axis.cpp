@@ -266,7 +266,7 @@ void SingleAxis::step(Instant now) {
 
 Result<void> SingleAxis::wait(Duration timeout) {
     Interrupt& host = driver_.interrupt();
-    const Instant end = host.now() + timeout;
+    const Instant end = later(host.now(), timeout);
     const bool homing = home_.running();
     bool asked = false;
     while (true) {

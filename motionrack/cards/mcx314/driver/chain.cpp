@@ -160,7 +160,7 @@ void Driver::aim_at_end(const Piece& piece) {
 
 /// Waits for CNEXT. `may_end`: the end of the chain is as good.
 Result<void> Driver::wait_for_joint(Duration timeout, bool may_end) {
-    const Instant end = interrupt_.now() + timeout;
+    const Instant end = later(interrupt_.now(), timeout);
     while (true) {
         const MainStatus main = status();
         if (main.can_queue()) return {};

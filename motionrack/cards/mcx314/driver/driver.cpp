@@ -87,6 +87,12 @@ Result<void> Driver::check_axes(unsigned axes, const char* who) {
                             who, axes));
 }
 
+Result<void> Driver::check_channel(int axis, const char* who) {
+    if (axis >= 0 && axis < 4) return {};
+    return fail(Trouble::refused,
+                fmt::format("{}: the axis is {}, but it is one of 0 X, 1 Y, 2 Z, 3 U. Nothing was written.", who, axis));
+}
+
 Result<void> Driver::check(unsigned axes, const Parameter& parameter, std::int64_t value) {
     MOTIONRACK_CHECK(check_axes(axes, parameter.name));
     if (value >= parameter.least && value <= parameter.greatest) return {};

@@ -213,6 +213,9 @@ class Driver {
     /// The reports of the axes that have an error, or were stopped by an input; "" if none.
     std::string error_text(unsigned axes = xyzu);
 
+    /// Refuses what is no channel, in the name of `who`.
+    static Result<void> check_channel(int axis, const char* who);
+
     /// Waits until none of the axes drives. Errors: Trouble::machine after `timeout`; Trouble::stopped where the user
     /// asked to stop (the axes are then decelerated and standing).
     Result<void> wait_until_stopped(unsigned axes, Duration timeout);

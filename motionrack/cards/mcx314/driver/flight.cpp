@@ -50,6 +50,7 @@ Result<void> Driver::change_speed(unsigned axes, std::int64_t v) {
 }
 
 Result<void> Driver::change_pulses(int axis, std::int64_t pulses, Duration margin) {
+    MOTIONRACK_CHECK(check_channel(axis, "change_pulses"));
     const unsigned mask = 1u << axis;
     Kept& own = kept(axis);
     MOTIONRACK_CHECK(check(mask, param::pulses, pulses));

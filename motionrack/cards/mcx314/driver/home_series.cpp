@@ -46,7 +46,7 @@ Result<std::vector<HomeReport>> home_axes(Driver& driver, int type, unsigned axe
 Result<void> finish_homes(std::span<Home* const> homes, Duration timeout, const std::function<void()>& seen) {
     Driver& driver = homes.front()->driver();
     Interrupt& host = driver.interrupt();
-    const Instant end = host.now() + timeout;
+    const Instant end = later(host.now(), timeout);
     bool stopped = false;
     const Home* first_failed = nullptr;
     while (any_running(homes)) {
@@ -82,6 +82,7 @@ Result<HomeReport> home(Driver& driver, int axis, const HomeSettings& settings, 
 
 Result<HomeSpread> repeat_home(Driver& driver, int axis, const HomeSettings& settings, int repeats, std::span<const std::int64_t> away,
                                Duration timeout) {
+    MOTIONRACK_CHECK(Driver::check_channel(axis, "repeat_home"));
     const unsigned mask = 1u << axis;
     const bool fine = repeats >= 1 && !away.empty() && std::all_of(away.begin(), away.end(), [](std::int64_t p) { return p > 0; });
     if (!fine) return fail(Trouble::refused, "repeat_home: it takes at least one repeat and ways off from home above 0. Nothing was moved.");

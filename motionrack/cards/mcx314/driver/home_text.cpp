@@ -63,8 +63,9 @@ Result<HomeSettings> home_settings(int type, unsigned WR1Reg, std::int64_t SV, s
 }
 
 Result<void> Home::check_ready() {
+    MOTIONRACK_CHECK(Driver::check_channel(axis_, "Homing"));
     const HomeSettings& s = settings_;
-    const std::string name = s.name.empty() ? std::string(1, "XYZU"[axis_ & 3]) : s.name;
+    const std::string name = s.name.empty() ? std::string(1, "XYZU"[axis_]) : s.name;
     const auto refuse = [&](std::string why) {
         return motionrack::fail(Trouble::refused, fmt::format("Axis {} was not homed: {}. Nothing was moved.", name, why));
     };

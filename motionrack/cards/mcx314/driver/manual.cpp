@@ -39,6 +39,7 @@ static_assert(declared<machine_flaw(machine)>());
 const MachineInfo& manual_machine() { return machine; }
 
 Result<void> Manual::set(const ManualSettings& settings) {
+    MOTIONRACK_CHECK(Driver::check_channel(axis_, "Manual operation"));
     struct Bound {
         const char* name;
         std::int64_t value, least, greatest;
@@ -86,6 +87,7 @@ Result<void> Manual::begin_jog() {
 }
 
 Result<void> Manual::jog(std::int64_t v, Instant now) {
+    MOTIONRACK_CHECK(Driver::check_channel(axis_, "Jog"));
     if (v == 0) {
         if (state_ == ManualState::jogging || state_ == ManualState::turning) stop();
         return {};
@@ -109,6 +111,7 @@ Result<void> Manual::jog(std::int64_t v, Instant now) {
 }
 
 Result<void> Manual::step_jog(std::int64_t pulses, std::int64_t v) {
+    MOTIONRACK_CHECK(Driver::check_channel(axis_, "Step"));
     if (state_ != ManualState::standing)
         return fail(Trouble::refused, fmt::format("Step of {}: it is {}. Nothing was moved; stop it first.", name(), state_name()));
     if (pulses == 0) return fail(Trouble::refused, fmt::format("Step of {}: it has 0 pulses. Nothing was moved.", name()));

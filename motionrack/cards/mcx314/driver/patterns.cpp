@@ -57,7 +57,7 @@ Result<void> Driver::begin_pattern(const char* who, const BPDATA& data, unsigned
 Result<void> Driver::BPStack(const BPWORD& word, Duration timeout) {
     if (pattern_.axes == 0)
         return fail(Trouble::refused, "BPStack: no pattern is open. Nothing was written. Call BP2D or BP3D first.");
-    const Instant end = interrupt_.now() + timeout;
+    const Instant end = later(interrupt_.now(), timeout);
     while (true) {
         const MainStatus main = status();
         if (pattern_.running && !main.driving(pattern_.axes)) {

@@ -6,6 +6,7 @@
 namespace motionrack::mcx314 {
 
 Result<RealSetting> RealAxis::set(const RealDrive& drive) {
+    MOTIONRACK_CHECK(Driver::check_channel(axis_, "set"));
     MOTIONRACK_TRY(const RealSetting setting, real_setting(scale_, drive));
     const unsigned own = 1u << axis_;
     MOTIONRACK_CHECK(driver_.SetRange(own, setting.R));
@@ -24,7 +25,7 @@ Result<RealSetting> RealAxis::set(const RealDrive& drive) {
 Result<void> RealAxis::check_set(const char* who) const {
     if (set_) return {};
     return fail(Trouble::refused, fmt::format("{}: the speeds of {} are not set. Nothing was written. Call set first.",
-                                              who, axes_text(1u << axis_)));
+                                              who, axis_ >= 0 && axis_ < 4 ? axes_text(1u << axis_) : "no axis"));
 }
 
 /// The curve of a move, with the deceleration point or the offset that makes it end at its start speed.
@@ -62,6 +63,7 @@ Result<Rounded> RealAxis::move(double distance) {
 }
 
 Result<Rounded> RealAxis::move_to(double position) {
+    MOTIONRACK_CHECK(check_set("move_to"));
     MOTIONRACK_TRY(const Rounded target, to_pulses(scale_, position));
     const double from = this->position();
     MOTIONRACK_CHECK(move(target.real - from));
@@ -92,12 +94,14 @@ Result<Rounded> RealAxis::change_distance(double distance) {
 }
 
 Result<Rounded> RealAxis::set_position(double position) {
+    MOTIONRACK_CHECK(Driver::check_channel(axis_, "set_position"));
     MOTIONRACK_TRY(const Rounded rounded, to_pulses(scale_, position));
     MOTIONRACK_CHECK(driver_.LPS(1u << axis_, rounded.value));
     return rounded;
 }
 
 Result<double> RealAxis::speed() {
+    MOTIONRACK_CHECK(Driver::check_channel(axis_, "speed"));
     MOTIONRACK_TRY(const auto speeds, driver_.axis_speeds());
     return speeds[static_cast<std::size_t>(axis_)] / scale_.pulses_per_unit;
 }

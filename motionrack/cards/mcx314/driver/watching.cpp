@@ -63,7 +63,8 @@ void Driver::doze(unsigned axes, Duration slice) {
 }
 
 Result<void> Driver::wait_until_stopped(unsigned axes, Duration timeout) {
-    const Instant end = interrupt_.now() + timeout;
+    MOTIONRACK_CHECK(check_axes(axes, "wait_until_stopped"));
+    const Instant end = later(interrupt_.now(), timeout);
     bool stopped = false;
     while (status().driving(axes)) {
         if (!stopped && interrupt_.stop_requested()) {
@@ -83,7 +84,6 @@ Result<void> Driver::wait_until_stopped(unsigned axes, Duration timeout) {
 }
 
 Result<void> Driver::wait_until_done(unsigned axes, Duration timeout) {
-    MOTIONRACK_CHECK(check_axes(axes, "wait_until_done"));
     MOTIONRACK_CHECK(wait_until_stopped(axes, timeout));
     const std::string why = error_text(axes);
     if (why.empty()) return {};

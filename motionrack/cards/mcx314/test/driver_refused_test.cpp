@@ -6,6 +6,8 @@
 
 #include <functional>
 #include <limits>
+#include <motionrack/cards/mcx314/driver/home_series.hpp>
+#include <motionrack/cards/mcx314/driver/manual.hpp>
 #include <motionrack/cards/mcx314/driver/real_axis.hpp>
 #include <vector>
 
@@ -120,10 +122,35 @@ TEST_F(Refused, AxisMasksThatNameNoAxes) {
         for (const Ranged& one : ranged())
             expect_refused(one.call(driver_, axes, one.greatest), "X is 1, Y 2, Z 4, U 8");
         expect_refused(driver_.TCurve_F(axes, 1, 1, 1, 1), "X is 1, Y 2, Z 4, U 8");
+        expect_refused(driver_.wait_until_stopped(axes, milliseconds(1)), "X is 1, Y 2, Z 4, U 8");
+        expect_refused(driver_.wait_until_done(axes, milliseconds(1)), "X is 1, Y 2, Z 4, U 8");
         expect_refused(driver_.stop(axes, StopKind::quick), "X is 1, Y 2, Z 4, U 8");
         expect_refused(driver_.HLMTP(1, axes), "X is 1, Y 2, Z 4, U 8");
         expect_refused(driver_.SetOutput(axes, 1, true), "X is 1, Y 2, Z 4, U 8");
         expect_refused(driver_.Line2D_C({1, 1, 1, 0, 0, {1, 1, 1, 1}}, axes), "X is 1, Y 2, Z 4, U 8");
+    }
+}
+
+TEST_F(Refused, AxesThatDoNotExist) {
+    set_up();
+    forbid_writing();
+    for (const int axis : {-1, 4, 32, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
+        const std::string told = "the axis is " + std::to_string(axis) + ", but it is one of 0 X, 1 Y, 2 Z, 3 U";
+        expect_refused(driver_.change_pulses(axis, 100), told);
+        const std::int64_t away[] = {1};
+        expect_refused(home(driver_, axis, {}), told);
+        expect_refused(repeat_home(driver_, axis, {}, 1, away), told);
+        Manual manual(driver_, axis);
+        expect_refused(manual.set({}), told);
+        expect_refused(manual.jog(1, clock_.now()), told);
+        expect_refused(manual.step_jog(0, 1), told);
+        expect_refused(manual.home({}, clock_.now()), told);
+        RealAxis real(driver_, axis, {200}, {400});
+        expect_refused(real.set({1, 1, 1}), told);
+        expect_refused(real.move_to(1), "Call set first");
+        expect_refused(real.change_distance(1), told);
+        expect_refused(real.set_position(1), told);
+        expect_refused(real.speed(), told);
     }
 }
 

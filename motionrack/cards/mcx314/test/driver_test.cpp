@@ -145,6 +145,22 @@ TEST(DriverFlight, TheLeastPossibleTargetIsToldAndTaken) {
     }
 }
 
+TEST(DriverFlight, AWaitMayBeAsLongAsTheDrive) {
+    DriverRig rig;
+    Driver& d = rig.driver;
+    done(d.SetMultiple(xyzu, 10));
+    for (const Duration timeout : {never, never - milliseconds(1)}) {
+        done(d.TCurve_F(axis_x, 10, 1'000, 100, 2'000));
+        done(d.wait_until_done(axis_x, timeout));
+    }
+    EXPECT_EQ(d.ReadLPS(0), 4'000);
+    done(d.ContStart({20, 800, 400, 0}));
+    done(d.ContLine(0x3, {1'000, 0}, 0, never));
+    done(d.ContLine(0x3, {1'000, 500}, 0, never));
+    EXPECT_TRUE(d.ContEnd(never));
+    EXPECT_EQ(d.ReadLPS(0), 6'000);
+}
+
 TEST(DriverFlight, TheSpeedOfALedAxisIsThatOfItsLeader) {
     DriverRig rig;
     Driver& d = rig.driver;

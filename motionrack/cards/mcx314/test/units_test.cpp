@@ -149,6 +149,19 @@ TEST(Units, AnAxisMovesInMillimetresAsPlanned) {
         ASSERT_TRUE(rig.driver.stop(axis_y, StopKind::slow));
         ASSERT_TRUE(rig.driver.wait_until_done(axis_y, whole_seconds(10)));
         EXPECT_LT(axis.position(), 80);
+        // Another end on the way, counted from where the move began.
+        const double from = axis.position();
+        ASSERT_TRUE(axis.move(50));
+        while (!rig.driver.axis_status(1).constant()) rig.port.pass(milliseconds(1));
+        const auto back = axis.change_distance(-1);
+        ASSERT_FALSE(back);
+        EXPECT_NE(back.error().message.find("cannot turn back"), std::string::npos) << back.error().message;
+        EXPECT_FALSE(axis.change_distance(0.1)) << "it is beyond that";
+        const auto nearer = axis.change_distance(30.0012);
+        ASSERT_TRUE(nearer) << nearer.error().message;
+        EXPECT_NEAR(nearer->real, 30, 1e-9);
+        ASSERT_TRUE(rig.driver.wait_until_done(axis_y, whole_seconds(10)));
+        EXPECT_NEAR(axis.position(), from + 30, 1e-9);
     }
 }
 
