@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* variable = "MOTIONRACK_RACK";
 constexpr Duration look_every = milliseconds(1);
+constexpr Duration most_at_once = nanoseconds(static_cast<std::int64_t>(rack::Session::most_ns));
 
 bool is_mcx314(const rack::RackCard& card) {
     return card.type == "mcx314";
@@ -116,9 +117,10 @@ bool Bench::step(const rack::Session& world) {
 Result<void> Bench::pass(Chip& chip, Duration duration) {
     rack::Session& world = *chip.session;
     const auto advance = [&](Duration time) { return world.advance(static_cast<std::uint64_t>(time / nanoseconds(1))); };
-    const Instant end = chip.now() + duration;
+    const Instant end = later(chip.now(), duration);
     while (step(world) && chip.now() < end) MOTIONRACK_CHECK(advance(std::min(look_every, end - chip.now())));
-    return chip.now() < end ? advance(end - chip.now()) : Result<void>{};
+    while (end - chip.now() >= nanoseconds(1)) MOTIONRACK_CHECK(advance(std::min(most_at_once, end - chip.now())));
+    return {};
 }
 
 }  // namespace motionrack::mcx314lib

@@ -10,6 +10,32 @@ namespace {
 
 thread_local std::string last_error;
 
+/// Functions of the C++ library that its sentences name, and what they are called here.
+struct Name {
+    std::string_view there, here;
+};
+constexpr Name names[] = {
+    {"ContStart", "mcx314_contour_begin"},
+    {"ContLine", "mcx314_contour_line"},
+    {"ContArc", "mcx314_contour_arc"},
+    {"ContEnd", "mcx314_contour_end"},
+    {"BP2D or BP3D", "mcx314_pattern_begin"},
+    {"BP2D", "mcx314_pattern_begin"},
+    {"BP3D", "mcx314_pattern_begin"},
+    {"BPStack", "mcx314_pattern_steps"},
+    {"BPStart", "mcx314_pattern_start"},
+    {"BPEnd", "mcx314_pattern_end"},
+    {"SetOutput", "mcx314_set_output"},
+};
+
+std::string named_as_here(std::string_view sentence) {
+    std::string out(sentence);
+    for (const Name& name : names)
+        for (std::size_t at = 0; (at = out.find(name.there, at)) != std::string::npos; at += name.here.size())
+            out.replace(at, name.there.size(), name.here);
+    return out;
+}
+
 }  // namespace
 
 Shared& shared() {
@@ -20,7 +46,8 @@ Shared& shared() {
 void failed(const char* who, std::string_view sentence) noexcept {
     try {
         const std::string start = std::string(who) + ": ";
-        last_error = (sentence.rfind(start, 0) == 0 ? "" : start) + std::string(sentence);
+        last_error = named_as_here(sentence);
+        if (last_error.rfind(start, 0) != 0) last_error.insert(0, start);
         const auto [handler, user] = [] {
             const std::lock_guard<std::mutex> alone(shared().lock);
             return std::pair(shared().handler, shared().user);

@@ -5,10 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <regex>
-#include <set>
-#include <sstream>
 #include <thread>
 
 #include <motionrack/frontends/mcx314lib/test/chip.hpp>
@@ -137,6 +133,12 @@ TEST(Mcx314libTime, ALoopThatPollsComesToAnEnd) {
     EXPECT_GT(looks, 10);
 }
 
+TEST(Mcx314libTime, TheWorldRunsAsLongAsAnIntHasMilliseconds) {
+    const Open chip;
+    EXPECT_EQ(mcx314_advance_ms(2'147'483'647), 0) << mcx314_last_error();
+    EXPECT_EQ(mcx314_now_us(), 2'147'483'647'000);
+}
+
 TEST(Mcx314libTime, AWaitThatIsTooShortSaysSo) {
     const Open chip;
     set_up();
@@ -261,12 +263,7 @@ TEST(Mcx314libPattern, ThePulsesAreThoseOfTheBits) {
 // ---- the library's names ----------------------------------------------------------------------------------------------
 
 TEST(Mcx314lib, ShowsTheFunctionsOfItsHeaderAndNothingElse) {
-    std::ifstream file(MOTIONRACK_SOURCE_DIR "/motionrack/frontends/mcx314lib/mcx314lib.h");
-    std::set<std::string> declared;
-    const std::regex function(R"(^MCX314_API [^(]*\b(\w+)\()");
-    std::smatch match;
-    for (std::string line; std::getline(file, line);)
-        if (std::regex_search(line, match, function)) declared.insert(match[1]);
+    const std::set<std::string> declared = declared_functions();
     std::FILE* pipe = ::popen("nm -D --defined-only --format=just-symbols '" MCX314LIB_LIBRARY "'", "r");
     ASSERT_NE(pipe, nullptr);
     std::set<std::string> shown;

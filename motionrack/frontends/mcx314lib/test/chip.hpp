@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <mcx314lib.h>
 
+#include <fstream>
+#include <regex>
+#include <set>
 #include <string>
 
 namespace motionrack::mcx314lib_test {
@@ -29,6 +32,17 @@ class Open {
 
     int handle;
 };
+
+/// The functions of mcx314lib.h.
+inline std::set<std::string> declared_functions() {
+    std::ifstream file(MOTIONRACK_SOURCE_DIR "/motionrack/frontends/mcx314lib/mcx314lib.h");
+    std::set<std::string> declared;
+    const std::regex function(R"(^MCX314_API [^(]*\b(\w+)\()");
+    std::smatch match;
+    for (std::string line; std::getline(file, line);)
+        if (std::regex_search(line, match, function)) declared.insert(match[1]);
+    return declared;
+}
 
 /// Speeds in units of 10 pulses a second.
 inline void set_up() {

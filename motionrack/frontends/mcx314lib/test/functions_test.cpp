@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <set>
 #include <vector>
 
 #include <motionrack/frontends/mcx314lib/test/chip.hpp>
@@ -103,6 +102,20 @@ TEST(Mcx314lib, EveryFunctionWritesWhatItShould) {
     }
 }
 
+TEST(Mcx314lib, SpeedAndPulsesOfADriveAreChanged) {
+    const Open chip;
+    set_up();
+    TCurve_F(x, 100, 1000, 400, 50'000);
+    mcx314_advance_ms(100);
+    EXPECT_EQ(ReadCV(x), 1000u);
+    SetV(x, 4000);
+    Pulse(x, 20'000);
+    mcx314_advance_ms(100);
+    EXPECT_EQ(ReadCV(x), 4000u);
+    EXPECT_EQ(mcx314_wait(x, 10'000), 0) << mcx314_last_error();
+    EXPECT_EQ(ReadLPS(x), 20'000u);
+}
+
 TEST(Mcx314lib, CountersAndSpeedsAreRead) {
     const Open chip;
     set_up();
@@ -187,6 +200,11 @@ const Refused refusals[] = {
     {"SetCompM", [] { SetCompM(0, 1); }, "1 to 15"},
     {"mcx314_wait", [] { EXPECT_EQ(mcx314_wait(x, -1), -1); }, "0 to 2147483647"},
     {"mcx314_advance_ms", [] { EXPECT_EQ(mcx314_advance_ms(-1), -1); }, "0 to 2147483647"},
+    {"mcx314_moving", [] { EXPECT_EQ(mcx314_moving(0), -1); }, "1 to 15"},
+    {"mcx314_at_limit", [] { EXPECT_EQ(mcx314_at_limit(16), -1); }, "1 to 15"},
+    {"mcx314_report", [] { EXPECT_STREQ(mcx314_report(0), ""); }, "1 to 15"},
+    {"mcx314_stop", [] { EXPECT_EQ(mcx314_stop(0), -1); }, "1 to 15"},
+    {"mcx314_stop_now", [] { EXPECT_EQ(mcx314_stop_now(-1), -1); }, "1 to 15"},
     {"mcx314_asymmetric", [] { EXPECT_EQ(mcx314_asymmetric(x, 2), -1); }, "0 or 1"},
     {"mcx314_set_output", [] { EXPECT_EQ(mcx314_set_output(x, 8, 1), -1); }, "0 to 7"},
     {"mcx314_enable_interrupt", [] { EXPECT_EQ(mcx314_enable_interrupt(x, 256), -1); }, "1 to 255"},
@@ -198,6 +216,12 @@ const Refused refusals[] = {
     {"mcx314_home_axes", [] { EXPECT_EQ(mcx314_home_axes(0), -1); }, "1 to 15"},
     {"mcx314_contour_begin", [] { EXPECT_EQ(mcx314_contour_begin(nullptr), -1); }, "null pointer"},
     {"mcx314_contour_line", [] { EXPECT_EQ(mcx314_contour_line(x + y, nullptr, 0), -1); }, "null pointer"},
+    {"mcx314_contour_line", [] { int p[4] = {1, 1, 0, 0}; EXPECT_EQ(mcx314_contour_line(x + y, p, 0), -1); }, "Call mcx314_contour_begin first"},
+    {"mcx314_contour_arc", [] { int p[4] = {2, 0, 0, 0}, c[4] = {1, 0, 0, 0}; EXPECT_EQ(mcx314_contour_arc(x + y, p, c, 2, 0), -1); }, "0 or 1"},
+    {"mcx314_contour_end", [] { EXPECT_EQ(mcx314_contour_end(), -1); }, "Call mcx314_contour_begin and mcx314_contour_line first"},
+    {"mcx314_pattern_begin", [] { MCX314_PATTERN p = {0, 8001, 0, 0}; EXPECT_EQ(mcx314_pattern_begin(&p, x + y), -1); }, "1 to 8000"},
+    {"mcx314_pattern_start", [] { EXPECT_EQ(mcx314_pattern_start(), -1); }, "Call mcx314_pattern_begin and mcx314_pattern_steps first"},
+    {"mcx314_pattern_end", [] { EXPECT_EQ(mcx314_pattern_end(), -1); }, "Call mcx314_pattern_begin first"},
     {"mcx314_pattern_begin", [] { EXPECT_EQ(mcx314_pattern_begin(nullptr, x + y), -1); }, "null pointer"},
     {"mcx314_pattern_steps", [] { MCX314_STEPS s = {{65'536, 0, 0}, {0, 0, 0}}; EXPECT_EQ(mcx314_pattern_steps(&s), -1); }, "0 to 65535"},
     {"mcx314_peek", [] { std::int64_t v = 0; EXPECT_EQ(mcx314_peek("x.WR9", &v), -1); }, "x.WR9"},
@@ -222,8 +246,17 @@ TEST(Mcx314lib, WhatIsRefusedTellsTheRangeAndWritesNothing) {
         row.call();
         EXPECT_THAT(mcx314_last_error(), testing::StartsWith(std::string(row.function) + ": "));
         EXPECT_THAT(mcx314_last_error(), HasSubstr(row.told)) << row.function;
+        EXPECT_THAT(mcx314_last_error(), testing::Not(testing::ContainsRegex("Cont[A-Z]|BP[23]D|BPS|BPE"))) << "names of the C++ library";
         EXPECT_EQ(written(), before) << row.function;
     }
+}
+
+/// Of the functions of the header, those that take nothing wrong, and those that bench_test.cpp refuses.
+TEST(Mcx314lib, EveryFunctionThatCanBeRefusedIsAmongThese) {
+    std::set<std::string> left = declared_functions();
+    for (const Refused& row : refusals) left.erase(row.function);
+    EXPECT_THAT(left, testing::UnorderedElementsAre("AutoDec", "RESET", "mcx314_open", "mcx314_select", "mcx314_close", "mcx314_last_error",
+                                                    "mcx314_clear_error", "mcx314_on_error", "mcx314_now_us"));
 }
 
 }  // namespace
