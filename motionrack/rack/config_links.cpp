@@ -78,7 +78,7 @@ class LinkResolver {
         if (channel < 0) {
             error({step_name}, fmt::format("{} cannot be driven by {}: a motor follows the pulse output of a channel, "
                                            "such as {}. Write one of those, or \"open\".",
-                                           step_name, name(step->from), name(own_pin(axis, "step"))));
+                                           step_name, name(step->from), own_pin(axis, "step")));
             return;
         }
         const PulseLink link{axis, step->from.index, channel};
@@ -104,13 +104,13 @@ class LinkResolver {
         config_.pulse_links.push_back(link);
     }
 
-    /// An example: the pin of the axis' own channel.
-    WireEnd own_pin(int axis, std::string_view end) const {
+    /// An example: the pin of the axis' own channel, of the first one if the file names none that there is.
+    std::string own_pin(int axis, std::string_view end) const {
         const RackAxis& own = config_.axes[static_cast<std::size_t>(axis)];
         for (std::size_t i = 0; i < config_.cards.size(); ++i)
-            if (config_.cards[i].name == own.card)
-                return pin_of(static_cast<int>(i), channel_index(config_, own), end);
-        return {};
+            if (config_.cards[i].name == own.card && !type_of(static_cast<int>(i)).channels.empty())
+                return name(pin_of(static_cast<int>(i), std::max(0, channel_index(config_, own)), end));
+        return "CARD.PIN";
     }
 
     // ---- Encoder tracks ----
@@ -124,8 +124,8 @@ class LinkResolver {
             error({name(wire.to)}, fmt::format("{} cannot be driven by {}: the tracks of an encoder lead to the "
                                                "encoder inputs of a channel, such as {} and {}.",
                                                name(wire.to), name(wire.from),
-                                               name(own_pin(wire.from.index, "enc_a")),
-                                               name(own_pin(wire.from.index, "enc_b"))));
+                                               own_pin(wire.from.index, "enc_a"),
+                                               own_pin(wire.from.index, "enc_b")));
             return;
         }
         const WireEnd other = pin_of(wire.to.index, channel, at_a ? "enc_b" : "enc_a");

@@ -63,6 +63,15 @@ TEST(Links, RefusesWhatCannotBeObeyedBeforeAnythingMoves) {
     }
 }
 
+TEST(Links, AnAxisWithoutItsChannelOrCardIsAnExampleOfTheFirstOne) {
+    const RackReading no_channel = read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\n[wires]\nX.step = \"m.xout0\"\n");
+    EXPECT_FALSE(no_channel.config);
+    EXPECT_THAT(all_texts(no_channel.errors), HasSubstr("such as m.xpp"));
+    const RackReading no_card = read_rack_text("[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[wires]\nX.step = \"X.enc_z\"\n");
+    EXPECT_FALSE(no_card.config);
+    EXPECT_THAT(all_texts(no_card.errors), HasSubstr("does not have"));
+}
+
 TEST(Links, OneChannelTurnsOneMotor) {
     const RackReading reading =
         read_rack_text(rack_with(second_axis + "[wires]\nX.step = \"m.upp\"\nX.dir = \"m.upm\"\n"));
