@@ -73,7 +73,7 @@ Result<void> Driver::add_to_chain(const char* who, const Piece& piece, std::int6
     if (chain_.kept_back) {
         MOTIONRACK_CHECK(give_kept_back(false, timeout));
     } else {
-        MOTIONRACK_CHECK(check_standing(piece.axes, who));
+        MOTIONRACK_CHECK(check_free(piece.axes, who));
         chain_.generator = generator;
     }
     chain_.kept_back = piece;
@@ -87,7 +87,8 @@ Result<void> Driver::give_kept_back(bool last, Duration timeout) {
     const unsigned own = 1u << generator;
     Piece piece = *chain_.kept_back;
     if (!chain_.running) {
-        MOTIONRACK_CHECK(check_standing(piece.axes, "ContLine"));
+        MOTIONRACK_CHECK(check_free(piece.axes, "ContLine"));
+        if (pattern_.axes != 0) close_pattern();
         if (chain_.kept_back_v != 0) chain_.speeds.V = chain_.kept_back_v;
         const bool ramps = chain_.speeds.kind == Curve::t;
         const CurveData curve = curve_of(generator, chain_.speeds, basic_pulses(piece));

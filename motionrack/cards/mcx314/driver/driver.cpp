@@ -107,8 +107,8 @@ Result<void> Driver::check_switch(const char* who, int n, int greatest, const ch
                 fmt::format("{}: n is {}, but it is 0 to {} ({}). Nothing was written.", who, n, greatest, meanings));
 }
 
-Result<void> Driver::check_standing(unsigned axes, const char* who) {
-    const unsigned busy = field("RR0", "DRV").get(status().word) & axes;
+Result<void> Driver::check_standing(unsigned axes, const char* who, MainStatus main) {
+    const unsigned busy = field("RR0", "DRV").get(main.word) & axes;
     if (busy == 0) return {};
     return fail(Trouble::refused,
                 fmt::format("{}: {} {} driving. Nothing was written. Wait for the end of the drive, or stop it first.",

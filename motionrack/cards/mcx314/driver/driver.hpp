@@ -102,7 +102,8 @@ class Driver {
     Result<void> SetC(unsigned axes, std::int64_t centre) { return SetCP(axes, centre); }
     Result<void> SetFP(unsigned axes, std::int64_t finish);  ///< finish point of lines and arcs, relative to the start
     Result<void> SetP(unsigned axes, std::int64_t finish) { return SetFP(axes, finish); }
-    /// Lines: C constant speed, T trapezoid, S S-curve. Speeds are those of the longest axis.
+    /// Lines: C constant speed, T trapezoid, S S-curve. Speeds are those of the longest axis. Lines, arcs, chains and
+    /// patterns are refused while an interpolation runs, of whatever axes; they end a chain or a pattern left open.
     Result<void> Line2D_C(const LINEDATA& data, unsigned axes);
     Result<void> Line2D_T(const LINEDATA& data, unsigned axes);
     Result<void> Line2D_S(const LINEDATA& data, unsigned axes);
@@ -124,7 +125,8 @@ class Driver {
     /// 1.732 times. 1: off, 2: two axes, 3: three axes.
     Result<void> SetVectorSpeed(int axes_count);
     /// Speed of every axis, pulses a second, signed, also in interpolations that this library started: the mean over
-    /// some pulses. Refused where the interpolation was started by Line() or Arc(), or LPS() has moved its counters.
+    /// some pulses. Refused in a bit pattern, and where the interpolation was started by Line() or Arc(), or LPS() has
+    /// moved its counters.
     Result<std::array<double, 4>> axis_speeds();
 
     /// The bare registers: AX1, AX2 (, AX3) channels; constant vector speed of two axes; interrupt at each joint.
@@ -312,8 +314,10 @@ class Driver {
     static Result<void> check(unsigned axes, const Parameter& parameter, std::int64_t value);
     static Result<void> check_switch(const char* who, int n, int greatest, const char* meanings);
     static Result<void> check_speeds(unsigned axes, const Speeds& speeds);
-    Result<void> check_standing(unsigned axes, const char* who);
-    Result<void> check_no_path(const char* who);
+    static Result<void> check_standing(unsigned axes, const char* who, MainStatus main);
+    Result<void> check_standing(unsigned axes, const char* who) { return check_standing(axes, who, status()); }
+    static Result<void> check_no_path(const char* who, MainStatus main);
+    Result<void> check_free(unsigned axes, const char* who);
     Result<void> check_initialised(unsigned axes, const char* who) const;
     Result<void> check_piece(const char* who, const Piece& piece) const;
     Result<void> check_chain_speed(int axis, std::int64_t v) const;
@@ -351,6 +355,7 @@ class Driver {
     Result<void> wait_for_joint(Duration timeout, bool may_end = false);
     Result<void> begin_pattern(const char* who, const BPDATA& data, unsigned axes, int count);
     void close_pattern();
+    void abandon_path();
     std::array<double, 4> shares(const Piece& piece);
     double mean_range(const Piece& piece, int generator, const std::array<double, 4>& share) const;
 

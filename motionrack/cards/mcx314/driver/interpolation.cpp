@@ -234,7 +234,8 @@ Result<void> Driver::start_piece(const char* who, Piece piece, const Speeds& spe
     else if (speeds.kind != Curve::constant && (piece.arc || curve.asymmetric)) {
         MOTIONRACK_TRY(point, best_dec_point(curve));
     }
-    MOTIONRACK_CHECK(check_standing(piece.axes, who));
+    MOTIONRACK_CHECK(check_free(piece.axes, who));
+    abandon_path();
     own_range_again(own);
     put_speeds(own, speeds);
     put_deceleration(first, point, curve.asymmetric, speeds.kind == Curve::s);

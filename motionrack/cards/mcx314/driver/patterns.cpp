@@ -37,7 +37,8 @@ Result<void> Driver::begin_pattern(const char* who, const BPDATA& data, unsigned
     MOTIONRACK_CHECK(check_speeds(own, speeds));
     if (data.A != 0) MOTIONRACK_CHECK(check(own, param::DP, data.DecPoint));
     MOTIONRACK_CHECK(check_initialised(own, who));
-    MOTIONRACK_CHECK(check_standing(axes, who));
+    MOTIONRACK_CHECK(check_free(axes, who));
+    abandon_path();
     own_range_again(own);
     put_speeds(own, speeds);
     put_deceleration(first, data.A != 0 ? std::optional(data.DecPoint) : std::nullopt, false, false);
@@ -115,6 +116,12 @@ Result<void> Driver::BPEnd(Duration timeout) {
     return wait_until_done(axes, timeout);
 }
 
+/// A chain or a pattern that is open but does not run any more.
+void Driver::abandon_path() {
+    chain_ = {};
+    if (pattern_.axes != 0) close_pattern();
+}
+
 void Driver::close_pattern() {
     command(0, cmd::BP_DISABLE);
     pattern_ = {};
@@ -124,7 +131,7 @@ void Driver::close_pattern() {
 // ------------------------------------------------------------------------------------------------------------
 
 Result<void> Driver::SetStep(StepBy by) {
-    MOTIONRACK_CHECK(check_no_path("SetStep"));
+    MOTIONRACK_CHECK(check_no_path("SetStep", status()));
     const unsigned word = field("WR5", "CMPLS").set(path_mode_, by == StepBy::command);
     write_path_mode(field("WR5", "EXPLS").set(word, by == StepBy::wire));
     return {};
@@ -140,8 +147,15 @@ Result<void> Driver::Step() {
     return {};
 }
 
-Result<void> Driver::check_no_path(const char* who) {
-    if (!status().interpolating()) return {};
+/// The chip has one interpolator: what is given while it runs would be queued, or change what runs.
+Result<void> Driver::check_free(unsigned axes, const char* who) {
+    const MainStatus main = status();
+    MOTIONRACK_CHECK(check_standing(axes, who, main));
+    return check_no_path(who, main);
+}
+
+Result<void> Driver::check_no_path(const char* who, MainStatus main) {
+    if (!main.interpolating()) return {};
     return fail(
         Trouble::refused,
         fmt::format("{}: an interpolation runs. Nothing was written. Wait for its end, or stop it first.", who));

@@ -126,7 +126,8 @@ Result<std::array<double, 4>> Driver::axis_speeds() {
         if (piece.axes == 0)
             return fail(
                 Trouble::refused,
-                "axis_speeds: the interpolation was started by bare commands, so its axes' shares are not known.");
+                "axis_speeds: the shares of the axes are not known: a bit pattern runs, the interpolation was started by "
+                "bare commands, or LPS moved a counter since. Nothing was read.");
         const int generator = chain_.running ? chain_.generator : channels_of(piece.axes).channel[0];
         const std::int64_t basic = ReadCV(generator);
         const std::array<double, 4> share = shares(piece);

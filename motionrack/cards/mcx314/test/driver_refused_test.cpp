@@ -306,6 +306,16 @@ TEST_F(Refused, WhatADrivingAxisCannotDo) {
     for (const auto& call : calls) expect_refused(call(driver_), "X is driving");
 }
 
+TEST_F(Refused, AnInterpolationBesideAnother) {
+    EXPECT_TRUE(driver_.SetMultiple(xyzu, 10));
+    EXPECT_TRUE(driver_.ContStart({0, 100, 0, 0}));
+    forbid_writing(0x0103);  // X and Y are interpolated
+    expect_refused(driver_.Line2D_T({1, 100, 5, 0, 0, {0, 0, 9, 9}}, 0xC), "an interpolation runs");
+    expect_refused(driver_.CircleCW_C({0, 100, 0, 0, {0, 0, 10, 0}, {0, 0, 5, 0}}, 0xC), "an interpolation runs");
+    expect_refused(driver_.BP2D({0, 100, 0, 0}, 0xC), "an interpolation runs");
+    expect_refused(driver_.ContLine(0xC, {0, 0, 9, 9}), "an interpolation runs");
+}
+
 TEST_F(Refused, ChangesOfAnAxisThatStands) {
     set_up();
     forbid_writing();
