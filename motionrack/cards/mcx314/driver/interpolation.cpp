@@ -53,7 +53,10 @@ void Driver::SetInterpolationAxes(int first, int second, int third, bool constan
 }
 
 Result<void> Driver::Line(const Finish* ends, int count) {
-    for (int i = 0; i < count; ++i) MOTIONRACK_CHECK(check(1u << ends[i].axis, param::finish, ends[i].pulses));
+    for (int i = 0; i < count; ++i) {
+        MOTIONRACK_CHECK(check_channel(ends[i].axis, "Line"));
+        MOTIONRACK_CHECK(check(1u << ends[i].axis, param::finish, ends[i].pulses));
+    }
     for (int i = 0; i < count; ++i) put(1u << ends[i].axis, param::finish, ends[i].pulses);
     pieces_ = {};
     command(0, count == 3 ? cmd::LINE3 : cmd::LINE2);
@@ -62,6 +65,7 @@ Result<void> Driver::Line(const Finish* ends, int count) {
 
 Result<void> Driver::Arc(const Finish (&ends)[2], bool clockwise) {
     for (const Finish& end : ends) {
+        MOTIONRACK_CHECK(check_channel(end.axis, "Arc"));
         MOTIONRACK_CHECK(check(1u << end.axis, param::finish, end.pulses));
         MOTIONRACK_CHECK(check(1u << end.axis, param::C, end.centre));
     }

@@ -137,6 +137,9 @@ TEST_F(Refused, AxesThatDoNotExist) {
     for (const int axis : {-1, 4, 32, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()}) {
         const std::string told = "the axis is " + std::to_string(axis) + ", but it is one of 0 X, 1 Y, 2 Z, 3 U";
         expect_refused(driver_.change_pulses(axis, 100), told);
+        const Finish ends[] = {{0, 1, 1}, {axis, 1, 1}};
+        expect_refused(driver_.Line(ends, 2), told);
+        expect_refused(driver_.Arc(ends, false), told);
         const std::int64_t away[] = {1};
         expect_refused(home(driver_, axis, {}), told);
         expect_refused(repeat_home(driver_, axis, {}, 1, away), told);
