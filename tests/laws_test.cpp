@@ -57,7 +57,8 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"databoard4002/map", {"base"}},
     {"databoard4002/model", {"base", "sim", "databoard4002/map"}},
     {"databoard4002/driver", {"base", "databoard4002/map"}},
-    {"rack", {"base", "sim", "parts", "control", "trace", "mcx314/map", "mcx314/chip", "mcx314/driver", "mcx314/axes"}},
+    {"rack", {"base", "sim", "parts", "control", "trace", "mcx314/map", "mcx314/chip", "mcx314/driver", "mcx314/axes",
+              "databoard4002/map", "databoard4002/model"}},
     {"frontends", {"base", "live", "control", "trace", "rack", "c.h"}},
     {"mcx314lib", {"base", "rack", "mcx314/map", "mcx314/driver"}},
 };

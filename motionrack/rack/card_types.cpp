@@ -1,4 +1,6 @@
 // The table of card types.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <motionrack/rack/card_types.hpp>
@@ -99,9 +101,73 @@ void* mcx314_of(RackCard& card) {
     return &card.mcx314;
 }
 
-constexpr std::array<CardType, 1> table = {{
+// ---- databoard4002 ----------------------------------------------------------------------------------------------
+
+constexpr std::array<PinType, 13> databoard4002_pins = {{
+    {"o1", input, "encoder track A, or down pulses"},
+    {"o2", input, "encoder track B, or up pulses"},
+    {"zero", input, "zero pulse of the encoder"},
+    {"ref", input, "reference; high is active"},
+    {"ems", input, "emergency stop; high is active"},
+    {"esr", input, "end stop right; high is active"},
+    {"esl", input, "end stop left; high is active"},
+    {"vout", output, "analog output behind the relay, V", 1e-6},
+    {"sign", output, "direction, high is +"},
+    {"fout", output, "speed as a frequency"},
+    {"relay", output, "high while the analog output is connected"},
+    {"rst", output, "pulse of 10 us at a reset of the card"},
+    {"int", output, "interrupt, active high"},
+}};
+
+constexpr std::array<std::string_view, 4> databoard4002_countings = {"quadrature x4", "quadrature x2", "quadrature x1",
+                                                                      "up/down"};
+
+constexpr std::array<Field, 9> databoard4002_settings = {
+    field<&Databoard4002Settings::select>("select", 0, 31, "", "its number on the bus, written to port 1 before it answers"),
+    with_choices(field<&Databoard4002Settings::counting>("counting", 0, 0, "", "how the straps let O1 and O2 be counted"),
+                 databoard4002_countings),
+    field<&Databoard4002Settings::first_pair>("first_pair", 0, 3, "",
+                                              "the first strap pair: 0 A-B, 1 C-D, 2 E-F, 3 G-H; x2 has 0 and 1, x4 only 0"),
+    field<&Databoard4002Settings::single_ended>("single_ended", 0, 0, "", "encoder lines up to 50 kHz instead of 100 kHz"),
+    field<&Databoard4002Settings::zeroing>("zeroing", 0, 0, "",
+                                           "enabling the zero or reference event arms the zeroing of the counter"),
+    field<&Databoard4002Settings::version>("version", 0, 255, "", "version of the card's program, as the command V tells it"),
+    field<&Databoard4002Settings::pass_ticks>("pass_ticks", 1, 4'000, "", "ticks of 2.5 us in a pass of the card's program"),
+    field<&Databoard4002Settings::byte_time_ns>("byte_time_ns", 2'500, 100'000'000, "ns",
+                                                "time that the card's program takes for an access"),
+    field<&Databoard4002Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns", "time that one access of the host takes"),
+};
+
+double none_of(const RackCard&) {
+    return 0;
+}
+
+void* databoard4002_of(RackCard& card) {
+    return &card.databoard4002;
+}
+
+std::optional<CardFlaw> databoard4002_flaw(const RackCard& card, std::span<const RackCard> before) {
+    const Databoard4002Settings& own = card.databoard4002;
+    for (const RackCard& other : before)
+        if (other.type == card.type && other.databoard4002.select == own.select)
+            return CardFlaw{"select", fmt::format("Cards {} and {} are on one bus and have both the number {}; give one of them another "
+                                                  "`select` (0 .. 31).", other.name, card.name, own.select)};
+    const std::int64_t most = own.counting == Databoard4002Counting::quadrature_2 ? 1
+                              : own.counting == Databoard4002Counting::quadrature_1 ? 3 : 0;
+    if (own.first_pair <= most) return std::nullopt;
+    return CardFlaw{"first_pair", fmt::format("Card {} has the first strap pair {}, but counted as \"{}\" it is {}.", card.name, own.first_pair,
+                                              databoard4002_countings[static_cast<std::size_t>(own.counting)],
+                                              most == 0 ? "0" : fmt::format("0 .. {}", most))};
+}
+
+constexpr std::array<CardType, 2> table = {{
     {"mcx314", "four-axis pulse chip with interpolation", "xyzu", mcx314_channel_pins, mcx314_chip_pins, mcx314_wires,
      "emgn", mcx314_settings, mcx314_of, mcx314_pulse_hz, mcx314_accel_hz_s, mcx314_encoder_hz},
+    {"databoard4002",
+     "intelligent positioning card for one axis; without more in the rack file an ideal motor follows its pulses, one "
+     "count each",
+     "", {}, databoard4002_pins, {}, "", databoard4002_settings, databoard4002_of, none_of, none_of, none_of,
+     databoard4002_flaw},
 }};
 
 }  // namespace
@@ -120,10 +186,10 @@ std::vector<Pin> pins_of(const CardType& type) {
     std::vector<Pin> out;
     for (std::size_t channel = 0; channel < type.channels.size(); ++channel) {
         for (const PinType& pin : type.channel_pins) {
-            out.push_back({type.channels[channel] + std::string(pin.name), pin.direction, static_cast<int>(channel)});
+            out.push_back({type.channels[channel] + std::string(pin.name), pin.direction, static_cast<int>(channel), pin.volts});
         }
     }
-    for (const PinType& pin : type.chip_pins) out.push_back({std::string(pin.name), pin.direction, -1});
+    for (const PinType& pin : type.chip_pins) out.push_back({std::string(pin.name), pin.direction, -1, pin.volts});
     return out;
 }
 

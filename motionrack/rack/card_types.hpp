@@ -3,6 +3,7 @@
 
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/toml_reader.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@ struct PinType {
     std::string_view name;
     PinDirection direction;
     std::string_view doc;
+    double volts = 0;  ///< of an analog pin: V for one unit of its wire's level; 0: a digital pin
 };
 
 /// A wire that is there unless the rack file says otherwise: pin `pin` of the axis' channel, end `end` of the axis
@@ -26,20 +28,28 @@ struct DefaultWire {
     std::string_view end;
 };
 
+/// What is wrong between the settings of a card and others: the key to blame and a sentence.
+struct CardFlaw {
+    std::string_view key;
+    std::string text;
+};
+
 /// What the rack file may say about one kind of card.
 struct CardType {
     std::string_view name;
     std::string_view doc;
-    std::string_view channels;  ///< a letter for each axis channel
+    std::string_view channels;  ///< a letter for each axis channel; empty: no axis of the rack file can be on it
     std::span<const PinType> channel_pins;
     std::span<const PinType> chip_pins;
     std::span<const DefaultWire> default_wires;
-    std::string_view estop_pin;                 ///< the chip pin that the emergency stop drives
+    std::string_view estop_pin;                 ///< the chip pin that the emergency stop drives; empty: none
     std::span<const Field> settings;            ///< keys of [card.NAME] that only this type has
     void* (*settings_of)(RackCard& card);       ///< the object that `settings` are read into
     double (*max_pulse_hz)(const RackCard&);    ///< fastest pulse output
     double (*max_accel_hz_s)(const RackCard&);  ///< fastest change of the pulse rate
     double (*max_encoder_hz)(const RackCard&);  ///< most counts a second that an encoder input can follow
+    /// What no single key can tell; `before`: the cards before it in the file. May be nullptr.
+    std::optional<CardFlaw> (*flaw)(const RackCard& card, std::span<const RackCard> before) = nullptr;
 };
 
 /// All card types, in the order of the reference page.
@@ -52,7 +62,8 @@ const CardType* find_card_type(std::string_view name);
 struct Pin {
     std::string name;
     PinDirection direction;
-    int channel;  ///< index into `channels`, -1 for the chip's own
+    int channel;   ///< index into `channels`, -1 for the chip's own
+    double volts;  ///< see PinType
 };
 std::vector<Pin> pins_of(const CardType& type);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <motionrack/cards/databoard4002/map.hpp>
 #include <motionrack/cards/mcx314/axes/axes.hpp>
 #include <motionrack/cards/mcx314/axes/single_axis.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
@@ -57,7 +58,8 @@ class Mcx314Card final : public Card {
     sim::Motion& pulses(int channel) override { return chip_.pulses(channel); }
     void connect_encoder(int channel, sim::Motion& counts) override { chip_.connect_encoder(channel, counts); }
     void take_encoder(int channel, bool taken) override { chip_.take_encoder(channel, taken); }
-    sim::VirtualPort& port() override { return port_; }
+    sim::VirtualHost& host() override { return port_; }
+    sim::VirtualPort* port() override { return &port_; }
 
     Result<control::PathAxes*> path_axes(const RackConfig& config, const control::Point& position) override {
         single_ = {};
@@ -154,13 +156,14 @@ Result<std::int64_t> Mcx314Card::inspect(std::string_view name) const {
                             fmt::join(mcx314::Chip::inspected_names(true), ", ")));
 }
 
-template <class T>
-std::unique_ptr<Card> make(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log) {
-    return std::make_unique<T>(kernel, config, log);
+std::unique_ptr<Card> make_mcx314(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
+                                  std::span<const std::unique_ptr<Card>>) {
+    return std::make_unique<Mcx314Card>(kernel, config, log);
 }
 
 constexpr CardKind kinds[] = {
-    {"mcx314", &mcx314::card_map, &make<Mcx314Card>, &view_mcx314},
+    {"mcx314", &mcx314::card_map, &make_mcx314, &view_mcx314},
+    {"databoard4002", &databoard4002::card_map, &make_databoard4002},
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/register_device.hpp>
 #include <motionrack/sim/virtual_port.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,7 +28,7 @@ class Card {
     virtual sim::DeviceId device() const = 0;
     virtual const CardMap& map() const = 0;
     /// Registers as the host sees them; nullptr if the card has none.
-    virtual sim::RegisterDevice* registers() = 0;
+    virtual sim::RegisterDevice* registers() { return nullptr; }
     /// Widths in bits (8, 16, 32) of the accesses that the card's bus makes.
     virtual std::span<const int> bus_widths() const = 0;
     /// One access of the host, of one of these widths and at an address that the map declares; it takes the bus its time.
@@ -46,8 +47,15 @@ class Card {
     /// Cuts the connected encoder of a channel off and forces its inputs to the levels that it has (`taken`), or releases
     /// them and puts it back. In between what the inputs are forced to counts.
     virtual void take_encoder(int channel, bool taken) = 0;
-    /// The bus with its interrupt line.
-    virtual sim::VirtualPort& port() = 0;
+    /// The two inputs of an encoder that turns with `pulses(0)` although no rack file says so; empty: there is none.
+    virtual std::span<const std::string_view> ideal_encoder() const { return {}; }
+    /// A number of the card's own by its name ("fout_hz"), if it has one of that name.
+    virtual std::optional<double> quantity(std::string_view) const { return std::nullopt; }
+    virtual std::vector<std::string_view> quantity_names() const { return {}; }
+    /// The host's side: time and the interrupt line.
+    virtual sim::VirtualHost& host() = 0;
+    /// Its bus of 16-bit registers; nullptr if it has none.
+    virtual sim::VirtualPort* port() { return nullptr; }
     /// The card's axes as a group that follows paths, set up at `position`; `channel[i]` moves axis i of the rack.
     virtual Result<control::PathAxes*> path_axes(const RackConfig& config, const control::Point& position) = 0;
     /// One axis of the rack that this card moves, by itself; its position is not trusted at first. Takes the card from path_axes(), and
@@ -71,10 +79,15 @@ class Card {
 struct CardKind {
     std::string_view type;          ///< as a rack file calls it
     const CardMap& (*map)();        ///< its registers, commands, states and pins
-    std::unique_ptr<Card> (*make)(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log);
+    /// `before`: the cards of the rack that there are already; cards of some kinds share a bus.
+    std::unique_ptr<Card> (*make)(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
+                                  std::span<const std::unique_ptr<Card>> before);
     /// Reads its registers through a port, of a virtual or a real card; nullptr if nobody has said how.
     RegisterView (*view)(RegisterPort& port, bool clearing) = nullptr;
 };
+
+std::unique_ptr<Card> make_databoard4002(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
+                                         std::span<const std::unique_ptr<Card>> before);
 
 std::span<const CardKind> card_kinds();
 /// nullptr if there is no such kind.

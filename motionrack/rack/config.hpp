@@ -38,12 +38,29 @@ struct Mcx314Settings {
     std::int64_t bus_access_ns = 250;    ///< 0 .. 100,000 ns for an access
 };
 
+/// How O1 and O2 of a DataBoard 4002 are counted, and how often in a period of the encoder.
+enum class Databoard4002Counting : std::uint8_t { quadrature_4, quadrature_2, quadrature_1, up_down };
+
+/// Settings of a card of type databoard4002: straps, the version of its program, its place on the bus.
+struct Databoard4002Settings {
+    std::int64_t select = 13;                                                ///< 0 .. 31: its number on the bus of all such cards
+    Databoard4002Counting counting = Databoard4002Counting::quadrature_4;
+    std::int64_t first_pair = 0;                                             ///< 0 .. 3: strap pair A-B, C-D, E-F, G-H
+    bool single_ended = false;                                               ///< encoder lines up to 50 kHz instead of 100 kHz
+    bool zeroing = true;                                                     ///< enabling the zero or reference event arms the zeroing
+    std::int64_t version = 32;                                               ///< 0 .. 255: what the command V answers
+    std::int64_t pass_ticks = 1;                                             ///< 1 .. 4,000 ticks of 2.5 us
+    std::int64_t byte_time_ns = 100'000;                                     ///< 2,500 .. 100,000,000 ns
+    std::int64_t bus_access_ns = 1'000;                                      ///< 0 .. 100,000 ns
+};
+
 /// One card; only the settings of its own type mean something. Defaults of the members are the rack file's defaults.
 struct RackCard {
     std::string name;             ///< as the wires call it: letters, digits, '_'
     std::string type = "mcx314";  ///< a name in card_types()
     std::optional<int> slot;      ///< 0 .. 20; always set by read_rack (the lowest free slot if the file says none)
     Mcx314Settings mcx314;
+    Databoard4002Settings databoard4002;
 };
 
 // ---- Axes -------------------------------------------------------------------------------------------------------

@@ -43,7 +43,7 @@ class AxisCheck {
         homing();
         motor();
         if (const RackCard* card = config_.card(axis_.card)) {
-            if (const CardType* type = find_card_type(card->type)) chip(*card, *type);
+            if (const CardType* type = find_card_type(card->type); type != nullptr && !type->channels.empty()) chip(*card, *type);
         }
     }
 
@@ -62,6 +62,12 @@ class AxisCheck {
         }
         const CardType* type = find_card_type(card->type);
         if (type == nullptr || !source_.sound({"channel"})) return;
+        if (type->channels.empty()) {
+            error("card", {},
+                  fmt::format("Axis {} names the card {}, but a {} has no channels for axes.", axis_.letter,
+                              in_quotes(axis_.card), type->name));
+            return;
+        }
         if (channel_index(config_, axis_) < 0) {
             error("channel", {},
                   fmt::format("Axis {} names the channel {}; a card of type {} has the channels {}.", axis_.letter,

@@ -77,6 +77,7 @@ class RackReader {
         }
         for (const TomlNode& node : cards->children) read_card(node);
         give_slots(*cards);
+        check_cards(*cards);
     }
 
     void read_card(const TomlNode& node) {
@@ -142,6 +143,15 @@ class RackReader {
             problems_.error(node.key_place,
                             fmt::format("A card cannot be called {}: wires use that name for {}; choose another.", name,
                                         name == "estop" ? "the emergency stop" : "an axis"));
+        }
+    }
+
+    void check_cards(const TomlNode& cards) {
+        for (std::size_t i = 0; i < config_.cards.size(); ++i) {
+            const CardType* type = find_card_type(config_.cards[i].type);
+            if (type == nullptr || type->flaw == nullptr) continue;
+            const auto flaw = type->flaw(config_.cards[i], std::span(config_.cards).first(i));
+            if (flaw) problems_.error(cards.children[i].place_of(flaw->key), flaw->text);
         }
     }
 

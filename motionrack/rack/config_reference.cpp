@@ -33,7 +33,9 @@ std::string rows(std::span<const Field> fields, const void* linear, const void* 
 
 std::string card_type_text(const CardType& type) {
     RackCard defaults;
-    std::string out = fmt::format("### {}\n{}. Channels: {}.\n\n", type.name, type.doc, fmt::join(type.channels, " "));
+    std::string out = fmt::format("### {}\n{}. {}.\n\n", type.name, type.doc,
+                                  type.channels.empty() ? "It has no channels for axes"
+                                                        : fmt::format("Channels: {}", fmt::join(type.channels, " ")));
     const void* settings = type.settings_of(defaults);
     if (!type.settings.empty()) out += rows(type.settings, settings, settings);
     out += "| pin | direction | meaning | wired by default to |\n|---|---|---|---|\n";
@@ -49,6 +51,7 @@ std::string card_type_text(const CardType& type) {
         out += fmt::format("| `{}` | {} | {} | {} |\n", pin.name, direction(pin), pin.doc,
                            pin.name == type.estop_pin ? "`estop`" : "-");
     }
+    if (type.channels.empty()) return out + '\n';
     return out + fmt::format(
                      "\nThe first {} pins are those of channel {}; the other channels have the same with their own "
                      "letter in front.\n\n",

@@ -123,7 +123,7 @@ class Homing {
 
     /// Until every axis of the group has ended. One that fails stops the others; so do the time-out and the user.
     void follow(const std::vector<Work*>& group) {
-        sim::VirtualPort& port = group.front()->running->card->port();
+        sim::VirtualHost& port = group.front()->running->card->host();
         const Instant end = port.now() + settings_.timeout;
         Instant next_progress{};
         bool stopped = !out_.ended;
@@ -156,7 +156,7 @@ class Homing {
     void note_end(Work& work) {
         const control::HomeOutcome found = work.axis->home_outcome();
         if (!found.homed && out_.ended)
-            out_.ended = fail(rack_.cards().front()->port().stop_requested() ? Trouble::stopped : Trouble::machine, found.sentence);
+            out_.ended = fail(rack_.cards().front()->host().stop_requested() ? Trouble::stopped : Trouble::machine, found.sentence);
     }
 
     void sample(Work& work) {

@@ -87,6 +87,14 @@ Result<Found> find(Rack& rack, std::string_view name) {
 std::span<const Quantity> quantities() { return table; }
 
 Result<double> get_quantity(Rack& rack, std::string_view name) {
+    const std::size_t dot = std::min(name.find('.'), name.size());
+    if (const Card* card = rack.card(name.substr(0, dot)); card != nullptr && dot < name.size()) {
+        if (const std::optional<double> value = card->quantity(name.substr(dot + 1))) return *value;
+        const auto known = card->quantity_names();
+        return fail(Trouble::bad_input,
+                    fmt::format("Card {} has no quantity {}{}. Nothing was done.", card->name(), in_quotes(name.substr(dot + 1)),
+                                known.empty() ? "" : fmt::format("; it has: {}", fmt::join(known, ", "))));
+    }
     MOTIONRACK_TRY(const Found found, find(rack, name));
     return found.quantity->get(*found.axis, rack.kernel().now());
 }

@@ -25,7 +25,7 @@ void Rack::build_cards() {
     for (const RackCard& card : config_.cards) {
         const CardKind* kind = find_card_kind(card.type);
         MOTIONRACK_ASSERT(kind != nullptr);  // read_rack knows the same types
-        cards_.push_back(kind->make(kernel_, card, log_));
+        cards_.push_back(kind->make(kernel_, card, log_, cards_));
     }
 }
 
@@ -112,11 +112,11 @@ Result<control::PathAxes*> Rack::path_axes() {
 }
 
 void Rack::on_slice(Duration slice, std::function<void()> call) {
-    for (const auto& card : cards_) card->port().on_slice(slice, call);
+    for (const auto& card : cards_) card->host().on_slice(slice, call);
 }
 
 void Rack::set_stop_flag(const std::atomic<bool>* stop) {
-    for (const auto& card : cards_) card->port().set_stop_flag(stop);
+    for (const auto& card : cards_) card->host().set_stop_flag(stop);
 }
 
 control::Point Rack::start_position() const {

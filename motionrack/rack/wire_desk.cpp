@@ -9,17 +9,19 @@
 namespace motionrack::rack {
 
 WireDesk::WireDesk(Rack& rack) : rack_(rack) {
-    wires_["estop"] = {Kind::plain, rack_.kernel().find_wire("estop"), -1, 0, {}};
+    wires_["estop"] = {Kind::plain, rack_.kernel().find_wire("estop"), -1, 0, 1, {}};
     add_cards();
     add_axes();
     add_encoders();
+    add_ideal_encoders();
 }
 
 void WireDesk::add_cards() {
     for (const RackCard& card : rack_.config().cards)
         for (const Pin& pin : pins_of(*find_card_type(card.type))) {
             const std::string name = card.name + "." + pin.name;
-            Wire wire{Kind::plain, rack_.kernel().find_wire(name), -1, 0, {}};
+            Wire wire{Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, {}};
+            if (pin.volts > 0) wire.unit = pin.volts;
             if (pin.direction == PinDirection::output)
                 wire.refused = fmt::format("{} is an output of the card; inputs, switches and the emergency stop can be driven", name);
             wires_[name] = std::move(wire);
@@ -32,7 +34,7 @@ void WireDesk::add_axes() {
         for (const AxisEnd& end : axis_ends()) {
             if (!end.present(config.axes[i])) continue;
             const std::string name = fmt::format("{}.{}", config.axes[i].letter, end.name);
-            Wire wire{Kind::plain, rack_.kernel().find_wire(name), static_cast<int>(i), 0, {}};
+            Wire wire{Kind::plain, rack_.kernel().find_wire(name), static_cast<int>(i), 0, 1, {}};
             if (end.name == "enc_a" || end.name == "enc_b") {
                 wire.kind = Kind::track;
                 wire.which = end.name == "enc_b";
@@ -84,8 +86,25 @@ tl::unexpected<Error> WireDesk::unknown(std::string_view name) const {
                             in_quotes(name), hint.empty() ? "." : hint));
 }
 
+void WireDesk::add_ideal_encoders() {
+    for (std::size_t i = 0; i < rack_.cards().size(); ++i) {
+        const Card& card = *rack_.cards()[i];
+        const auto pins = card.ideal_encoder();
+        if (pins.empty()) continue;
+        encoders_.push_back({{no_axis, static_cast<int>(i), 0, false}, 0});
+        for (std::size_t which = 0; which < pins.size(); ++which) {
+            Wire& wire = wires_[fmt::format("{}.{}", card.name(), pins[which])];
+            wire.kind = Kind::counted;
+            wire.index = static_cast<int>(encoders_.size()) - 1;
+            wire.which = static_cast<int>(which);
+        }
+    }
+}
+
 /// The levels that the encoder shows at the channel (bit 0: A).
 unsigned WireDesk::lines_at(const EncoderInput& input) const {
+    if (input.link.axis == no_axis)
+        return sim::lines_of(rack_.cards()[static_cast<std::size_t>(input.link.card)]->pulses(0).count(rack_.kernel().now()));
     RunningAxis& axis = rack_.axes()[static_cast<std::size_t>(input.link.axis)];
     const std::int64_t count = axis.machine->encoder().count(rack_.kernel().now());
     return sim::lines_of(input.link.swapped ? -count : count);
@@ -103,7 +122,7 @@ Result<double> WireDesk::get(std::string_view name) const {
         const EncoderInput& input = encoders_[static_cast<std::size_t>(wire->index)];
         if (input.driven == 0) return lines_at(input) >> wire->which & 1u;
     }
-    return wire->id == sim::WireId::none ? 0 : kernel.level(wire->id);
+    return wire->id == sim::WireId::none ? 0 : kernel.level(wire->id) * wire->unit;
 }
 
 Result<void> WireDesk::check(std::string_view name, double value) const {

@@ -19,7 +19,7 @@ class WireDesk {
     /// Any time; the rack must outlive it. One desk a rack.
     explicit WireDesk(Rack& rack);
 
-    /// The level of CARD.PIN, NAME.END or estop: 0 or 1. Errors: bad_input if there is no such wire.
+    /// The level of CARD.PIN, NAME.END or estop: 0 or 1, of analog pins V. Errors: bad_input if there is no such wire.
     Result<double> get(std::string_view name) const;
     /// Drives a wire from now on: 0 or 1; NaN releases it. The two inputs of an encoder are taken over together: the
     /// other one holds the level that it had, and the encoder is connected again when both are released. In a started
@@ -44,8 +44,10 @@ class WireDesk {
         sim::WireId id = sim::WireId::none;  ///< plain, counted; pulses: the pin that drives it, if any
         int index = -1;                      ///< counted: of encoders_; track: of the axis
         int which = 0;                       ///< 0: A, 1: B
+        double unit = 1;                     ///< of an analog pin: V for one unit of the level
         std::string refused;                 ///< why it cannot be driven; empty: it can
     };
+    static constexpr int no_axis = -1;  ///< the ideal motor of a card
     /// An encoder at a channel.
     struct EncoderInput {
         EncoderLink link;
@@ -55,6 +57,7 @@ class WireDesk {
     void add_cards();
     void add_axes();
     void add_encoders();
+    void add_ideal_encoders();
     const Wire* find(std::string_view name) const;
     tl::unexpected<Error> unknown(std::string_view name) const;
     unsigned lines_at(const EncoderInput& input) const;

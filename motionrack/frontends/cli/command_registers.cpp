@@ -57,7 +57,7 @@ int virtual_registers(const RegistersOptions& options) {
         if (!options.card.empty() && options.card != card.name()) continue;
         const rack::CardKind* const kind = rack::find_card_kind(config->cards[i].type);
         if (!kind || !kind->view) continue;
-        print(kind->view(card.port(), options.clear), options);
+        print(kind->view(*card.port(), options.clear), options);
         return exit_done;
     }
     print_error(

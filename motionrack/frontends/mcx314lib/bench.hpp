@@ -18,9 +18,9 @@ namespace motionrack::mcx314lib {
 class Chip {
   public:
     Chip(std::shared_ptr<rack::Session> world, rack::Card& on)
-        : session(std::move(world)), card(on), driver(on.port(), on.port()) {}
+        : session(std::move(world)), card(on), driver(*on.port(), *on.port()) {}
 
-    Instant now() const { return card.port().now(); }
+    Instant now() const { return card.host().now(); }
     mcx314::Manual& manual(int channel) { return manuals[static_cast<std::size_t>(channel)]; }
     /// Lets manual operations look; true if one goes on.
     bool step();

@@ -27,7 +27,7 @@ class OneCard {
         command(mcx314::cmd::CONTINUOUS_PLUS);
         port().pass(milliseconds(200));
     }
-    sim::VirtualPort& port() { return rack_.cards()[0]->port(); }
+    sim::VirtualPort& port() { return *rack_.cards()[0]->port(); }
     std::int64_t look(const std::string& name) { return *rack_.cards()[0]->inspect(name); }
     std::size_t conditions() { return rack_.kernel().conditions().size(); }
 

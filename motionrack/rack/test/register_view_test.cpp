@@ -28,7 +28,7 @@ class RegisterViews : public testing::Test {
   protected:
     RegisterViews() : rack_(*read_rack_text(*rack_template("router")).config) {
         rack_.start();
-        RegisterPort& port = rack_.cards()[0]->port();
+        RegisterPort& port = *rack_.cards()[0]->port();
         command(port, mcx314::cmd::R, 800'000);
         command(port, mcx314::cmd::SV, 100);
         command(port, mcx314::cmd::V, 100);
@@ -36,14 +36,14 @@ class RegisterViews : public testing::Test {
         port.write(mcx314::reg::WR0, 0x010F);
         port.write(mcx314::reg::WR1, 0x8000);
         port.write(mcx314::reg::WR0, 0x0121);
-        rack_.cards()[0]->port().pass(whole_seconds(1));
+        rack_.cards()[0]->host().pass(whole_seconds(1));
     }
     static void command(RegisterPort& port, unsigned code, std::uint32_t value) {
         port.write(mcx314::reg::WR7, static_cast<std::uint16_t>(value >> 16));
         port.write(mcx314::reg::WR6, static_cast<std::uint16_t>(value));
         port.write(mcx314::reg::WR0, static_cast<std::uint16_t>(0x0100 | code));
     }
-    RegisterView view(bool clearing) { return find_card_kind("mcx314")->view(rack_.cards()[0]->port(), clearing); }
+    RegisterView view(bool clearing) { return find_card_kind("mcx314")->view(*rack_.cards()[0]->port(), clearing); }
 
     Rack rack_;
 };

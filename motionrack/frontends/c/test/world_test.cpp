@@ -89,7 +89,7 @@ TEST(CWorld, IsTheWorldOfTheCppRack) {
     const auto session = *rack::Session::open(one_card);
     rack::Rack rack(*rack::read_rack_text(one_card).config);
     rack.start();
-    sim::VirtualPort& port = rack.cards()[0]->port();
+    sim::VirtualPort& port = *rack.cards()[0]->port();
     const auto write = [&](std::uint32_t offset, unsigned value) {
         port.write(offset, static_cast<std::uint16_t>(value));
         EXPECT_TRUE(session->write("c1", 16, offset, value));

@@ -1,0 +1,155 @@
+// The DataBoard 4002 in a rack: all of a rack share one bus; an ideal motor follows each card's pulses.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <motionrack/cards/databoard4002/map.hpp>
+#include <motionrack/cards/databoard4002/model/bus.hpp>
+#include <motionrack/cards/databoard4002/model/card.hpp>
+#include <motionrack/rack/catalogue.hpp>
+#include <motionrack/rack/toml_reader.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+namespace db = databoard4002;
+
+db::Settings settings_of(const Databoard4002Settings& s) {
+    struct Straps {
+        db::Counting counting;
+        sim::Edges folding;
+    };
+    constexpr std::array<Straps, 4> straps = {{{db::Counting::quadrature, sim::Edges::all},
+                                               {db::Counting::quadrature, sim::Edges::both_of_a},
+                                               {db::Counting::quadrature, sim::Edges::rising_a},
+                                               {db::Counting::up_down, sim::Edges::all}}};
+    db::Settings out;
+    out.pass_ticks = static_cast<std::int32_t>(s.pass_ticks);
+    out.byte_time = nanoseconds(s.byte_time_ns);
+    out.version = static_cast<std::uint8_t>(s.version);
+    out.zeroing = s.zeroing;
+    out.counting = straps[static_cast<std::size_t>(s.counting)].counting;
+    out.folding = straps[static_cast<std::size_t>(s.counting)].folding;
+    out.first_pair = static_cast<std::int32_t>(s.first_pair);
+    out.single_ended = s.single_ended;
+    return out;
+}
+
+/// A value by its name.
+struct Value {
+    std::string_view name;
+    double (*get)(const db::Card& card);
+};
+
+// What the boundary calls quantities.
+constexpr Value quantities_of_card[] = {
+    {"fout_hz", [](const db::Card& card) { return card.fout_hz(); }},
+    {"position_counts", [](const db::Card& card) { return static_cast<double>(card.position()); }},
+};
+
+// What can be inspected beside the registers.
+constexpr Value inspected[] = {
+    {"POSITION", [](const db::Card& card) { return static_cast<double>(card.position()); }},
+    {"RATE", [](const db::Card& card) { return static_cast<double>(card.output_rate()); }},
+    {"MOVING", [](const db::Card& card) { return card.moving() ? 1.0 : 0.0; }},
+    {"LOCKED", [](const db::Card& card) { return card.locked() ? 1.0 : 0.0; }},
+    {"EVENT", [](const db::Card& card) { return static_cast<double>(card.event_word()); }},
+};
+
+class Databoard4002Card final : public Card {
+  public:
+    Databoard4002Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log, std::shared_ptr<db::Bus> bus)
+        : name_(config.name),
+          card_(kernel, config.name, settings_of(config.databoard4002)),
+          bus_(bus ? std::move(bus) : std::make_shared<db::Bus>(kernel, "databoard")),
+          port_(kernel, *bus_, bus_->id(), bus_->interrupt_wire(), nanoseconds(config.databoard4002.bus_access_ns), &log) {
+        card_.connect_encoder(card_.pulses());
+        bus_->plug(card_, static_cast<std::uint8_t>(config.databoard4002.select));
+    }
+
+    const std::shared_ptr<db::Bus>& bus() const { return bus_; }
+
+    const std::string& name() const override { return name_; }
+    sim::DeviceId device() const override { return card_.id(); }
+    const CardMap& map() const override { return db::card_map(); }
+    std::span<const int> bus_widths() const override {
+        static constexpr int bytes[] = {8};
+        return bytes;
+    }
+    std::uint32_t bus_read(int, std::uint32_t address) override { return port_.in(static_cast<std::uint8_t>(address)); }
+    void bus_write(int, std::uint32_t address, std::uint32_t value) override {
+        port_.out(static_cast<std::uint8_t>(address), static_cast<std::uint8_t>(value));
+    }
+
+    Result<std::int64_t> inspect(std::string_view name) const override {
+        std::vector<std::string_view> known;
+        for (const Value& value : inspected) {
+            if (value.name == name) return static_cast<std::int64_t>(value.get(card_));
+            known.push_back(value.name);
+        }
+        for (const RegisterInfo& reg : map().registers) {
+            if (reg.access == Access::write || !reg.bank.empty()) continue;
+            if (reg.name == name) return card_.peek(static_cast<std::uint8_t>(reg.offset));
+            known.push_back(reg.name);
+        }
+        return fail(Trouble::bad_input, fmt::format("Card {} has no value {}; it has {}. Nothing was done.", name_,
+                                                    in_quotes(name), fmt::join(known, ", ")));
+    }
+    std::optional<double> quantity(std::string_view name) const override {
+        for (const Value& value : quantities_of_card)
+            if (value.name == name) return value.get(card_);
+        return std::nullopt;
+    }
+    std::vector<std::string_view> quantity_names() const override {
+        std::vector<std::string_view> out;
+        for (const Value& value : quantities_of_card) out.push_back(value.name);
+        return out;
+    }
+
+    // It has no channels, so nobody asks for one.
+    int channel_count() const override { return 0; }
+    std::string channel_name(int) const override { return {}; }
+    int channel_number(std::string_view) const override { return -1; }
+    sim::Motion& pulses(int) override { return card_.pulses(); }
+    void connect_encoder(int, sim::Motion&) override {}
+    void take_encoder(int, bool taken) override { card_.take_encoder(taken); }
+    std::span<const std::string_view> ideal_encoder() const override {
+        static constexpr std::string_view pins[] = {"o1", "o2"};
+        return pins;
+    }
+    Result<control::PathAxes*> path_axes(const RackConfig&, const control::Point&) override {
+        return fail(Trouble::refused, fmt::format("Card {} positions its one axis on its own and follows no paths. Nothing was moved; "
+                                                  "use the card's own commands.", name_));
+    }
+    Result<control::Axis*> axis(const RackConfig&, char) override {
+        return fail(Trouble::refused, fmt::format("Card {} has no axis of the rack file. Nothing was moved.", name_));
+    }
+    double kept_back() const override { return 0; }
+    double jump_hz(const RackConfig&) const override { return 0; }
+    std::int64_t segments() const override { return 0; }
+    std::int64_t pulses_made(int) override { return 0; }
+    std::int64_t pulse_counter(int) override { return card_.position(); }
+    std::int64_t encoder_counter(int) override { return card_.position(); }
+
+    sim::VirtualHost& host() override { return port_; }
+    std::string describe(const sim::Condition& condition) const override { return db::describe(condition, name_); }
+
+  private:
+    std::string name_;
+    db::Card card_;
+    std::shared_ptr<db::Bus> bus_;
+    sim::VirtualBytePort port_;
+};
+
+}  // namespace
+
+std::unique_ptr<Card> make_databoard4002(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
+                                         std::span<const std::unique_ptr<Card>> before) {
+    std::shared_ptr<db::Bus> bus;
+    for (const auto& other : before)
+        if (const auto* same = dynamic_cast<const Databoard4002Card*>(other.get())) bus = same->bus();
+    return std::make_unique<Databoard4002Card>(kernel, config, log, std::move(bus));
+}
+
+}  // namespace motionrack::rack
