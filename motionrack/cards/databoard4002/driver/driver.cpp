@@ -31,7 +31,7 @@ Status Driver::status() {
 }
 
 Result<void> Driver::wait_ready(const char* what) {
-    const Instant until = interrupt_.now() + settings_.ready_timeout;
+    const Instant until = later(interrupt_.now(), settings_.ready_timeout);
     while (!status().ready()) {
         if (interrupt_.now() >= until)
             return fail(Trouble::machine,

@@ -16,7 +16,7 @@ namespace motionrack::databoard4002 {
 
 struct DriverSettings {
     std::uint8_t select = 13;                   ///< the card's number on the bus
-    Duration ready_timeout = milliseconds(127); ///< > 0: longest wait for Ready before an access
+    Duration ready_timeout = milliseconds(127); ///< > 0: longest wait for Ready before an access; `never`: no limit
     Duration poll = microseconds(20);           ///< > 0: between two looks at STAT
     Duration bounce = milliseconds(5);          ///< >= 0: after the edge of a stop, until its contacts are at rest
     double counts_per_mm = 1000;                ///< > 0; for positions in mm
@@ -86,7 +86,7 @@ class Driver {
     /// machine after `timeout` or if the card was reset meanwhile; stopped where the user asked to stop.
     Result<Events> wait_event(std::uint8_t wanted, Duration timeout, Waiting how = Waiting::polling);
 
-    // ---- moves, from beginning to end
+    // ---- moves, from beginning to end; a `timeout` of `never` waits for ever, also in wait_event
     /// Goes to `counts` with the present rate, mode and table. A stop on the other side (while leaving it) does no harm. Errors: machine
     /// if a stop holds the move, the card is reset or `timeout` passes (the move is then ended by Q); stopped.
     Result<void> move_to(std::int64_t counts, Duration timeout, Waiting how = Waiting::polling);

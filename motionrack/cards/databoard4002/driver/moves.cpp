@@ -18,7 +18,7 @@ Result<Events> Driver::enable_events(std::uint8_t enables) {
 }
 
 Result<Events> Driver::wait_event(std::uint8_t wanted, Duration timeout, Waiting how) {
-    const Instant until = interrupt_.now() + timeout;
+    const Instant until = later(interrupt_.now(), timeout);
     while (true) {
         const Status now = status();
         if (now.event()) {
@@ -76,7 +76,7 @@ Result<void> Driver::run_move(std::uint8_t wanted, bool forward, Duration timeou
         return fail(Trouble::machine, fmt::format("Card {} was reset since it was set up; position and table are gone, so it was not "
                                                   "moved. Set it up again.", settings_.select));
     MOTIONRACK_CHECK(go());
-    const Instant until = interrupt_.now() + timeout;
+    const Instant until = later(interrupt_.now(), timeout);
     while (true) {
         const auto seen =
             wait_event(static_cast<std::uint8_t>(wanted | event::STOP), std::max(until - interrupt_.now(), Duration{0}), how);

@@ -123,6 +123,26 @@ TEST(Databoard4002Driver, MovesByPollingAndByInterruptAlike) {
     }
 }
 
+TEST(Databoard4002Driver, WaitsMayBeEndless) {
+    for (const Waiting how : {Waiting::polling, Waiting::interrupt}) {
+        Rig rig;
+        const auto moved = rig.driver.move_to(2'000, never, how);
+        ASSERT_TRUE(moved) << moved.error().message;
+        EXPECT_EQ(*rig.driver.position(), 2'000);
+        ASSERT_TRUE(rig.driver.enable_events(event::POSITION));
+        ASSERT_TRUE(rig.driver.set_target(1'000));
+        ASSERT_TRUE(rig.driver.go());
+        const auto seen = rig.driver.wait_event(event::POSITION, never, how);
+        ASSERT_TRUE(seen) << seen.error().message;
+        EXPECT_EQ(*rig.driver.position(), 1'000);
+    }
+    Host host;
+    Driver patient(host.port, host.port, {.ready_timeout = never});
+    host.start();
+    host.run(milliseconds(1));
+    EXPECT_TRUE(patient.connect());
+}
+
 TEST(Databoard4002Driver, TellsWhichStopWasMetAndWhere) {
     for (const Waiting how : {Waiting::polling, Waiting::interrupt}) {
         Rig rig;
