@@ -72,6 +72,12 @@ TEST(Examples, TheFunctionLibraryInCPrintsWhatItsFolderSays) {
     EXPECT_EQ(ran.out, text_of(examples / "09_mcx314lib" / "expected.txt"));
 }
 
+TEST(Examples, TheOldHostProgramPrintsWhatItsFolderSays) {
+    const Ran ran = run(examples, MOTIONRACK_DATABOARD_C_EXAMPLE);
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.out, text_of(examples / "10_databoard_c" / "expected.txt"));
+}
+
 TEST(Examples, TheBuiltInExampleIsThePart) {
     const Ran built_in = run(examples, std::string(MOTIONRACK_PROGRAM) + " run --no-report");
     EXPECT_EQ(built_in.code, 0);

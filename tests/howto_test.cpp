@@ -1,4 +1,4 @@
-// The how-to pages of the function library: what they show is what their programs do.
+// The how-to pages of the function libraries: what they show is what their programs do.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -53,6 +53,52 @@ TEST_P(HowTo, ShowsTheProgramItsOutputAndItsPicture) {
 
 INSTANTIATE_TEST_SUITE_P(Pages, HowTo,
                          testing::Values("trapezoid", "s_curve", "asymmetric", "line", "arc", "contour", "bit_pattern"));
+
+// ---- DataBoard 4002 --------------------------------------------------------------------------------------------------
+
+std::string databoard_page(const std::string& name) { return text_of(root / "docs/howto/databoard4002" / (name + ".md")); }
+
+/// Runs `program` with the name of a picture that it makes; the page must show what it prints and that picture.
+void shows(const std::string& name, const std::string& program, const std::string& printer) {
+    const std::string page = databoard_page(name);
+    ASSERT_FALSE(page.empty());
+    const fs::path picture = fs::temp_directory_path() / ("motionrack_howto_databoard4002_" + name + ".svg");
+    const std::string drawn = printed_by(program + " '" + picture.string() + "'");
+    const std::string printed = printer.empty() ? drawn : printed_by(printer);
+    ASSERT_FALSE(printed.empty());
+    EXPECT_NE(page.find("prints\n\n" + indented(printed, "    ") + "\n"), std::string::npos) << printed;
+    EXPECT_NE(page.find("](../../pictures/databoard4002_" + name + ".svg)"), std::string::npos) << "the page does not show its picture";
+    EXPECT_EQ(text_of(root / "docs/pictures" / ("databoard4002_" + name + ".svg")), text_of(picture))
+        << "make it anew: " << program << " docs/pictures/databoard4002_" << name << ".svg";
+    fs::remove(picture);
+}
+
+class Databoard4002HowTo : public testing::TestWithParam<const char*> {};
+
+TEST_P(Databoard4002HowTo, ShowsTheProgramItsOutputAndItsPicture) {
+    const std::string name = GetParam();
+    shows(name, MOTIONRACK_DATABOARD4002_EXAMPLE " " + name, "");
+    const std::string program = text_of(root / "examples/databoard4002" / (name + ".cpp"));
+    EXPECT_NE(program.find(indented(code_of(databoard_page(name)), "    ")), std::string::npos)
+        << "the page's program is not that of examples/databoard4002/" << name << ".cpp";
+}
+
+INSTANTIATE_TEST_SUITE_P(Pages, Databoard4002HowTo, testing::Values("slope", "lock"));
+
+TEST(Databoard4002HowToHost, ShowsThePartsOfTheProgramInCItsOutputAndThePictureOfItsRun) {
+    const fs::path csv = fs::temp_directory_path() / "motionrack_howto_old_host.csv";
+    const std::string printer = std::string(MOTIONRACK_DATABOARD_C_EXAMPLE) + " '" + csv.string() + "'";
+    ASSERT_FALSE(printed_by(printer).empty());
+    shows("old_host", MOTIONRACK_DATABOARD4002_EXAMPLE " old_host '" + csv.string() + "'", printer);
+    fs::remove(csv);
+    const std::string page = databoard_page("old_host"), program = text_of(root / "examples/10_databoard_c/program.c");
+    int blocks = 0;
+    for (std::size_t at = page.find("```c\n"); at != std::string::npos; at = page.find("```c\n", at + 5), ++blocks) {
+        const std::string code = page.substr(at + 5, page.find("```", at + 5) - at - 5);
+        EXPECT_NE(program.find(code), std::string::npos) << code;
+    }
+    EXPECT_EQ(blocks, 3);
+}
 
 }  // namespace
 }  // namespace motionrack

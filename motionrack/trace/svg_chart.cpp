@@ -102,7 +102,7 @@ std::string heading(const SvgChart& chart, const SvgLook& look) {
     for (auto series = chart.series.rbegin(); series != chart.series.rend(); ++series) {
         if (series->name.empty()) continue;
         out += svg_text(x, 15, "end", series->name);
-        x -= 7.0 * static_cast<double>(series->name.size()) + 6;
+        x -= 6.0 * static_cast<double>(series->name.size()) + 7;
         out += straight(x - 20, 11, x, 11, ("line " + escaped(series->look)).c_str());
         x -= 36;
     }
