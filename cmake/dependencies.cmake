@@ -2,9 +2,9 @@
 # the top CMakeLists.txt looks for them here, and motionrackConfig.cmake looks for the public ones where the library is installed.
 
 # Whoever compiles or links against the installed rooms needs these.
-set(motionrack_public_packages "fmt 9" "tl-expected 1.0" "tomlplusplus 3.3")
+set(motionrack_public_packages "fmt 9" "tl-expected 1.0" "tomlplusplus 3.3" "ZLIB 1.2")
 # Those of them that are libraries, as a linker calls them.
-set(motionrack_linked_libraries fmt tomlplusplus)
+set(motionrack_linked_libraries fmt tomlplusplus z)
 # Headers that only our own sources include.
 set(motionrack_private_packages "nlohmann_json 3.11" "CLI11 2.1")
 

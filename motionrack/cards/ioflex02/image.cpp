@@ -1,0 +1,94 @@
+// Making, compressing and unpacking configuration images.
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <motionrack/cards/ioflex02/image.hpp>
+
+namespace motionrack::ioflex02 {
+
+namespace {
+
+constexpr std::size_t name_at = 8, most_name = 16, ident_at = 24, length_at = 28, crc_at = 32;
+constexpr std::size_t most_image = image_header + most_payload;
+
+void put(std::vector<std::uint8_t>& out, std::size_t at, std::size_t value) {
+    for (std::size_t i = 0; i < 4; ++i) out[at + i] = static_cast<std::uint8_t>(value >> (8 * i));
+}
+
+}  // namespace
+
+std::uint32_t crc32_of(std::uint32_t before, const std::uint8_t* bytes, std::size_t size) {
+    return static_cast<std::uint32_t>(::crc32(before, bytes, static_cast<uInt>(size)));
+}
+
+bool ImageHeader::ours() const {
+    return std::equal(image_magic.begin(), image_magic.end(), bytes.begin(), [](char a, std::uint8_t b) { return a == static_cast<char>(b); });
+}
+
+bool ImageHeader::named(std::string_view project) const {
+    for (std::size_t i = 0; i < most_name; ++i)
+        if (bytes[name_at + i] != (i < project.size() ? static_cast<std::uint8_t>(project[i]) : 0)) return false;
+    return true;
+}
+
+std::uint32_t ImageHeader::number(std::size_t at) const {
+    return std::uint32_t{bytes[at]} | std::uint32_t{bytes[at + 1]} << 8 | std::uint32_t{bytes[at + 2]} << 16 | std::uint32_t{bytes[at + 3]} << 24;
+}
+
+Result<std::vector<std::uint8_t>> raw_image(const ImageContent& content) {
+    if (content.project.empty() || content.project.size() > most_name)
+        return fail(Trouble::refused, fmt::format("The project's name has {} characters, but it has 1 to {}. No image was made.",
+                                                  content.project.size(), most_name));
+    if (content.payload.size() < least_payload || content.payload.size() > most_payload)
+        return fail(Trouble::refused, fmt::format("The payload has {} bytes, but an image has {} to {}. No image was made.",
+                                                  content.payload.size(), least_payload, most_payload));
+    std::vector<std::uint8_t> out(image_header);
+    std::copy(image_magic.begin(), image_magic.end(), out.begin());
+    std::copy(content.project.begin(), content.project.end(), out.begin() + name_at);
+    out[ident_at] = content.ident;
+    put(out, length_at, content.payload.size());
+    out.insert(out.end(), content.payload.begin(), content.payload.end());
+    const std::uint32_t head = crc32_of(0, out.data(), crc_at);
+    put(out, crc_at, crc32_of(head, out.data() + image_header, content.payload.size()));
+    return out;
+}
+
+std::vector<std::uint8_t> compressed(std::span<const std::uint8_t> raw) {
+    uLongf size = compressBound(static_cast<uLong>(raw.size()));
+    std::vector<std::uint8_t> out(size);
+    const int done = compress2(out.data(), &size, raw.data(), static_cast<uLong>(raw.size()), Z_BEST_COMPRESSION);
+    MOTIONRACK_ASSERT(done == Z_OK);
+    out.resize(size);
+    return out;
+}
+
+Result<std::vector<std::uint8_t>> unpacked(std::span<const std::uint8_t> file) {
+    std::vector<std::uint8_t> out(most_image + 1);
+    uLongf size = static_cast<uLongf>(out.size());
+    auto used = static_cast<uLong>(file.size());
+    const std::uint8_t nothing = 0;
+    const int done = uncompress2(out.data(), &size, file.empty() ? &nothing : file.data(), &used);
+    if (size > most_image || (done == Z_BUF_ERROR && size == out.size()))
+        return fail(Trouble::bad_input, fmt::format("The configuration image unpacks to more than {} bytes, the most that the array takes. It "
+                                                    "was not used; is it an image of this card?", most_image));
+    if (done != Z_OK)
+        return fail(Trouble::bad_input, fmt::format("The configuration image of {} bytes cannot be unpacked: it is cut short, damaged, or no "
+                                                    "zlib stream. It was not used; make or copy it anew.", file.size()));
+    if (used != file.size())
+        return fail(Trouble::bad_input, fmt::format("The configuration image has {} bytes, but its zlib stream ends after {}. It was not used; "
+                                                    "make or copy it anew.", file.size(), used));
+    out.resize(size);
+    return out;
+}
+
+std::vector<std::uint8_t> position_image(const std::array<std::uint16_t, axis_count>& modes) {
+    ImageContent content;
+    for (std::size_t i = 0; i < axis_count; ++i) {
+        content.payload[2 * i] = static_cast<std::uint8_t>(modes[i]);
+        content.payload[2 * i + 1] = static_cast<std::uint8_t>(modes[i] >> 8);
+    }
+    return compressed(*raw_image(content));
+}
+
+}  // namespace motionrack::ioflex02

@@ -1,0 +1,58 @@
+// The IOFLEX02's registers, commands, states and pins as constants; model, driver, documents and tests read them here. The tables
+// are in map/.
+#pragma once
+
+#include <motionrack/base/card_map.hpp>
+#include <motionrack/base/time.hpp>
+#include <motionrack/cards/ioflex02/map/calibration.hpp>
+#include <motionrack/cards/ioflex02/map/pins.hpp>
+#include <motionrack/cards/ioflex02/map/registers.hpp>
+
+namespace motionrack::ioflex02 {
+
+inline constexpr int axis_count = 4;
+inline constexpr Duration sample_time = nanoseconds(100);  ///< the lines are looked at so often
+inline constexpr Duration time_tick = nanoseconds(1'200);  ///< one count of the time
+inline constexpr std::uint32_t mask_24 = 0xFFFFFF;
+inline constexpr std::uint32_t window = 0x100;             ///< bytes of the bus that a card answers in
+inline constexpr std::uint16_t signature = 0x4F49;
+inline constexpr std::uint16_t nobody = 0xFFFF;            ///< what no card or no project answers
+
+/// A register's offset by its name; names that are not declared do not compile.
+consteval std::uint32_t offset(std::string_view name) {
+    return register_named(map::registers, name).offset;
+}
+/// A field of a register: field("CMD", "CMD2").
+consteval Field field(std::string_view reg, std::string_view name) {
+    return {mask_of(register_named(map::registers, reg), name)};
+}
+
+namespace mode {
+inline constexpr Field REVERSED = field("MODE", "REVERSED"), EDGES = field("MODE", "EDGES");
+inline constexpr Field INDEX_LOW = field("MODE", "INDEX_LOW"), FILTER = field("MODE", "FILTER");
+inline constexpr std::uint16_t all = REVERSED.mask | EDGES.mask | INDEX_LOW.mask | FILTER.mask;
+}  // namespace mode
+
+/// CFG_ERROR.
+enum class CfgError : std::uint16_t { none, foreign, length, cut_short, crc, unknown_project };
+
+/// A 24-bit number in two's complement, sign-extended.
+constexpr std::int32_t signed24(std::int64_t bits) {
+    return static_cast<std::int32_t>(((bits & mask_24) ^ 0x800000) - 0x800000);
+}
+
+namespace map {
+
+inline constexpr CardMap card = {
+    "ioflex02", "Position card for four incremental encoders: 24-bit counters with calibration, time of 1.2 us, inputs and outputs",
+    registers,  commands,
+    machines,   pins};
+
+}  // namespace map
+
+/// The whole map, for documents, inspectors and traces.
+inline const CardMap& card_map() {
+    return map::card;
+}
+
+}  // namespace motionrack::ioflex02

@@ -1,0 +1,122 @@
+// Time and wires: when the project begins, and which samples see what.
+#include <algorithm>
+#include <motionrack/cards/ioflex02/model/card.hpp>
+
+namespace motionrack::ioflex02 {
+
+namespace {
+
+/// The first sample at or after `t` (t >= 0).
+std::int64_t sample_from(Instant t) {
+    return (t.count() + sample_time.count() - 1) / sample_time.count();
+}
+
+}  // namespace
+
+void begin_project(State& state, Instant at, std::int64_t done) {
+    state.origin = at;
+    state.cleared = 0;
+    state.captured = {};
+    state.axis = 0;
+    for (std::size_t i = 0; i < axis_count; ++i) begin_axis(state.axes[i], state.configuration.modes[i], done);
+}
+
+void catch_up(State& state, Instant now, bool access) {
+    Configuration& c = state.configuration;
+    if (c.array == ArrayState::starting && c.starts_at <= now) {
+        c.array = ArrayState::running;
+        state.told_no_project = 0;
+        begin_project(state, c.starts_at, sample_from(c.starts_at) - 1);
+    }
+    if (c.array != ArrayState::running || !c.known) return;
+    const std::int64_t last = access ? now / sample_time : sample_from(now) - 1;
+    for (AxisState& axis : state.axes) advance(axis, last);
+}
+
+Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& settings) : kernel_(kernel), settings_(settings) {
+    MOTIONRACK_ASSERT(check(settings).has_value());
+    static_assert(std::size(map::pins) == line_pins + input_pins + output_pins);
+    id_ = kernel.add(*this, sim::Phase::cards, name);
+    for (std::size_t i = 0; i < wires_.size(); ++i) {
+        wires_[i] = kernel.add_wire(name + "." + std::string(map::pins[i].name), 0);
+        if (i < line_pins) kernel.listen(wires_[i], id_, static_cast<int>(i));
+    }
+    kernel.schedule(id_, Instant{0});
+    if (!settings.loaded) return;
+    const std::vector<std::uint8_t> image = *raw_image({});
+    std::copy_n(image.begin(), image_header, state_.configuration.header.bytes.begin());
+    state_.configuration.array = ArrayState::starting;
+    state_.configuration.known = 1;
+    state_.configuration.starts_at = Instant{0};
+}
+
+/// How the world is at power-up.
+void Card::begin() {
+    if (state_.begun) return;
+    state_.begun = 1;
+    for (std::size_t i = 0; i < line_pins; ++i) {
+        kernel_.want(wires_[i], id_, true);
+        state_.axes[i % axis_count].lines[i / axis_count].raw = kernel_.level(wires_[i]) != 0;
+    }
+    catch_up(kernel_.now(), false);
+}
+
+State Card::seen() const {
+    State out = state_;
+    ioflex02::catch_up(out, kernel_.now(), true);
+    return out;
+}
+
+void Card::catch_up(Instant now, bool access) {
+    ioflex02::catch_up(state_, now, access);
+    tell_illegal();
+}
+
+void Card::tell_illegal() {
+    for (std::size_t i = 0; i < axis_count; ++i) {
+        AxisState& axis = state_.axes[i];
+        if (axis.illegal == 0 || axis.told) continue;
+        axis.told = 1;
+        report(CardCondition::illegal_transition, static_cast<std::int64_t>(i), axis.illegal_sample * 100);
+    }
+}
+
+void Card::report(CardCondition code, std::int64_t a, std::int64_t b) {
+    kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
+}
+
+void Card::act(Instant) {
+    begin();
+}
+
+void Card::sync(Instant now) {
+    begin();
+    catch_up(now, false);
+}
+
+void Card::on_wire(int pin, int level, Instant now) {
+    begin();
+    catch_up(now, false);
+    const auto number = static_cast<std::size_t>(pin);
+    AxisState& axis = state_.axes[number % axis_count];
+    if (has_project())
+        wire_changed(axis, static_cast<int>(number / axis_count), level != 0, sample_from(now));
+    else
+        axis.lines[number / axis_count].raw = level != 0;
+}
+
+bool Card::has_project() const {
+    return state_.configuration.array == ArrayState::running && state_.configuration.known != 0;
+}
+
+std::uint32_t Card::time() const {
+    const State now = seen();
+    return now.configuration.array == ArrayState::running ? static_cast<std::uint32_t>(ticks_at(now, kernel_.now()) - now.cleared) & mask_24 : 0;
+}
+
+void Card::put_out(std::uint16_t levels) {
+    state_.outputs = levels;
+    for (std::size_t i = 0; i < 16; ++i) kernel_.set_wire(wires_[line_pins + input_pins + i], levels >> i & 1);
+}
+
+}  // namespace motionrack::ioflex02

@@ -1,0 +1,92 @@
+// The virtual IOFLEX02: an array that is fed an image and then is the project "position", exact to the sample (RULES.md).
+//
+//   CONTROL, DATA ──► [ array: image ─► project ]            STATUS, CFG_ERROR, SIGNATURE, SERIAL
+//                                │
+//   a b z cal (4 axes) ──► [ sample ─► filter ─► count ─► calibrate ] ──┐
+//   1.2 us ──────────────► [ time ] ────────────────────────────────────┴─► STROBE ──► TIME, POS, TRAVEL, AGE, ..
+//   in0 .. in15 ──► IN         OUTL, OUTH ──► out0 .. out15   (out16 .. out31, X7: not driven by this project)
+//
+// Nothing polls and nothing is scheduled: a wire's change is noted with the sample that sees it, and worked off when it is asked for.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/cards/ioflex02/model/conditions.hpp>
+#include <motionrack/cards/ioflex02/model/settings.hpp>
+#include <motionrack/cards/ioflex02/model/state.hpp>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/register_device.hpp>
+#include <string>
+
+namespace motionrack::ioflex02 {
+
+class Card final : public sim::Device, public sim::RegisterDevice {
+  public:
+    /// Adds the card and its wires "<name>.<pin>" to the kernel. `settings` must pass check().
+    Card(sim::Kernel& kernel, const std::string& name, const Settings& settings = {});
+
+    // ---- the bus: offsets from the base address
+    std::uint16_t read(std::uint32_t offset) override;
+    void write(std::uint32_t offset, std::uint16_t value) override;
+    std::uint16_t peek(std::uint32_t offset) const override;
+
+    // ---- looking inside, at the present instant
+    bool running() const { return seen().configuration.array == ArrayState::running; }
+    ArrayState array() const { return seen().configuration.array; }
+    /// -8,388,608 .. 8,388,607.
+    std::int32_t position(int axis) const { return signed24(axis_of(axis).position); }
+    tIOFlexSts status(int axis) const { return status_of(axis_of(axis).cal); }
+    CalState calibration(int axis) const { return axis_of(axis).cal; }
+    std::uint16_t illegal(int axis) const { return axis_of(axis).illegal; }
+    /// Ticks of 1.2 us, 0 .. 16,777,215.
+    std::uint32_t time() const;
+    const Settings& settings() const { return settings_; }
+    sim::DeviceId id() const { return id_; }
+
+    void act(Instant now) override;
+    void on_wire(int pin, int level, Instant now) override;
+    void sync(Instant now) override;
+    std::span<std::byte> state() override { return sim::bytes_of(state_); }
+
+  private:
+    static constexpr std::size_t line_pins = line_count * axis_count, input_pins = 16, output_pins = 32;
+
+    void begin();
+    State seen() const;
+    AxisState axis_of(int axis) const { return seen().axes[static_cast<std::size_t>(axis)]; }
+    void catch_up(Instant now, bool access);
+    void tell_illegal();
+    void report(CardCondition code, std::int64_t a = 0, std::int64_t b = 0);
+    void put_out(std::uint16_t levels);
+    bool has_project() const;
+
+    // configuration.cpp
+    void control(std::uint16_t word);
+    void take_word(std::uint16_t word);
+    void take_byte(std::uint8_t byte);
+    void refuse(CfgError error);
+    void accept();
+
+    // registers.cpp
+    std::uint16_t word(const State& state, std::uint32_t offset) const;
+    std::uint16_t project_word(const State& state, std::uint32_t offset) const;
+    void write_project(std::uint32_t offset, std::uint16_t value);
+    void strobe(std::uint16_t word);
+
+    sim::Kernel& kernel_;
+    Settings settings_;
+    sim::DeviceId id_{};
+    std::array<sim::WireId, line_pins + input_pins + output_pins> wires_{};
+    State state_{};
+};
+
+/// Begins the project at `at`; all counts and the time are 0.
+void begin_project(State& state, Instant at, std::int64_t done);
+/// Works off what has happened up to `now`; `access`: including the sample at this very instant.
+void catch_up(State& state, Instant now, bool access);
+/// Ticks of 1.2 us since the project began.
+inline std::int64_t ticks_at(const State& state, Instant t) {
+    return (t - state.origin) / time_tick;
+}
+
+}  // namespace motionrack::ioflex02

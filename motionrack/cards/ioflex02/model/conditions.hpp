@@ -1,0 +1,23 @@
+// What the card and its bus report as conditions, and the sentences.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/sim/kernel.hpp>
+#include <string>
+#include <string_view>
+
+namespace motionrack::ioflex02 {
+
+enum class CardCondition : std::uint16_t {
+    illegal_transition = 1,  ///< a: axis, b: the sample's instant in ns; once until CLEAR_ERRORS
+    image_refused = 2,       ///< a: CfgError, b: bytes received
+    unknown_project = 3,     ///< a: its ident
+    no_project = 4,          ///< a: the register's offset; once until a project runs
+    no_register = 5,         ///< a: the offset, b: the word written, -1: it was a read
+    address_conflict = 6     ///< a: the base address; by the bus, once
+};
+
+/// "card c1: at 0.012 s ...". `card`: its name.
+std::string describe(const sim::Condition& condition, std::string_view card);
+
+}  // namespace motionrack::ioflex02

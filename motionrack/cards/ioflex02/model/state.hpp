@@ -1,0 +1,56 @@
+// All that the card remembers; a trivially copyable whole, so that a snapshot is an assignment.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/base/time.hpp>
+#include <motionrack/cards/ioflex02/image.hpp>
+#include <motionrack/cards/ioflex02/model/axis.hpp>
+#include <type_traits>
+
+namespace motionrack::ioflex02 {
+
+enum class ArrayState : std::uint32_t { empty, loading, starting, running, failed };
+
+/// The programmable array and the image that is being taken.
+struct Configuration {
+    ArrayState array = ArrayState::empty;
+    std::uint32_t crc = 0;  ///< of what came
+    std::uint32_t received = 0;
+    CfgError error = CfgError::none;
+    std::uint16_t known = 0;  ///< the project is one that the model has
+    ImageHeader header;
+    std::array<std::uint8_t, least_payload> payload{};  ///< its beginning
+    std::array<std::uint8_t, 4> reserved{};
+    Instant starts_at = never;  ///< when the array is configured
+    std::array<std::uint16_t, axis_count> modes{};
+};
+
+/// What STROBE latches of an axis.
+struct CapturedAxis {
+    std::uint32_t position = 0, travel = 0, age = 0;
+    std::uint32_t index_at = 0, illegal_at = 0;
+    std::uint16_t lines = 0, edges_a = 0, edges_b = 0, indexes = 0, illegal = 0;
+    std::uint16_t down = 0;
+};
+struct Captured {
+    std::uint32_t time = 0;
+    std::array<CapturedAxis, axis_count> axes{};
+    std::uint32_t reserved = 0;
+};
+
+struct State {
+    Configuration configuration;
+    Instant origin{};                ///< when the project began: the time's phase
+    std::int64_t cleared = 0;        ///< ticks since origin at the last CLEAR_TIME
+    std::array<AxisState, axis_count> axes{};
+    Captured captured;
+    std::uint16_t outputs = 0;
+    std::uint16_t axis = 0;          ///< chosen by AXIS
+    std::uint16_t told_no_project = 0;
+    std::uint16_t begun = 0;
+};
+
+static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
+
+}  // namespace motionrack::ioflex02

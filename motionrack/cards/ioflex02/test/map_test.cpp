@@ -1,0 +1,69 @@
+// The map is what the card has, and the page made from it is current.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <motionrack/base/describe.hpp>
+#include <motionrack/cards/ioflex02/test/rig.hpp>
+#include <sstream>
+
+namespace motionrack::ioflex02 {
+namespace {
+
+TEST(Ioflex02Map, TheCardHasTheDeclaredRegistersAndNoOthers) {
+    for (std::uint32_t at = 0; at < window; ++at)
+        for (const bool write : {false, true}) {
+            bool declared = false;
+            for (const RegisterInfo& reg : card_map().registers) declared = declared || (reg.offset == at && (reg.access == Access::write) == write);
+            Rig rig;
+            rig.start();
+            if (write) rig.write(at, 0);
+            else rig.read(at);
+            const bool told = !rig.conditions().empty();
+            EXPECT_EQ(told, !declared) << at << (write ? " written" : " read");
+        }
+}
+
+TEST(Ioflex02Map, EveryDeclaredReadRegisterAnswersWithItsDeclaredBitsOnly) {
+    Rig rig;
+    rig.start();
+    for (int axis = 0; axis < 4; ++axis) rig.turn(axis, -5);
+    rig.capture();
+    for (const RegisterInfo& reg : card_map().registers) {
+        if (reg.access == Access::write) continue;
+        unsigned bits = reg.fields.empty() ? 0xFFFF : 0;
+        for (const FieldInfo& info : reg.fields) bits |= info.mask;
+        EXPECT_EQ(rig.read(reg.offset) & ~bits, 0u) << reg.name;
+    }
+}
+
+TEST(Ioflex02Map, TheCardHasThePinsOfTheMap) {
+    Rig rig;
+    for (const PinInfo& pin : card_map().pins)
+        EXPECT_NE(rig.kernel.find_wire("c1." + std::string(pin.name)), sim::WireId::none) << pin.name;
+    EXPECT_EQ(rig.kernel.wire_count(), card_map().pins.size() + 1);  // and the bus' interrupt line
+}
+
+TEST(Ioflex02Map, TheStateTableIsTheDeclaredMachine) {
+    const MachineInfo& machine = card_map().machines[1];
+    for (int from = 0; from < 3; ++from)
+        for (int to = 0; to < 3; ++to) {
+            if (from == to) continue;
+            bool steps = false, declared = false;
+            for (int event = 0; event < 6; ++event)
+                steps = steps || calibration_step(static_cast<CalState>(from), static_cast<CalEvent>(event)).next == static_cast<CalState>(to);
+            for (const TransitionInfo& t : machine.transitions)
+                declared = declared || (state_index(machine, t.from) == from && state_index(machine, t.to) == to);
+            EXPECT_EQ(steps, declared) << from << " to " << to;
+        }
+}
+
+TEST(Ioflex02Map, TheReferencePageIsCurrent) {
+    std::ifstream file(std::string(MOTIONRACK_SOURCE_DIR) + "/docs/reference/ioflex02.md");
+    std::stringstream stored;
+    stored << file.rdbuf();
+    EXPECT_EQ(stored.str(), describe_markdown(card_map()))
+        << "make it anew: motionrack describe ioflex02 --markdown > docs/reference/ioflex02.md";
+}
+
+}  // namespace
+}  // namespace motionrack::ioflex02
