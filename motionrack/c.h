@@ -137,6 +137,8 @@ MR_API int mr_wire_set(mr_rack *rack, const char *wire, double value);
  *   limit_minus       1 while the machine is at that switch, whatever its wire shows (where there is one)
  *   limit_plus        the same for the switch at the + end
  *   home              the same for the home switch
+ *   cam               1 while the machine is on its reference cam
+ *   drive_v           the voltage at the servo amplifier
  * An unknown name is told the ones that there are. MR_BAD_CALL. */
 MR_API int mr_part_get(mr_rack *rack, const char *part_dot_quantity, double *value);
 
@@ -159,6 +161,7 @@ MR_API int mr_part_set(mr_rack *rack, const char *part_dot_quantity, double valu
  *   limit_plus.stuck_closed
  *   home.stuck_open
  *   home.stuck_closed
+ *   motor.load               a servo's load becomes VALUE times its own inertia
  * MR_BAD_CALL (null, no such fault or target), MR_REFUSED (the axis has no such part; the value). */
 MR_API int mr_fault(mr_rack *rack, const char *fault, const char *target);
 

@@ -60,8 +60,9 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"ioflex02/map", {"base"}},
     {"ioflex02/model", {"base", "sim", "ioflex02/map"}},
     {"ioflex02/driver", {"base", "ioflex02/map"}},
+    {"databoard4002/axes", {"base", "control", "databoard4002/map", "databoard4002/driver"}},
     {"rack", {"base", "sim", "parts", "control", "trace", "mcx314/map", "mcx314/chip", "mcx314/driver", "mcx314/axes",
-              "databoard4002/map", "databoard4002/model"}},
+              "databoard4002/map", "databoard4002/model", "databoard4002/axes"}},
     {"frontends", {"base", "live", "control", "trace", "rack", "c.h"}},
     {"mcx314lib", {"base", "rack", "mcx314/map", "mcx314/driver"}},
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <motionrack/rack/card_types.hpp>
 
 namespace motionrack::rack {
@@ -103,21 +104,41 @@ void* mcx314_of(RackCard& card) {
 
 // ---- databoard4002 ----------------------------------------------------------------------------------------------
 
-constexpr std::array<PinType, 13> databoard4002_pins = {{
+constexpr std::array<PinType, 10> databoard4002_channel_pins = {{
     {"o1", input, "encoder track A, or down pulses"},
     {"o2", input, "encoder track B, or up pulses"},
     {"zero", input, "zero pulse of the encoder"},
-    {"ref", input, "reference; high is active"},
-    {"ems", input, "emergency stop; high is active"},
-    {"esr", input, "end stop right; high is active"},
-    {"esl", input, "end stop left; high is active"},
+    {"ref", input, "reference; high, without current, is active", 0, PinKind::contact},
+    {"esr", input, "end stop right; high, without current, is active", 0, PinKind::contact},
+    {"esl", input, "end stop left; high, without current, is active", 0, PinKind::contact},
     {"vout", output, "analog output behind the relay, V", 1e-6},
     {"sign", output, "direction, high is +"},
     {"fout", output, "speed as a frequency"},
     {"relay", output, "high while the analog output is connected"},
+}};
+
+constexpr std::array<PinType, 3> databoard4002_pins = {{
+    {"ems", input, "emergency stop; high, without current, is active", 0, PinKind::contact},
     {"rst", output, "pulse of 10 us at a reset of the card"},
     {"int", output, "interrupt, active high"},
 }};
+
+// Only those whose parts the axis has: a servo amplifier at the analog output, or a stepping motor at the frequency.
+constexpr std::array<DefaultWire, 10> databoard4002_wires = {{
+    {"vout", "drive"},
+    {"fout", "step"},
+    {"sign", "dir"},
+    {"o1", "enc_a"},
+    {"o2", "enc_b"},
+    {"zero", "enc_z"},
+    {"ref", "cam"},
+    {"ref", "home"},
+    {"esr", "limit_plus"},
+    {"esl", "limit_minus"},
+}};
+
+constexpr std::array<std::string_view, 4> mcx314_stops = {"in0", "in1", "in2", "in3"};
+constexpr std::array<std::string_view, 1> databoard4002_references = {"ref"}, databoard4002_zeros = {"zero"};
 
 constexpr std::array<std::string_view, 4> databoard4002_countings = {"quadrature x4", "quadrature x2", "quadrature x1",
                                                                       "up/down"};
@@ -138,8 +159,19 @@ constexpr std::array<Field, 9> databoard4002_settings = {
     field<&Databoard4002Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns", "time that one access of the host takes"),
 };
 
-double none_of(const RackCard&) {
-    return 0;
+// The highest rate that the card's program can set: rate 16383.
+double databoard4002_pulse_hz(const RackCard&) {
+    return 400'000;
+}
+
+double any_accel(const RackCard&) {
+    return std::numeric_limits<double>::infinity();
+}
+
+// Counts of all edges; a count of up and down pulses is one pulse.
+double databoard4002_encoder_hz(const RackCard& card) {
+    const Databoard4002Settings& own = card.databoard4002;
+    return (own.single_ended ? 50'000.0 : 100'000.0) * (own.counting == Databoard4002Counting::up_down ? 1 : 4);
 }
 
 void* databoard4002_of(RackCard& card) {
@@ -162,12 +194,14 @@ std::optional<CardFlaw> databoard4002_flaw(const RackCard& card, std::span<const
 
 constexpr std::array<CardType, 2> table = {{
     {"mcx314", "four-axis pulse chip with interpolation", "xyzu", mcx314_channel_pins, mcx314_chip_pins, mcx314_wires,
-     "emgn", mcx314_settings, mcx314_of, mcx314_pulse_hz, mcx314_accel_hz_s, mcx314_encoder_hz},
+     "emgn", mcx314_settings, mcx314_of, mcx314_pulse_hz, mcx314_accel_hz_s, mcx314_encoder_hz, 2'147'483'647,
+     mcx314_stops, mcx314_stops},
     {"databoard4002",
-     "intelligent positioning card for one axis; without more in the rack file an ideal motor follows its pulses, one "
-     "count each",
-     "", {}, databoard4002_pins, {}, "", databoard4002_settings, databoard4002_of, none_of, none_of, none_of,
-     databoard4002_flaw},
+     "intelligent positioning card for one axis, which has a servo or a stepping motor; with no axis on it an ideal "
+     "motor follows its pulses, one count each",
+     "", databoard4002_channel_pins, databoard4002_pins, databoard4002_wires, "ems", databoard4002_settings,
+     databoard4002_of, databoard4002_pulse_hz, any_accel, databoard4002_encoder_hz, 8'388'607,
+     databoard4002_references, databoard4002_zeros, true, databoard4002_flaw},
 }};
 
 }  // namespace
@@ -184,13 +218,17 @@ const CardType* find_card_type(std::string_view name) {
 
 std::vector<Pin> pins_of(const CardType& type) {
     std::vector<Pin> out;
-    for (std::size_t channel = 0; channel < type.channels.size(); ++channel) {
-        for (const PinType& pin : type.channel_pins) {
-            out.push_back({type.channels[channel] + std::string(pin.name), pin.direction, static_cast<int>(channel), pin.volts});
-        }
-    }
-    for (const PinType& pin : type.chip_pins) out.push_back({std::string(pin.name), pin.direction, -1, pin.volts});
+    for (int channel = 0; channel < type.channel_count(); ++channel)
+        for (const PinType& pin : type.channel_pins)
+            out.push_back({std::string(type.channel_name(channel)).append(pin.name), pin.direction, channel, pin.volts, pin.kind});
+    for (const PinType& pin : type.chip_pins) out.push_back({std::string(pin.name), pin.direction, -1, pin.volts, pin.kind});
     return out;
+}
+
+int CardType::channel_of(std::string_view channel_name) const {
+    if (channels.empty()) return channel_name.empty() ? 0 : -1;
+    const std::size_t at = channels.find(channel_name);
+    return channel_name.size() != 1 || at == std::string_view::npos ? -1 : static_cast<int>(at);
 }
 
 }  // namespace motionrack::rack

@@ -13,12 +13,19 @@ namespace motionrack::rack {
 
 enum class PinDirection : std::uint8_t { input, output };
 
+/// What the level of a pin means.
+enum class PinKind : std::uint8_t {
+    plain,
+    contact  ///< an input that a closed contact holds low: high while its wire is low or broken
+};
+
 /// A pin of the card; a channel's pin is named with the channel's letter in front ("x" + "pp").
 struct PinType {
     std::string_view name;
     PinDirection direction;
     std::string_view doc;
     double volts = 0;  ///< of an analog pin: V for one unit of its wire's level; 0: a digital pin
+    PinKind kind = PinKind::plain;
 };
 
 /// A wire that is there unless the rack file says otherwise: pin `pin` of the axis' channel, end `end` of the axis
@@ -38,7 +45,7 @@ struct CardFlaw {
 struct CardType {
     std::string_view name;
     std::string_view doc;
-    std::string_view channels;  ///< a letter for each axis channel; empty: no axis of the rack file can be on it
+    std::string_view channels;  ///< a letter for each axis channel; empty: one channel without a letter
     std::span<const PinType> channel_pins;
     std::span<const PinType> chip_pins;
     std::span<const DefaultWire> default_wires;
@@ -48,8 +55,18 @@ struct CardType {
     double (*max_pulse_hz)(const RackCard&);    ///< fastest pulse output
     double (*max_accel_hz_s)(const RackCard&);  ///< fastest change of the pulse rate
     double (*max_encoder_hz)(const RackCard&);  ///< most counts a second that an encoder input can follow
+    std::int64_t most_position = 2'147'483'647;       ///< counts or pulses that its position counters hold
+    std::span<const std::string_view> home_pins = {};   ///< a channel's inputs for a home switch; their places are its numbers
+    std::span<const std::string_view> index_pins = {};  ///< and for an encoder's index
+    bool position_loop = false;  ///< it positions an axis by itself with its encoder, which the axis needs then
     /// What no single key can tell; `before`: the cards before it in the file. May be nullptr.
     std::optional<CardFlaw> (*flaw)(const RackCard& card, std::span<const RackCard> before) = nullptr;
+
+    int channel_count() const { return channels.empty() ? 1 : static_cast<int>(channels.size()); }
+    /// "x"; empty for the one channel without a letter.
+    std::string_view channel_name(int channel) const { return channels.empty() ? "" : channels.substr(static_cast<std::size_t>(channel), 1); }
+    /// The channel of that name, or -1.
+    int channel_of(std::string_view channel_name) const;
 };
 
 /// All card types, in the order of the reference page.
@@ -64,6 +81,7 @@ struct Pin {
     PinDirection direction;
     int channel;   ///< index into `channels`, -1 for the chip's own
     double volts;  ///< see PinType
+    PinKind kind;
 };
 std::vector<Pin> pins_of(const CardType& type);
 

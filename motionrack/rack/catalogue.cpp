@@ -52,8 +52,12 @@ class Mcx314Card final : public Card {
         kernel_.settle();
     }
     Result<std::int64_t> inspect(std::string_view name) const override;
-    int channel_count() const override { return mcx314::channel_count; }
-    std::string channel_name(int channel) const override { return std::string(1, "xyzu"[channel]); }
+    std::vector<CardCounter> counters() const override {
+        std::vector<CardCounter> out;
+        for (int channel = 0; channel < mcx314::channel_count; ++channel)
+            for (const bool encoder : {false, true}) out.push_back({std::string(1, "xyzu"[channel]) + (encoder ? "ep" : "lp"), channel, encoder});
+        return out;
+    }
     int channel_number(std::string_view channel) const override { return static_cast<int>(std::string_view("xyzu").find(channel)); }
     sim::Motion& pulses(int channel) override { return chip_.pulses(channel); }
     void connect_encoder(int channel, sim::Motion& counts) override { chip_.connect_encoder(channel, counts); }

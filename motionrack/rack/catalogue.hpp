@@ -20,6 +20,13 @@
 
 namespace motionrack::rack {
 
+/// A position counter of a card by the name that a recording gives it.
+struct CardCounter {
+    std::string name;
+    int channel = 0;
+    bool encoder = false;  ///< Card::encoder_counter, else Card::pulse_counter
+};
+
 /// A card in a running rack, with its bus, driver and axes.
 class Card {
   public:
@@ -37,8 +44,8 @@ class Card {
     /// A value by its name, without effects: a register or value of the card ("RR0"), of one channel with the channel's
     /// name and a dot in front ("x.RR1", "x.LP"). Counts are signed. Errors: bad_input with the names that there are.
     virtual Result<std::int64_t> inspect(std::string_view name) const = 0;
-    virtual int channel_count() const = 0;
-    virtual std::string channel_name(int channel) const = 0;
+    /// What a recording shows as numbers.
+    virtual std::vector<CardCounter> counters() const = 0;
     /// Number of a channel by its name in the rack file.
     virtual int channel_number(std::string_view channel) const = 0;
     /// Pulses of a channel, as a function of time.
@@ -47,15 +54,22 @@ class Card {
     /// Cuts the connected encoder of a channel off and forces its inputs to the levels that it has (`taken`), or releases
     /// them and puts it back. In between what the inputs are forced to counts.
     virtual void take_encoder(int channel, bool taken) = 0;
-    /// The two inputs of an encoder that turns with `pulses(0)` although no rack file says so; empty: there is none.
+    /// No axis of the rack file is on this card: what follows its pulses then, if anything does. Once, before the kernel starts.
+    virtual void connect_ideal_machine() {}
+    /// The two inputs of the encoder of that machine, which turns with `pulses(0)`; empty: there is none.
     virtual std::span<const std::string_view> ideal_encoder() const { return {}; }
     /// A number of the card's own by its name ("fout_hz"), if it has one of that name.
     virtual std::optional<double> quantity(std::string_view) const { return std::nullopt; }
     virtual std::vector<std::string_view> quantity_names() const { return {}; }
+    /// What can be broken on the card itself. `fault`: false if it knows no such fault or value.
+    virtual std::span<const std::string_view> fault_names() const { return {}; }
+    virtual bool fault(std::string_view, double, Instant) { return false; }
     /// The host's side: time and the interrupt line.
     virtual sim::VirtualHost& host() = 0;
     /// Its bus of 16-bit registers; nullptr if it has none.
     virtual sim::VirtualPort* port() { return nullptr; }
+    /// Whether it can move axes together along a path; else each positions by itself.
+    virtual bool follows_paths() const { return true; }
     /// The card's axes as a group that follows paths, set up at `position`; `channel[i]` moves axis i of the rack.
     virtual Result<control::PathAxes*> path_axes(const RackConfig& config, const control::Point& position) = 0;
     /// One axis of the rack that this card moves, by itself; its position is not trusted at first. Takes the card from path_axes(), and

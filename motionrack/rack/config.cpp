@@ -1,5 +1,6 @@
 // What follows from a rack's plain numbers: pulses and counts for a unit, the planner's limits, names of wire ends.
 #include <algorithm>
+#include <motionrack/rack/card_types.hpp>
 #include <motionrack/rack/config.hpp>
 
 namespace motionrack::rack {
@@ -43,6 +44,13 @@ const RackAxis* RackConfig::axis(char letter) const {
 const RackCard* RackConfig::card(std::string_view card_name) const {
     const auto found = std::find_if(cards.begin(), cards.end(), [&](const RackCard& c) { return c.name == card_name; });
     return found != cards.end() ? &*found : nullptr;
+}
+
+bool RackConfig::point_to_point() const {
+    return !axes.empty() && std::all_of(axes.begin(), axes.end(), [this](const RackAxis& axis) {
+        const RackCard* its = card(axis.card);
+        return its != nullptr && find_card_type(its->type)->position_loop;
+    });
 }
 
 control::MachineLimits RackConfig::limits() const {

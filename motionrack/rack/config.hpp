@@ -76,11 +76,28 @@ struct RackMotor {
     double pull_out_hz = 200'000;  ///< above this rate it loses steps
 };
 
+/// A servo amplifier with a DC motor and its tacho, in place of a stepping motor: the axis follows a voltage.
+struct RackServo {
+    double speed_per_volt = 100;        ///< mm/s or degrees/s for a volt
+    std::optional<double> top_speed;    ///< saturation of the amplifier; absent: the speed at 10 V
+    double top_accel = 5000;            ///< at the amplifier's current limit, without a load
+    double friction = 50;               ///< per second squared: how fast it comes to rest without current
+    double lag_ms = 10;                 ///< time constant of the speed
+    double dead_band_v = 0.005;         ///< V below which the amplifier does nothing
+    double load = 0;                    ///< the load's inertia in units of the motor's own
+    std::optional<double> hold_within;  ///< after a move the card keeps the axis within; absent: it lets go
+
+    /// The greatest speed that it reaches.
+    double fastest() const { return top_speed.value_or(10 * speed_per_volt); }
+};
+
 /// Switches of an axis by the machine position (mm or degrees) where they act; absent: there is no such switch.
 struct RackSwitches {
     std::optional<double> limit_minus;  ///< active at and below
     std::optional<double> limit_plus;   ///< active at and above
     std::optional<double> home;         ///< active at and below
+    std::optional<double> cam_from;     ///< a reference cam: active from here
+    std::optional<double> cam_to;       ///< to here
     double hysteresis = 0.05;           ///< mm or degrees to go back before a switch is released
     double bounce_ms = 1.0;             ///< ms that contacts bounce at each change; 0: clean edges
 };
@@ -103,7 +120,7 @@ struct RackAxis {
     char letter = 'X';  ///< X Y Z A B C
     AxisKind kind = AxisKind::linear;
     std::string card;     ///< the card's name
-    std::string channel;  ///< one letter of the card's channels
+    std::string channel;  ///< one letter of the card's channels; empty on a card that has but one
     std::int64_t motor_steps_per_rev = 200;
     std::int64_t microsteps = 16;  ///< pulses for one full step
     double lead_mm = 5;            ///< linear: travel for one motor turn
@@ -117,7 +134,8 @@ struct RackAxis {
     double start_position = 0;                   ///< where the machine stands when the rack starts
     std::int64_t encoder_counts_per_rev = 4000;  ///< quadrature counts (4 a line) for one motor turn; 0: no encoder
     bool reversed = false;  ///< the motor is mounted the other way round; the direction signal is inverted to match
-    RackMotor motor;
+    RackMotor motor;                 ///< without a servo
+    std::optional<RackServo> servo;
     RackSwitches switches;
     RackHoming homing;
 
@@ -125,8 +143,8 @@ struct RackAxis {
     int index() const;
     /// "mm" or "deg".
     std::string_view unit() const { return kind == AxisKind::linear ? "mm" : "deg"; }
-    /// Pulses for one motor turn, exact.
-    std::int64_t pulses_per_rev() const { return motor_steps_per_rev * microsteps; }
+    /// Pulses for one motor turn, exact; of a servo the counts of its encoder.
+    std::int64_t pulses_per_rev() const { return servo ? encoder_counts_per_rev : motor_steps_per_rev * microsteps; }
     /// Motor turns for one mm or degree.
     double revs_per_unit() const { return kind == AxisKind::linear ? 1 / lead_mm : gear_ratio / 360; }
     /// Pulses for one mm or degree, correctly rounded for linear axes, within 1 unit of the last place for rotary ones.
@@ -144,8 +162,8 @@ RackAxis default_axis(char letter);
 
 enum class EndOwner : std::uint8_t { card, axis, estop };
 
-/// One end of a wire: pin `pin` of cards[index] ("xpp"), end `pin` of axes[index] ("step", "dir", "enc_a", "enc_b",
-/// "enc_z", "limit_plus", "limit_minus", "home"), or the emergency stop (pin empty).
+/// One end of a wire: pin `pin` of cards[index] ("xpp"), end `pin` of axes[index] (see axis_ends()), or the emergency
+/// stop (pin empty).
 struct WireEnd {
     EndOwner owner = EndOwner::card;
     int index = 0;
@@ -194,6 +212,7 @@ struct RackConfig {
     std::vector<RackCard> cards;  ///< in the order of the file
     std::vector<RackAxis> axes;   ///< in the order X Y Z A B C
     std::vector<RackWire> wires;  ///< the default rule with the file's changes; sorted by `to`: cards, axes, pins
+    std::vector<WireEnd> open;    ///< inputs of cards that the file leaves open; a contact's input is active then
     std::vector<PulseLink> pulse_links;  ///< follow from `wires`; an axis without one has a motor that nobody drives
     std::vector<EncoderLink> encoder_links;  ///< follow from `wires`; one at most for each channel
     RackController controller;
@@ -202,6 +221,8 @@ struct RackConfig {
     const RackAxis* axis(char letter) const;
     /// The card of that name, or nullptr.
     const RackCard* card(std::string_view card_name) const;
+    /// Whether every axis is on a card that positions it by itself, so that none can move along a path together.
+    bool point_to_point() const;
     /// What each axis may do, for the planner; axes that the rack has not are not present.
     control::MachineLimits limits() const;
     /// "motion.xpp", "X.step", "estop".

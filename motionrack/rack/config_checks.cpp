@@ -23,9 +23,7 @@ Place AxisSource::place(std::string_view key, std::string_view sub) const {
 int channel_index(const RackConfig& config, const RackAxis& axis) {
     const RackCard* card = config.card(axis.card);
     const CardType* type = card != nullptr ? find_card_type(card->type) : nullptr;
-    if (type == nullptr || axis.channel.size() != 1) return -1;
-    const std::size_t at = type->channels.find(axis.channel[0]);
-    return at == std::string_view::npos ? -1 : static_cast<int>(at);
+    return type == nullptr ? -1 : type->channel_of(axis.channel);
 }
 
 namespace {
@@ -43,7 +41,7 @@ class AxisCheck {
         homing();
         motor();
         if (const RackCard* card = config_.card(axis_.card)) {
-            if (const CardType* type = find_card_type(card->type); type != nullptr && !type->channels.empty()) chip(*card, *type);
+            if (const CardType* type = find_card_type(card->type); type != nullptr) chip(*card, *type);
         }
     }
 
@@ -62,24 +60,22 @@ class AxisCheck {
         }
         const CardType* type = find_card_type(card->type);
         if (type == nullptr || !source_.sound({"channel"})) return;
-        if (type->channels.empty()) {
-            error("card", {},
-                  fmt::format("Axis {} names the card {}, but a {} has no channels for axes.", axis_.letter,
-                              in_quotes(axis_.card), type->name));
-            return;
-        }
         if (channel_index(config_, axis_) < 0) {
+            const std::string said = axis_.channel.empty() ? "no channel" : "the channel " + in_quotes(axis_.channel);
             error("channel", {},
-                  fmt::format("Axis {} names the channel {}; a card of type {} has the channels {}.", axis_.letter,
-                              in_quotes(axis_.channel), type->name, fmt::join(type->channels, " ")));
+                  type->channels.empty()
+                      ? fmt::format("Axis {} names {}; a card of type {} has but one, without a name: leave the key out.", axis_.letter,
+                                    said, type->name)
+                      : fmt::format("Axis {} names {}; a card of type {} has the channels {}.", axis_.letter, said, type->name,
+                                    fmt::join(type->channels, " ")));
             return;
         }
         for (const RackAxis& other : config_.axes) {
             if (&other == &axis_) return;  // each pair is told once, at the later letter
             if (other.card == axis_.card && other.channel == axis_.channel) {
-                error("channel", {},
-                      fmt::format("Axes {} and {} are both on channel {} of card {}; each channel drives one axis.",
-                                  other.letter, axis_.letter, axis_.channel, axis_.card));
+                error(axis_.channel.empty() ? "card" : "channel", {},
+                      fmt::format("Axes {} and {} are both on {}card {}; each channel drives one axis.", other.letter, axis_.letter,
+                                  axis_.channel.empty() ? std::string() : fmt::format("channel {} of ", axis_.channel), axis_.card));
             }
         }
     }
@@ -120,10 +116,25 @@ class AxisCheck {
                   fmt::format("home_{0} of axis {1} is {2}, where the axis cannot go: its ends are at {3} and {4} {0}.",
                               u, axis_.letter, number_text(*s.home), number_text(low), number_text(high)));
         }
+        cam();
         if (s.limit_minus && low >= axis_.min_position)
             limit_in_travel("limit_minus_{u}", low, "min", axis_.min_position);
         if (s.limit_plus && high <= axis_.max_position)
             limit_in_travel("limit_plus_{u}", high, "max", axis_.max_position);
+    }
+
+    void cam() {
+        const RackSwitches& s = axis_.switches;
+        if (!source_.sound({"cam_from_{u}", "cam_to_{u}"})) return;
+        if (s.cam_from.has_value() != s.cam_to.has_value()) {
+            const char* there = s.cam_from ? "cam_from" : "cam_to";
+            error(fmt::format("{}_{}", there, axis_.unit()), "switches",
+                  fmt::format("The cam of axis {} has {}_{} alone; a cam needs both ends.", axis_.letter, there, axis_.unit()));
+        } else if (s.cam_from && *s.cam_from >= *s.cam_to) {
+            error("cam_from_{u}", "switches",
+                  fmt::format("The cam of axis {} goes from {} to {} {}; its first end must be below the other.", axis_.letter,
+                              number_text(*s.cam_from), number_text(*s.cam_to), axis_.unit()));
+        }
     }
 
     void limit_in_travel(std::string_view key, double at, const char* end, double travel_end) {
@@ -163,6 +174,7 @@ class AxisCheck {
                   fmt::format("max_jerk_{0}_s3 of axis {1} is {2}; it is 0 (trapezoids) or at least 0.001 {0}/s3.", u,
                               axis_.letter, number_text(axis_.max_jerk)));
         }
+        if (axis_.servo) return servo();
         if (!source_.sound({"start_stop_hz", "pull_out_hz"})) return;
         const RackMotor& m = axis_.motor;
         if (m.start_stop_hz > m.pull_out_hz) {
@@ -175,6 +187,41 @@ class AxisCheck {
             too_fast_for_motor("max_speed_{u}_s", axis_.max_speed, "pull_out_hz", m.pull_out_hz);
             too_fast_for_motor("start_speed_{u}_s", axis_.start_speed, "start_stop_hz", m.start_stop_hz);
         }
+    }
+
+    void servo() {
+        const RackServo& servo = *axis_.servo;
+        const std::string_view u = axis_.unit();
+        for (const std::string_view key : {"motor", "motor_steps_per_rev", "microsteps"})
+            if (source_.table != nullptr && source_.table->find(key) != nullptr)
+                error(key, {}, fmt::format("Axis {} has a servo, so {} means nothing; leave it out.", axis_.letter, key));
+        if (axis_.encoder_counts_per_rev == 0 && source_.sound({"encoder_counts_per_rev"}))
+            error("encoder_counts_per_rev", {},
+                  fmt::format("Axis {} has a servo but no encoder; encoder_counts_per_rev must be above 0.", axis_.letter));
+        if (!source_.sound({"speed_per_volt_{u}_s", "top_speed_{u}_s", "top_accel_{u}_s2", "friction_{u}_s2", "max_speed_{u}_s"})) return;
+        if (servo.friction >= servo.top_accel)
+            error("friction_{u}_s2", "servo",
+                  fmt::format("friction_{0}_s2 of axis {1} is {2}, not below top_accel_{0}_s2, which is {3}: its motor could never start.", u,
+                              axis_.letter, number_text(servo.friction), number_text(servo.top_accel)));
+        if (const double counts = servo.fastest() * axis_.pulses_per_unit(); counts > 1e6)
+            error("speed_per_volt_{u}_s", "servo",
+                  fmt::format("The servo of axis {} reaches {} {}/s, that is {} counts/s; it may be 1000000. Lower top_speed_{}_s or "
+                              "encoder_counts_per_rev.",
+                              axis_.letter, short_text(servo.fastest()), u, short_text(counts), u));
+        const double slowest = servo.friction * servo.lag_ms * 1e-3 + servo.dead_band_v * servo.speed_per_volt;
+        if (axis_.start_speed <= slowest)
+            warn("start_speed_{u}_s", {},
+                 fmt::format("start_speed_{0}_s of axis {1} is {2}, but friction and dead band take {3} {0}/s of every speed: it would stop "
+                             "short of its target.", u, axis_.letter, number_text(axis_.start_speed), short_text(slowest)));
+        if (const double most = servo.top_accel / (1 + servo.load); axis_.max_accel > most)
+            warn("max_accel_{u}_s2", {},
+                 fmt::format("max_accel_{0}_s2 of axis {1} is {2}, above the {3} {0}/s2 that its servo reaches with its load: it would run "
+                             "past its target.", u, axis_.letter, number_text(axis_.max_accel), short_text(most)));
+        const double reach = std::min(servo.fastest(), (10 - servo.dead_band_v) * servo.speed_per_volt);
+        if (axis_.max_speed > reach * rounding)
+            warn("max_speed_{u}_s", {},
+                 fmt::format("max_speed_{0}_s of axis {1} is {2}, above the {3} {0}/s that its servo reaches at 10 V.", u, axis_.letter,
+                             number_text(axis_.max_speed), short_text(reach)));
     }
 
     void too_fast_for_motor(std::string_view key, double speed, const char* limit_key, double limit) {
@@ -199,8 +246,13 @@ class AxisCheck {
                       "max_speed_{}_s of axis {} is {}, that is {} pulses/s; the slowest that card {} can do is 1.", u,
                       axis_.letter, number_text(axis_.max_speed), short_text(axis_.max_pulse_hz()), card.name));
         }
-        counter_range();
-        if (source_.sound({"encoder_counts_per_rev", "max_speed_{u}_s"})) encoder(card, type.max_encoder_hz(card));
+        counter_range(type);
+        if (!source_.sound({"encoder_counts_per_rev", "max_speed_{u}_s"})) return;
+        if (type.position_loop && axis_.encoder_counts_per_rev == 0)
+            error("encoder_counts_per_rev", {},
+                  fmt::format("Axis {} has no encoder, but card {} positions by it; encoder_counts_per_rev must be above 0.",
+                              axis_.letter, card.name));
+        encoder(card, type.max_encoder_hz(card));
     }
 
     void too_fast_for_chip(std::string_view key, double value, const char* pulse_unit, double limit,
@@ -215,10 +267,10 @@ class AxisCheck {
                           short_text(limit / axis_.pulses_per_unit())));
     }
 
-    /// Positions must fit the 32-bit counters.
-    void counter_range() {
+    /// Positions must fit the card's counters.
+    void counter_range(const CardType& type) {
         if (!source_.sound({"min_{u}", "max_{u}"})) return;
-        constexpr double most = 2'147'483'647;
+        const auto most = static_cast<double>(type.most_position);
         const double per_unit = std::max(axis_.pulses_per_unit(), axis_.counts_per_unit());
         for (const auto& [key, position] :
              {std::pair{"min_{u}", axis_.min_position}, std::pair{"max_{u}", axis_.max_position}}) {
@@ -249,7 +301,9 @@ class AxisCheck {
                   short_text(limit)));
     }
 
-    bool pulses_known() const { return source_.sound({"motor_steps_per_rev", "microsteps", "lead_mm", "gear_ratio"}); }
+    bool pulses_known() const {
+        return source_.sound({"motor_steps_per_rev", "microsteps", "lead_mm", "gear_ratio"}) && axis_.pulses_per_rev() > 0;
+    }
     static bool inside(double value, double low, double high) { return value >= low && value <= high; }
     /// Six digits are enough for a number that was computed.
     static std::string short_text(double value) {

@@ -21,12 +21,12 @@ constexpr std::array<Field, 2> card_table = {
 
 constexpr std::array<Field, 16> axis_table = {
     required(field<&RackAxis::card>("card", 1, 32, "", "name of the card that drives the axis"), "required"),
-    required(field<&RackAxis::channel>("channel", 1, 1, "", "the card's channel (x, y, z or u of an mcx314)"),
-             "required"),
+    absent_means(field<&RackAxis::channel>("channel", 1, 1, "", "the card's channel (x, y, z or u of an mcx314)"),
+                 "the only one of its card"),
     absent_means(with_choices(field<&RackAxis::kind>("kind", 0, 0, "", "X Y Z are linear, A B C rotary"), kinds),
                  "by the letter"),
-    field<&RackAxis::motor_steps_per_rev>("motor_steps_per_rev", 1, 1'000'000, "", "full steps of a motor turn"),
-    field<&RackAxis::microsteps>("microsteps", 1, 1024, "", "pulses of a full step"),
+    field<&RackAxis::motor_steps_per_rev>("motor_steps_per_rev", 1, 1'000'000, "", "full steps of a motor turn; not of a servo"),
+    field<&RackAxis::microsteps>("microsteps", 1, 1024, "", "pulses of a full step; not of a servo"),
     only_in(field<&RackAxis::lead_mm>("lead_mm", 0.001, 10'000, "mm", "travel of a motor turn"), "mm"),
     only_in(field<&RackAxis::gear_ratio>("gear_ratio", 0.001, 100'000, "", "motor turns of a turn of the axis"), "deg"),
     field<&RackAxis::max_speed>("max_speed_{u}_s", 0.000001, 1e6, "{u}/s", "greatest speed"),
@@ -49,12 +49,29 @@ constexpr std::array<Field, 2> motor_table = {
                                    "pulses (microsteps) a second above which it loses steps"),
 };
 
-constexpr std::array<Field, 5> switch_table = {
+constexpr std::array<Field, 8> servo_table = {
+    field<&RackServo::speed_per_volt>("speed_per_volt_{u}_s", 0.000001, 1e6, "{u}/s", "speed for a volt"),
+    absent_means(field<&RackServo::top_speed>("top_speed_{u}_s", 0.000001, 1e7, "{u}/s", "saturation of the amplifier"),
+                 "the speed at 10 V"),
+    field<&RackServo::top_accel>("top_accel_{u}_s2", 0.001, 1e9, "{u}/s2",
+                                 "acceleration at the amplifier's current limit, without the load"),
+    field<&RackServo::friction>("friction_{u}_s2", 0, 1e9, "{u}/s2", "how fast it comes to rest without current"),
+    field<&RackServo::lag_ms>("lag_ms", 0.1, 10'000, "ms", "time constant of the speed, without the load"),
+    field<&RackServo::dead_band_v>("dead_band_v", 0, 5, "V", "voltage below which the amplifier does nothing"),
+    field<&RackServo::load>("load", 0, 1000, "", "inertia of the load in units of the motor's own"),
+    absent_means(field<&RackServo::hold_within>("hold_within_{u}", 0, 1e6, "{u}", "after a move the card's lock keeps the axis so near its target"),
+                 "no lock"),
+};
+
+constexpr std::array<Field, 7> switch_table = {
     absent_means(field<&RackSwitches::limit_minus>("limit_minus_{u}", -1e7, 1e7, "{u}", "active at and below"),
                  "no such switch"),
     absent_means(field<&RackSwitches::limit_plus>("limit_plus_{u}", -1e7, 1e7, "{u}", "active at and above"),
                  "no such switch"),
     absent_means(field<&RackSwitches::home>("home_{u}", -1e7, 1e7, "{u}", "active at and below"), "no such switch"),
+    absent_means(field<&RackSwitches::cam_from>("cam_from_{u}", -1e7, 1e7, "{u}", "a reference cam: active from here"),
+                 "no cam"),
+    absent_means(field<&RackSwitches::cam_to>("cam_to_{u}", -1e7, 1e7, "{u}", "to here"), "no cam"),
     field<&RackSwitches::hysteresis>("hysteresis_{u}", 0, 100, "{u}", "way back until a switch is released"),
     field<&RackSwitches::bounce_ms>("bounce_ms", 0, 100, "ms", "time that contacts bounce; 0: clean edges"),
 };
@@ -69,7 +86,7 @@ constexpr std::array<Field, 7> homing_table = {
                  "a quarter of the greatest speed"),
     absent_means(field<&RackHoming::slow_speed>("slow_speed_{u}_s", 0.000001, 1e6, "{u}/s",
                                                 "speed of the last approach, at most the start speed"),
-                 "a quarter of the start speed"),
+                 "a quarter of the start speed; of a servo all of it"),
     absent_means(field<&RackHoming::position>("position_{u}", -1e7, 1e7, "{u}", "what the home place is called"),
                  "where the switch's edge is"),
     field<&RackHoming::clearance>("clearance_{u}", 0, 1000, "{u}", "way driven on after the switch is released"),
@@ -83,16 +100,18 @@ constexpr std::array<Field, 2> controller_table = {
                                              "how far short lines may leave an arc"),
 };
 
-bool always(const RackAxis&) {
-    return true;
+bool steps(const RackAxis& axis) {
+    return !axis.servo;
 }
 bool has_encoder(const RackAxis& axis) {
     return axis.encoder_counts_per_rev > 0;
 }
 
-constexpr std::array<AxisEnd, 8> ends = {{
-    {"step", PinDirection::input, "a pulse moves the motor by one microstep", always, ""},
-    {"dir", PinDirection::input, "the direction of the pulses", always, ""},
+constexpr std::array<AxisEnd, 10> ends = {{
+    {"step", PinDirection::input, "a pulse moves the motor by one microstep", steps, "a stepping motor (no servo)"},
+    {"dir", PinDirection::input, "the direction of the pulses", steps, "a stepping motor (no servo)"},
+    {"drive", PinDirection::input, "speed for the servo amplifier, V", [](const RackAxis& axis) { return !steps(axis); },
+     "a servo", 1e-6},
     {"enc_a", PinDirection::output, "encoder track A", has_encoder, "encoder_counts_per_rev above 0"},
     {"enc_b", PinDirection::output, "encoder track B", has_encoder, "encoder_counts_per_rev above 0"},
     {"enc_z", PinDirection::output, "encoder index, once a motor turn", has_encoder, "encoder_counts_per_rev above 0"},
@@ -102,6 +121,8 @@ constexpr std::array<AxisEnd, 8> ends = {{
      [](const RackAxis& axis) { return axis.switches.limit_minus.has_value(); }, "limit_minus_{u} in its switches"},
     {"home", PinDirection::output, "home switch", [](const RackAxis& axis) { return axis.switches.home.has_value(); },
      "home_{u} in its switches"},
+    {"cam", PinDirection::output, "reference cam: low between its ends",
+     [](const RackAxis& axis) { return axis.switches.cam_from && axis.switches.cam_to; }, "cam_from_{u} and cam_to_{u} in its switches"},
 }};
 
 }  // namespace
@@ -117,6 +138,9 @@ std::span<const Field> axis_fields() {
 }
 std::span<const Field> motor_fields() {
     return motor_table;
+}
+std::span<const Field> servo_fields() {
+    return servo_table;
 }
 std::span<const Field> switch_fields() {
     return switch_table;

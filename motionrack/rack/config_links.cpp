@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <motionrack/rack/config_parts.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <tuple>
@@ -54,15 +55,13 @@ class LinkResolver {
     /// The pin of that channel which the default rule joins with `end`.
     WireEnd pin_of(int card, int channel, std::string_view end) const {
         const CardType& type = type_of(card);
-        return {EndOwner::card, card,
-                type.channels[static_cast<std::size_t>(channel)] + std::string(pin_for(type, end))};
+        return {EndOwner::card, card, std::string(type.channel_name(channel)).append(pin_for(type, end))};
     }
 
     /// The channel whose pin for `end` this is, or -1.
     int channel_with(const WireEnd& pin, std::string_view end) const {
         if (pin.owner != EndOwner::card || pin_for(type_of(pin.index), end).empty()) return -1;
-        const int channels = static_cast<int>(type_of(pin.index).channels.size());
-        for (int channel = 0; channel < channels; ++channel)
+        for (int channel = 0; channel < type_of(pin.index).channel_count(); ++channel)
             if (pin == pin_of(pin.index, channel, end)) return channel;
         return -1;
     }
@@ -108,7 +107,7 @@ class LinkResolver {
     std::string own_pin(int axis, std::string_view end) const {
         const RackAxis& own = config_.axes[static_cast<std::size_t>(axis)];
         for (std::size_t i = 0; i < config_.cards.size(); ++i)
-            if (config_.cards[i].name == own.card && !type_of(static_cast<int>(i)).channels.empty())
+            if (config_.cards[i].name == own.card)
                 return name(pin_of(static_cast<int>(i), std::max(0, channel_index(config_, own)), end));
         return "CARD.PIN";
     }
@@ -178,9 +177,13 @@ class LinkResolver {
 
 }  // namespace
 
+bool is_pulse_end(const WireEnd& end) {
+    constexpr std::array<std::string_view, 4> pulse_ends = {"step", "dir", "enc_a", "enc_b"};
+    return end.owner == EndOwner::axis && std::find(pulse_ends.begin(), pulse_ends.end(), end.pin) != pulse_ends.end();
+}
+
 bool is_link(const RackWire& wire) {
-    return (wire.to.owner == EndOwner::axis) ||
-           (wire.from.owner == EndOwner::axis && (wire.from.pin == "enc_a" || wire.from.pin == "enc_b"));
+    return is_pulse_end(wire.to) || is_pulse_end(wire.from);
 }
 
 void resolve_links(RackConfig& config, const std::function<Place(const std::string& input)>& place_of,

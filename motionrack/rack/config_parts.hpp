@@ -19,6 +19,7 @@ std::span<const Field> rack_fields();        ///< [rack] into RackConfig
 std::span<const Field> card_fields();        ///< [card.NAME] into RackCard, without the settings of its type
 std::span<const Field> axis_fields();        ///< [axis.X] into RackAxis
 std::span<const Field> motor_fields();       ///< [axis.X.motor] into RackMotor
+std::span<const Field> servo_fields();       ///< [axis.X.servo] into RackServo
 std::span<const Field> switch_fields();      ///< [axis.X.switches] into RackSwitches
 std::span<const Field> homing_fields();      ///< [axis.X.homing] into RackHoming
 std::span<const Field> controller_fields();  ///< [controller] into RackController
@@ -30,6 +31,7 @@ struct AxisEnd {
     std::string_view doc;
     bool (*present)(const RackAxis& axis);
     std::string_view needs;  ///< what the rack file must say for the end to be there
+    double volts = 0;        ///< of an analog end: see PinType
 };
 std::span<const AxisEnd> axis_ends();
 const AxisEnd* find_axis_end(std::string_view name);
@@ -46,7 +48,7 @@ struct AxisSource {
     std::vector<std::string_view> refused = {};
 
     bool sound(std::initializer_list<std::string_view> keys) const;
-    /// The place of the key, in the axis' own table or its table `sub` ("motor", "switches", "homing").
+    /// The place of the key, in the axis' own table or its table `sub` ("motor", "servo", "switches", "homing").
     Place place(std::string_view key, std::string_view sub = {}) const;
 };
 
@@ -63,6 +65,8 @@ void resolve_links(RackConfig& config, const std::function<Place(const std::stri
 
 /// Whether the wire carries pulses or encoder counts as a link.
 bool is_link(const RackWire& wire);
+/// Whether the end is the step or direction input, or an encoder track, of an axis.
+bool is_pulse_end(const WireEnd& end);
 
 /// The index of `axis`' channel in its card's type, or -1 if the card or the channel does not exist.
 int channel_index(const RackConfig& config, const RackAxis& axis);

@@ -11,7 +11,7 @@ namespace motionrack::rack {
 namespace {
 
 constexpr std::array<std::string_view, 5> top_level = {"rack", "card", "axis", "controller", "wires"};
-constexpr std::array<std::string_view, 3> axis_tables = {"motor", "switches", "homing"};
+constexpr std::array<std::string_view, 4> axis_tables = {"motor", "servo", "switches", "homing"};
 
 class RackReader {
   public:
@@ -228,13 +228,14 @@ class RackReader {
             source.refused.insert(source.refused.end(), refused.begin(), refused.end());
         };
         read_sub("motor", motor_fields(), &axis.motor);
+        if (node.find("servo") != nullptr) read_sub("servo", servo_fields(), &axis.servo.emplace());
         read_sub("switches", switch_fields(), &axis.switches);
         read_sub("homing", homing_fields(), &axis.homing);
         config_.axes.push_back(std::move(axis));
         sources_.push_back(std::move(source));
     }
 
-    /// A card alone drives ideal axes: one encoder count a pulse, no steps lost, no switches, more travel than anyone
+    /// A card alone with several channels drives ideal axes: one encoder count a pulse, no steps lost, no switches, more travel than anyone
     /// needs.
     void add_ideal_axes() {
         const RackCard& card = config_.cards[0];

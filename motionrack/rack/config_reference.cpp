@@ -34,18 +34,18 @@ std::string rows(std::span<const Field> fields, const void* linear, const void* 
 std::string card_type_text(const CardType& type) {
     RackCard defaults;
     std::string out = fmt::format("### {}\n{}. {}.\n\n", type.name, type.doc,
-                                  type.channels.empty() ? "It has no channels for axes"
+                                  type.channels.empty() ? "It has one channel, without a name: an axis on it has no key `channel`"
                                                         : fmt::format("Channels: {}", fmt::join(type.channels, " ")));
     const void* settings = type.settings_of(defaults);
     if (!type.settings.empty()) out += rows(type.settings, settings, settings);
     out += "| pin | direction | meaning | wired by default to |\n|---|---|---|---|\n";
     const auto direction = [](const PinType& pin) { return pin.direction == PinDirection::input ? "input" : "output"; };
     for (const PinType& pin : type.channel_pins) {
-        std::string wired = "-";
-        for (const DefaultWire& wire : type.default_wires) {
-            if (wire.pin == pin.name) wired = fmt::format("`NAME.{}`", wire.end);
-        }
-        out += fmt::format("| `{}{}` | {} | {} | {} |\n", type.channels[0], pin.name, direction(pin), pin.doc, wired);
+        std::string wired;
+        for (const DefaultWire& wire : type.default_wires)
+            if (wire.pin == pin.name) wired += fmt::format("{}`NAME.{}`", wired.empty() ? "" : ", else ", wire.end);
+        out += fmt::format("| `{}{}` | {} | {} | {} |\n", type.channel_name(0), pin.name, direction(pin), pin.doc,
+                           wired.empty() ? "-" : wired);
     }
     for (const PinType& pin : type.chip_pins) {
         out += fmt::format("| `{}` | {} | {} | {} |\n", pin.name, direction(pin), pin.doc,
@@ -62,7 +62,8 @@ std::string wires_text() {
     std::string out =
         "## [wires]\nOne line a wire, only for what differs from the default rule: the input left, the output that "
         "drives it right, both in "
-        "quotes; `\"open\"` leaves an input without a wire. An output may drive many inputs.\n\n"
+        "quotes; `\"open\"` leaves an input without a wire, which an input for a contact takes for an open contact: it is active. An output "
+        "may drive many inputs.\n\n"
         "```toml\n[wires]\n\"motion.xlmtp\" = \"Y.limit_plus\"\n\"motion.xin2\" = \"open\"\n```\n\n"
         "A motor takes its pulses and their direction from one channel, and one channel drives one motor; `\"X.step\" = "
         "\"open\"` leaves the motor standing. An encoder is wired with both tracks or not at all: with the tracks "
@@ -100,6 +101,10 @@ std::string rack_file_reference() {
     out += "## [axis.NAME]\nNAME is X, Y, Z (linear, mm) or A, B, C (rotary, degrees).\n\n" +
            rows(axis_fields(), &linear, &rotary);
     out += "## [axis.NAME.motor]\nPulses are microsteps.\n\n" + rows(motor_fields(), &linear.motor, &rotary.motor);
+    const RackServo servo;
+    out += "## [axis.NAME.servo]\nA servo amplifier with a DC motor and its tacho, in place of the stepping motor; with the section, even an "
+           "empty one, the axis follows a voltage. The model is a first-order lag with a current limit.\n\n" +
+           rows(servo_fields(), &servo, &servo);
     out += "## [axis.NAME.switches]\nMachine positions where they act.\n\n" +
            rows(switch_fields(), &linear.switches, &rotary.switches);
     out += "## [axis.NAME.homing]\nHow `motionrack home` finds the home switch.\n\n" +

@@ -18,6 +18,7 @@ namespace {
 struct KnownEnd {
     WireEnd end;
     PinDirection direction = PinDirection::input;
+    bool analog = false;
     std::string missing;  ///< not empty: the name is right, but the rack has no such part; why
 };
 
@@ -26,7 +27,7 @@ class WireResolver {
     WireResolver(const RackConfig& config, Problems& problems) : config_(config), problems_(problems) {
         for (std::size_t i = 0; i < config.cards.size(); ++i) add_card(static_cast<int>(i));
         for (std::size_t i = 0; i < config.axes.size(); ++i) add_axis(static_cast<int>(i));
-        known_["estop"] = {{EndOwner::estop, 0, ""}, PinDirection::output, {}};
+        known_["estop"] = {{EndOwner::estop, 0, ""}, PinDirection::output, false, {}};
     }
 
     void default_rule() {
@@ -67,6 +68,8 @@ class WireResolver {
         return out;
     }
 
+    std::vector<WireEnd> take_open() { return std::move(open_); }
+
     /// Nothing was wrong so far.
     bool sound() const { return sound_; }
 
@@ -85,14 +88,14 @@ class WireResolver {
             return;
         }
         for (Pin& pin : pins_of(*type)) {
-            known_[card.name + "." + pin.name] = {{EndOwner::card, index, pin.name}, pin.direction, {}};
+            known_[card.name + "." + pin.name] = {{EndOwner::card, index, pin.name}, pin.direction, pin.volts > 0, {}};
         }
     }
 
     void add_axis(int index) {
         const RackAxis& axis = config_.axes[static_cast<std::size_t>(index)];
         for (const AxisEnd& end : axis_ends()) {
-            KnownEnd known{{EndOwner::axis, index, std::string(end.name)}, end.direction, {}};
+            KnownEnd known{{EndOwner::axis, index, std::string(end.name)}, end.direction, end.volts > 0, {}};
             if (!end.present(axis)) {
                 known.missing =
                     fmt::format("axis {} needs {} to have it", axis.letter, with_unit(end.needs, axis.unit()));
@@ -154,6 +157,7 @@ class WireResolver {
                                 name));
             } else {
                 wires_.erase(name);
+                if (left != nullptr && left->end.owner == EndOwner::card) open_.push_back(left->end);
             }
             return;
         }
@@ -177,6 +181,9 @@ class WireResolver {
                             node.text));
         } else if (right.direction == input) {
             inputs_[name] = &node;
+        } else if (left.analog != right.analog) {
+            error(node.key_place, fmt::format("{} is {} and {} {}; they cannot be wired together.", name, left.analog ? "a voltage" : "a logic level",
+                                              node.text, right.analog ? "a voltage" : "a logic level"));
         } else {
             wires_.insert_or_assign(name, RackWire{right.end, left.end, false});
         }
@@ -238,6 +245,7 @@ class WireResolver {
     std::map<std::string, RackWire> wires_;  ///< by the name of the input
     std::map<std::string, const TomlNode*> named_;
     std::map<std::string, const TomlNode*> inputs_;
+    std::vector<WireEnd> open_;
     std::vector<std::string> unjudged_;  ///< cards of unknown type
 };
 
@@ -248,6 +256,7 @@ void resolve_wires(RackConfig& config, const TomlNode* wires, Problems& problems
     resolver.default_rule();
     if (wires != nullptr) resolver.read(*wires);
     config.wires = resolver.take();
+    config.open = resolver.take_open();
     if (!resolver.sound()) return;  // one mistake, one error
     resolve_links(config, [&](const std::string& input) { return resolver.place_of(input); }, problems);
 }

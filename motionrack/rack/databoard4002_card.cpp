@@ -1,8 +1,10 @@
-// The DataBoard 4002 in a rack: all of a rack share one bus; an ideal motor follows each card's pulses.
+// The DataBoard 4002 in a rack: all of a rack share one bus. An ideal motor follows the pulses of a card without an axis.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <motionrack/cards/databoard4002/axes/position_axis.hpp>
 #include <motionrack/cards/databoard4002/map.hpp>
 #include <motionrack/cards/databoard4002/model/bus.hpp>
 #include <motionrack/cards/databoard4002/model/card.hpp>
@@ -36,6 +38,25 @@ db::Settings settings_of(const Databoard4002Settings& s) {
     return out;
 }
 
+/// The axis in the card's own counts: edges that the straps let through, speeds by voltage or frequency.
+db::PositionAxisSettings axis_settings(const RackConfig& config, const RackAxis& axis, Databoard4002Counting counting) {
+    constexpr std::array<double, 4> counts_of_edge = {1, 0.5, 0.25, 1};
+    db::PositionAxisSettings out;
+    out.name = std::string(1, axis.letter);
+    out.unit = axis.unit();
+    out.limits = config.limits()[static_cast<std::size_t>(axis.index())];
+    out.counts_per_unit = axis.counts_per_unit() * counts_of_edge[static_cast<std::size_t>(counting)];
+    if (axis.servo) {
+        out.scale.analog = true;
+        out.scale.counts_per_volt = axis.servo->speed_per_volt * out.counts_per_unit;
+        out.lag_s = axis.servo->lag_ms * 1e-3 * (1 + axis.servo->load);
+        out.hold_window = axis.servo->hold_within;
+    } else {
+        out.scale.counts_per_pulse = out.counts_per_unit / axis.pulses_per_unit();
+    }
+    return out;
+}
+
 /// A value by its name.
 struct Value {
     std::string_view name;
@@ -64,7 +85,6 @@ class Databoard4002Card final : public Card {
           card_(kernel, config.name, settings_of(config.databoard4002)),
           bus_(bus ? std::move(bus) : std::make_shared<db::Bus>(kernel, "databoard")),
           port_(kernel, *bus_, bus_->id(), bus_->interrupt_wire(), nanoseconds(config.databoard4002.bus_access_ns), &log) {
-        card_.connect_encoder(card_.pulses());
         bus_->plug(card_, static_cast<std::uint8_t>(config.databoard4002.select));
     }
 
@@ -107,31 +127,46 @@ class Databoard4002Card final : public Card {
         return out;
     }
 
-    // It has no channels, so nobody asks for one.
-    int channel_count() const override { return 0; }
-    std::string channel_name(int) const override { return {}; }
-    int channel_number(std::string_view) const override { return -1; }
+    std::vector<CardCounter> counters() const override { return {{"position", 0, true}}; }
+    int channel_number(std::string_view) const override { return 0; }
     sim::Motion& pulses(int) override { return card_.pulses(); }
-    void connect_encoder(int, sim::Motion&) override {}
+    void connect_encoder(int, sim::Motion& counts) override { card_.connect_encoder(counts); }
     void take_encoder(int, bool taken) override { card_.take_encoder(taken); }
+    void connect_ideal_machine() override {
+        card_.connect_encoder(card_.pulses());
+        ideal_ = true;
+    }
     std::span<const std::string_view> ideal_encoder() const override {
         static constexpr std::string_view pins[] = {"o1", "o2"};
+        if (!ideal_) return {};
         return pins;
     }
     Result<control::PathAxes*> path_axes(const RackConfig&, const control::Point&) override {
-        return fail(Trouble::refused, fmt::format("Card {} positions its one axis on its own and follows no paths. Nothing was moved; "
-                                                  "use the card's own commands.", name_));
+        return fail(Trouble::refused, fmt::format("Card {} positions its one axis by itself and follows no paths. Nothing was moved.", name_));
     }
-    Result<control::Axis*> axis(const RackConfig&, char) override {
-        return fail(Trouble::refused, fmt::format("Card {} has no axis of the rack file. Nothing was moved.", name_));
+    bool follows_paths() const override { return false; }
+    Result<control::Axis*> axis(const RackConfig& config, char letter) override {
+        if (axis_) return axis_.get();
+        const RackAxis* found = config.axis(letter);
+        MOTIONRACK_ASSERT(found != nullptr && found->card == name_);
+        const Databoard4002Settings& own = config.card(name_)->databoard4002;
+        db::DriverSettings settings;
+        settings.select = static_cast<std::uint8_t>(own.select);
+        driver_ = std::make_unique<db::Driver>(port_, port_, settings);
+        auto made = std::make_unique<db::PositionAxis>(*driver_, port_, axis_settings(config, *found, own.counting));
+        MOTIONRACK_CHECK(made->set_up());
+        axis_ = std::move(made);
+        return axis_.get();
     }
     double kept_back() const override { return 0; }
-    double jump_hz(const RackConfig&) const override { return 0; }
+    double jump_hz(const RackConfig&) const override { return std::numeric_limits<double>::infinity(); }
     std::int64_t segments() const override { return 0; }
     std::int64_t pulses_made(int) override { return 0; }
     std::int64_t pulse_counter(int) override { return card_.position(); }
     std::int64_t encoder_counter(int) override { return card_.position(); }
 
+    std::span<const std::string_view> fault_names() const override { return db::Card::fault_names(); }
+    bool fault(std::string_view name, double value, Instant now) override { return card_.fault(name, value, now); }
     sim::VirtualHost& host() override { return port_; }
     std::string describe(const sim::Condition& condition) const override { return db::describe(condition, name_); }
 
@@ -140,6 +175,9 @@ class Databoard4002Card final : public Card {
     db::Card card_;
     std::shared_ptr<db::Bus> bus_;
     sim::VirtualBytePort port_;
+    std::unique_ptr<db::Driver> driver_;
+    std::unique_ptr<db::PositionAxis> axis_;
+    bool ideal_ = false;  // an ideal motor follows its pulses
 };
 
 }  // namespace

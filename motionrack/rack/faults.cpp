@@ -13,35 +13,52 @@ namespace {
 
 constexpr double most = greatest_push;
 
+/// A part that takes faults: an axis' machine or servo, or a card.
 struct Found {
     RunningAxis* axis = nullptr;
+    Card* card = nullptr;
     std::string_view name;
     double value = 1;
+    bool of_servo() const { return axis != nullptr && axis->servo && name.substr(0, 6) == "motor."; }
 };
 
 /// Whether the machine has the part that the fault is of ("encoder.", "limit_plus." ...).
-bool has_part(const parts::AxisMachine& machine, std::string_view fault) {
+bool has_part(const RunningAxis& axis, std::string_view fault) {
+    const parts::AxisMachine& machine = *axis.machine;
     const std::string_view part = fault.substr(0, fault.find('.'));
     if (part == "encoder") return machine.has_encoder();
     if (part == "limit_minus") return machine.limit_minus().present();
     if (part == "limit_plus") return machine.limit_plus().present();
     if (part == "home") return machine.home().present();
-    return true;
+    const auto knows = [fault](std::span<const std::string_view> names) { return std::find(names.begin(), names.end(), fault) != names.end(); };
+    return axis.servo ? knows(parts::DcMotor::fault_names()) : knows(parts::AxisMachine::fault_names());
+}
+
+std::vector<std::string_view> names_of(const Found& found) {
+    if (found.axis != nullptr) return fault_names();
+    const auto names = found.card->fault_names();
+    return {names.begin(), names.end()};
 }
 
 Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) {
     Found found;
-    std::string axes;
+    std::string targets;
+    const auto add = [&targets](std::string_view name) { targets.append(targets.empty() ? "" : ", ").append(name); };
     for (RunningAxis& axis : rack.axes()) {
         if (target.size() == 1 && target[0] == axis.config.letter) found.axis = &axis;
-        axes += (axes.empty() ? "" : ", ") + std::string(1, axis.config.letter);
+        add(std::string(1, axis.config.letter));
     }
-    if (found.axis == nullptr)
-        return fail(Trouble::bad_input, fmt::format("{} has no faults to inject; the axes of this rack have: {}. Nothing was done.",
-                                                    in_quotes(target), axes.empty() ? "there are none" : axes));
+    for (const auto& card : rack.cards()) {
+        if (card->fault_names().empty()) continue;
+        if (target == card->name()) found.card = card.get();
+        add(card->name());
+    }
+    if (found.axis == nullptr && found.card == nullptr)
+        return fail(Trouble::bad_input, fmt::format("{} has no faults to inject; these of this rack have: {}. Nothing was done.",
+                                                    in_quotes(target), targets.empty() ? "there are none" : targets));
     const std::size_t equals = fault.find('=');
     found.name = fault.substr(0, equals);
-    const auto names = fault_names();
+    const auto names = names_of(found);
     if (std::find(names.begin(), names.end(), found.name) == names.end())
         return fail(Trouble::bad_input, fmt::format("There is no fault {}; there are: {}. Nothing was done.",
                                                     in_quotes(found.name), fmt::join(names, ", ")));
@@ -52,7 +69,7 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
             return fail(Trouble::refused, fmt::format("The value of {} is {}; it is a number from {:.0f} to {:.0f}. Nothing was done.",
                                                       found.name, in_quotes(text), -most, most));
     }
-    if (!has_part(*found.axis->machine, found.name))
+    if (found.axis != nullptr && !has_part(*found.axis, found.name))
         return fail(Trouble::refused, fmt::format("Axis {} has nothing that could have the fault {}; see its section of the rack "
                                                   "file. Nothing was done.",
                                                   target, found.name));
@@ -62,8 +79,11 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
 }  // namespace
 
 std::vector<std::string_view> fault_names() {
-    const auto names = parts::AxisMachine::fault_names();
-    return {names.begin(), names.end()};
+    const auto machine = parts::AxisMachine::fault_names();
+    std::vector<std::string_view> out(machine.begin(), machine.end());
+    for (const std::string_view name : parts::DcMotor::fault_names())
+        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+    return out;
 }
 
 Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view target) {
@@ -73,13 +93,17 @@ Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view ta
 
 Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view target) {
     MOTIONRACK_TRY(const Found found, find(rack, fault, target));
-    parts::AxisMachine& machine = *found.axis->machine;
-    const auto names = fault_names();
-    sim::Input input{rack.kernel().now(), sim::InputKind::fault, static_cast<std::uint16_t>(machine.id()), 0, 0, found.value};
+    const Instant now = rack.kernel().now();
+    const sim::DeviceId device = found.card != nullptr ? found.card->device() : found.of_servo() ? found.axis->servo->id() : found.axis->machine->id();
+    const auto names = names_of(found);
+    sim::Input input{now, sim::InputKind::fault, static_cast<std::uint16_t>(device), 0, 0, found.value};
     input.offset = static_cast<std::uint32_t>(std::find(names.begin(), names.end(), found.name) - names.begin());
     rack.input_log().add(input);
-    const bool known = machine.fault(found.name, found.value, rack.kernel().now());
-    MOTIONRACK_ASSERT(known);
+    const bool known = found.card != nullptr ? found.card->fault(found.name, found.value, now)
+                       : found.of_servo()    ? found.axis->servo->fault(found.name, found.value, now)
+                                             : found.axis->machine->fault(found.name, found.value, now);
+    if (!known)
+        return fail(Trouble::refused, fmt::format("{} cannot have the fault {} with the value {}. Nothing was done.", target, found.name, found.value));
     rack.kernel().settle();
     return {};
 }

@@ -12,7 +12,7 @@
 
 namespace motionrack::rack {
 
-/// The fault `fault` ("NAME" or "NAME=VALUE"; without a value: 1) of `target`, an axis of the rack. Between runs.
+/// The fault `fault` ("NAME" or "NAME=VALUE"; without a value: 1) of `target`, an axis or a card of the rack. Between runs.
 /// Errors: bad_input (no such target or fault, with the ones that there are), refused (the part is missing, the value).
 Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view target);
 
@@ -22,7 +22,7 @@ Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view ta
 /// The greatest number of a fault, in microsteps: how far a motor can be pushed at once.
 inline constexpr double greatest_push = 1e7;
 
-/// Names of the faults of each axis.
+/// Names of the faults that an axis can have, whatever turns it.
 std::vector<std::string_view> fault_names();
 
 }  // namespace motionrack::rack

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <motionrack/rack/card_types.hpp>
 #include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
@@ -13,19 +13,25 @@ namespace {
 constexpr Duration sample_period = milliseconds(1);
 constexpr std::size_t most_samples = 200'000;
 
-/// The stop input of the axis' channel that `end` of the axis is wired to; -1 if none is.
-int stop_input(const RackConfig& config, const RackAxis& axis, std::string_view end) {
+/// The number of the input among `pins` of the axis' channel that `end` of the axis is wired to; -1 if none is.
+int input_of(const RackConfig& config, const RackAxis& axis, std::string_view end, std::span<const std::string_view> pins) {
     for (const RackWire& wire : config.wires) {
         if (wire.from.owner != EndOwner::axis || config.axes[static_cast<std::size_t>(wire.from.index)].letter != axis.letter) continue;
         if (wire.from.pin != end || wire.to.owner != EndOwner::card) continue;
         if (config.cards[static_cast<std::size_t>(wire.to.index)].name != axis.card) continue;
-        const std::string before = axis.channel + "in";
-        int input = -1;
-        if (wire.to.pin.rfind(before, 0) == 0 && wire.to.pin.size() == before.size() + 1)
-            std::from_chars(wire.to.pin.data() + before.size(), wire.to.pin.data() + wire.to.pin.size(), input);
-        if (input >= 0) return input;
+        for (std::size_t i = 0; i < pins.size(); ++i)
+            if (wire.to.pin == axis.channel + std::string(pins[i])) return static_cast<int>(i);
     }
     return -1;
+}
+
+bool has_cam(const RackAxis& axis) { return axis.switches.cam_from && axis.switches.cam_to; }
+
+/// "xin0, xin1" of card motion.
+std::string inputs_text(const RackAxis& axis, std::span<const std::string_view> pins) {
+    std::string out;
+    for (const std::string_view pin : pins) out += (out.empty() ? "" : ", ") + axis.channel + std::string(pin);
+    return fmt::format("{} of card {}", out, axis.card);
 }
 
 class Homing {
@@ -79,7 +85,7 @@ class Homing {
         std::string letters = settings_.axes;
         if (letters.empty())
             for (const RunningAxis& axis : rack_.axes())
-                if (axis.config.switches.home) letters += axis.config.letter;
+                if (axis.config.switches.home || (has_cam(axis.config) && !axis.card->follows_paths())) letters += axis.config.letter;
         if (letters.empty())
             return fail(Trouble::refused, "No axis of the rack has a home switch. Nothing was moved; give an axis one (home_mm in its switches).");
         for (const char letter : letters) {
@@ -171,7 +177,7 @@ class Homing {
         }
         s.seconds.push_back(to_seconds(now - work.at));
         s.position.push_back(static_cast<float>(work.running->machine->position(now)));
-        s.speed.push_back(static_cast<float>(work.running->machine->speed()));
+        s.speed.push_back(static_cast<float>(work.running->speed(now)));
     }
 
     void tell(const std::vector<Work*>& group) {
@@ -220,27 +226,36 @@ Result<control::HomeOrder> home_order(const RackConfig& config, const RackAxis& 
     const auto refuse = [&](const std::string& why) {
         return fail(Trouble::refused, fmt::format("Axis {} cannot be homed: {}. Nothing was moved.", axis.letter, why));
     };
-    if (!axis.switches.home)
-        return refuse(fmt::format("it has no home switch; give it one (home_{} in its switches)", axis.unit()));
+    const CardType& type = *find_card_type(config.card(axis.card)->type);
+    // A card that positions by itself searches the near edge of a mark; the others see the release of a switch too.
+    const bool cam = type.position_loop && has_cam(axis);
+    if (!cam && !axis.switches.home)
+        return refuse(fmt::format("it has no home switch; give it one (home_{0} in its switches{1})", axis.unit(),
+                                  type.position_loop ? fmt::format(", or a cam: cam_from_{0} and cam_to_{0}", axis.unit()) : ""));
     if (h.type < 1 || h.type > 4) return refuse(fmt::format("its homing type is {}, but may be 1 to 4", h.type));
     const bool plus = h.direction == HomingDirection::plus;
+    if (type.position_loop && plus && !cam)
+        return refuse("its home switch is active at and below its place, so its edge is searched in - direction; give it a cam, or the other direction");
     control::HomeOrder order;
     order.type = static_cast<control::HomeType>(h.type);
     order.towards_plus = plus;
     order.speed = h.speed.value_or(std::max(axis.max_speed / 4, std::min(axis.start_speed, axis.max_speed)));
-    order.slow_speed = h.slow_speed.value_or(std::min(axis.start_speed, order.speed) / 4);
+    const double slow = std::min(axis.start_speed, order.speed);
+    order.slow_speed = h.slow_speed.value_or(axis.servo ? slow : slow / 4);
     // The switch is active at and below its place: upwards it is its release that is searched.
-    order.position = h.position.value_or(*axis.switches.home + (plus ? axis.switches.hysteresis : 0));
+    const double edge = cam ? (plus ? *axis.switches.cam_from : *axis.switches.cam_to)
+                            : *axis.switches.home + (plus ? axis.switches.hysteresis : 0);
+    order.position = h.position.value_or(edge);
     order.clearance = h.clearance;
     order.switch_active_high = plus;
-    order.switch_input = stop_input(config, axis, "home");
+    order.switch_input = input_of(config, axis, cam ? "cam" : "home", type.home_pins);
     if (order.switch_input < 0)
-        return refuse(fmt::format("its home switch is not wired to a stop input of its channel ({0}in0 .. {0}in3 of card {1})", axis.channel, axis.card));
+        return refuse(fmt::format("its home {} is not wired to a stop input of its channel ({})", cam ? "cam" : "switch", inputs_text(axis, type.home_pins)));
     if (h.type < 3) return order;
-    order.index_input = stop_input(config, axis, "enc_z");
+    order.index_input = input_of(config, axis, "enc_z", type.index_pins);
     if (order.index_input < 0)
-        return refuse(fmt::format("type {} needs the encoder's index, which is not there or not wired to a stop input of its channel; home it with type 1 "
-                                  "or 2", h.type));
+        return refuse(fmt::format("type {} needs the encoder's index, which is not there or not wired to a stop input of its channel ({}); home it with type 1 or 2",
+                                  h.type, inputs_text(axis, type.index_pins)));
     return order;
 }
 

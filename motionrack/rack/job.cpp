@@ -12,7 +12,8 @@ Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(se
     for (RunningAxis& axis : rack_.axes()) {
         WatchedAxis one;
         one.index = axis.config.index();
-        one.commanded = &axis.card->pulses(axis.channel);
+        one.commanded = &axis.turned_by();
+        one.servo = axis.servo.get();
         one.real = &axis.machine->rotor();
         one.pulses_per_unit = axis.config.pulses_per_unit();
         one.origin = axis.config.start_position;
@@ -36,6 +37,7 @@ JobOutcome Job::run() {
     control::ControllerSettings settings;
     settings.gcode.limits = rack_.config().limits();
     settings.gcode.block_delete = settings_.block_delete;
+    settings.gcode.point_to_point = rack_.config().point_to_point();
     settings.gcode.path_tolerance_mm = rack_.config().controller.default_path_tolerance_mm;
     settings.gcode.start = settings.gcode.g28 = settings.gcode.g30 = rack_.start_position();
     settings.kept_back = rack_.axes().front().card->kept_back();
@@ -77,8 +79,13 @@ JobOutcome Job::run() {
     for (const control::PathNote& note : (*axes)->take_notes())
         out.warnings.push_back({began, note.line, fmt::format("{} (it costs at most {:.4f} mm)", note.what, note.deviation_mm)});
     collect_conditions(out);
-    out.axes = axis_outcomes();
-    for (const AxisOutcome& axis : out.axes) out.position_trusted = out.position_trusted && axis.lost_pulses == 0;
+    out.axes = axis_outcomes((*axes)->commanded_position());
+    for (const AxisOutcome& axis : out.axes) {
+        out.position_trusted = out.position_trusted && axis.lost_pulses == 0;
+        if (!axis.servo) continue;
+        const double off = std::fabs(axis.real_end - axis.planned_end);
+        if (out.rest_axis < 0 || off > out.rest_off) out.rest_off = off, out.rest_axis = axis.index;
+    }
     return out;
 }
 
@@ -94,7 +101,7 @@ void Job::collect_conditions(JobOutcome& out) {
     }
 }
 
-std::vector<AxisOutcome> Job::axis_outcomes() {
+std::vector<AxisOutcome> Job::axis_outcomes(const control::Point& sent_to) {
     std::vector<AxisOutcome> out;
     const Instant now = rack_.kernel().now();
     for (RunningAxis& axis : rack_.axes()) {
@@ -102,7 +109,8 @@ std::vector<AxisOutcome> Job::axis_outcomes() {
         one.index = axis.config.index();
         one.unit = axis.config.unit();
         one.limits = rack_.config().limits()[static_cast<std::size_t>(one.index)];
-        const std::int64_t commanded = axis.card->pulses(axis.channel).count(now);
+        const std::int64_t commanded = axis.turned_by().count(now);
+        one.servo = axis.servo != nullptr;
         one.pulses_sent = axis.card->pulses_made(axis.channel);
         one.pulses_net = commanded;
         one.pulse_position = axis.card->pulse_counter(axis.channel);
@@ -112,7 +120,8 @@ std::vector<AxisOutcome> Job::axis_outcomes() {
         const double counts_per_pulse =
             static_cast<double>(axis.config.encoder_counts_per_rev) / static_cast<double>(axis.config.pulses_per_rev());
         one.counts_expected = static_cast<std::int64_t>(std::floor(static_cast<double>(commanded) * counts_per_pulse));
-        one.planned_end = static_cast<double>(one.pulse_position) / axis.config.pulses_per_unit();
+        one.planned_end = axis.card->follows_paths() ? static_cast<double>(one.pulse_position) / axis.config.pulses_per_unit()
+                                                     : sent_to[static_cast<std::size_t>(one.index)];
         one.real_end = axis.machine->position(now);
         one.top = monitor_->statistics(one.index);
         out.push_back(std::move(one));

@@ -34,6 +34,7 @@ struct JobSettings {
 struct AxisOutcome {
     int index = 0;  ///< 0 .. 5
     std::string unit;
+    bool servo = false;  ///< it follows a voltage: pulses are those of its encoder, none are sent
     control::AxisLimits limits;
     std::int64_t pulses_sent = 0;      ///< pulses of both directions since the job began
     std::int64_t pulses_net = 0;       ///< of them, forward less backward
@@ -66,6 +67,8 @@ struct JobOutcome {
     std::int64_t chip_segments = 0;
     std::uint64_t events = 0;          ///< kernel events: what it cost
     std::uint64_t trace_hash = 0;
+    int rest_axis = -1;       ///< of the servos the one that stands farthest from where it was sent; -1: no servo
+    double rest_off = 0;      ///< and how far, mm or degrees
     bool position_trusted = true;      ///< false once steps were lost
 };
 
@@ -83,7 +86,7 @@ class Job {
     static constexpr std::size_t most_planned = 20'000;
 
   private:
-    std::vector<AxisOutcome> axis_outcomes();
+    std::vector<AxisOutcome> axis_outcomes(const control::Point& sent_to);
     void collect_conditions(JobOutcome& out);
 
     Rack& rack_;

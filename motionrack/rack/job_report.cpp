@@ -65,6 +65,7 @@ void add_axes(trace::ReportData& data, const Job& job, const JobOutcome& outcome
         const auto i = static_cast<std::size_t>(axis.index);
         out.name = std::string(1, control::axis_letters[i]);
         out.unit = axis.unit;
+        out.servo = axis.servo;
         out.min_position = axis.limits.min_position;
         out.max_position = axis.limits.max_position;
         out.max_speed = axis.limits.max_speed;
@@ -84,6 +85,7 @@ void add_axes(trace::ReportData& data, const Job& job, const JobOutcome& outcome
             out.position.push_back(static_cast<float>(samples[s].position[i]));
             out.speed.push_back(static_cast<float>(samples[s].speed[i]));
             out.accel.push_back(samples[s].accel[i]);
+            if (axis.servo) out.volts.push_back(samples[s].volts[i]);
         }
         data.axes.push_back(std::move(out));
     }
@@ -93,7 +95,9 @@ std::string verdict_text(const JobOutcome& outcome) {
     if (!outcome.ended) return outcome.ended.error().message;
     if (!outcome.position_trusted)
         return "The program ended, but motors lost steps: the machine is not where the controller believes it is. Lower speed or acceleration.";
-    return "The program ended; every axis stands exactly where it was sent.";
+    if (outcome.rest_axis < 0) return "The program ended; every axis stands exactly where it was sent.";
+    return fmt::format("The program ended; servos stand at most {:.3f} {} ({}) from where they were sent.", outcome.rest_off,
+                       outcome.rest_axis < 3 ? "mm" : "deg", control::axis_letters[static_cast<std::size_t>(outcome.rest_axis)]);
 }
 
 }  // namespace
@@ -138,6 +142,9 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
         "is no acceleration to draw; the greatest jump stands in the table, less what whole pulses make of it in pieces of a few pulses.",
         "The machine is stiff: no vibration, no bending, no play unless the rack file says so.",
         "Deviation is the distance of X, Y, Z from the programmed path; a rotary axis that lags behind does not show in it."};
+    if (outcome.rest_axis >= 0)
+        data.notes.push_back("A servo's speed follows its voltage, which is that behind the card's relay, as its lag, current limit and friction let "
+                             "it; each move is as long as the card's slope table makes it, not as the plan has it.");
     return data;
 }
 
@@ -154,10 +161,11 @@ std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
     if (outcome.tolerance_mm > 0) out += fmt::format(" (tolerance {:.4f} mm)", outcome.tolerance_mm);
     out += fmt::format("\n\n  {:<5}{:>12}{:>12}{:>12}{:>8}{:>14}{:>22}{:>24}\n", "axis", "pulses", "counts", "expected", "lost", "ends at",
                        "top speed / limit", "top accel / limit");
+    const auto of_pulses = [](const AxisOutcome& axis, std::int64_t count) { return axis.servo ? std::string("-") : fmt::format("{}", count); };
     for (const AxisOutcome& axis : outcome.axes)
         out += fmt::format("  {:<5}{:>12}{:>12}{:>12}{:>8}{:>10.4f} {:<3}{:>13.3f} /{:>7.4g}{:>15.1f} /{:>7.4g}\n",
-                           control::axis_letters[static_cast<std::size_t>(axis.index)], axis.pulses_sent, axis.counts_read,
-                           axis.counts_expected, axis.lost_pulses, axis.real_end, axis.unit, axis.top.top_speed, axis.limits.max_speed,
+                           control::axis_letters[static_cast<std::size_t>(axis.index)], of_pulses(axis, axis.pulses_sent), axis.counts_read,
+                           axis.counts_expected, of_pulses(axis, axis.lost_pulses), axis.real_end, axis.unit, axis.top.top_speed, axis.limits.max_speed,
                            axis.top.top_accel, axis.limits.max_accel);
     return out;
 }
@@ -187,6 +195,7 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
                                 {"counts_read", axis.counts_read},
                                 {"counts_expected", axis.counts_expected},
                                 {"lost_pulses", axis.lost_pulses},
+                                {"servo", axis.servo},
                                 {"end", axis.real_end},
                                 {"top_speed", axis.top.top_speed},
                                 {"max_speed", axis.limits.max_speed},

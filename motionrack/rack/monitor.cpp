@@ -114,6 +114,7 @@ void Monitor::take(Instant now) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         raw.count[i] = axes_[i].real->count(now);
         raw.rate[i] = axes_[i].commanded->rate(now);
+        if (axes_[i].servo != nullptr) raw.volts[i] = static_cast<float>(axes_[i].servo->volts());
         raw.jumps[i] = ears_[i].jumps;
         raw.steady[i] = !ears_[i].pending;
     }
@@ -163,6 +164,7 @@ void Monitor::work_off(const RawSample& raw) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         const auto axis = static_cast<std::size_t>(axes_[i].index);
         sample.position[axis] = axes_[i].origin + static_cast<double>(raw.count[i]) / axes_[i].pulses_per_unit;
+        sample.volts[axis] = raw.volts[i];
         sample.speed[axis] = raw.rate[i] / axes_[i].pulses_per_unit;
         if (raw.steady[i]) statistics_[axis].top_speed = std::max(statistics_[axis].top_speed, std::fabs(sample.speed[axis]));
     }

@@ -12,6 +12,7 @@
 #include <motionrack/control/plan.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/parts/dc_motor.hpp>
 #include <vector>
 
 namespace motionrack::rack {
@@ -21,6 +22,7 @@ struct WatchedAxis {
     int index = 0;                        ///< 0 .. 5: control::axis_letters
     sim::Motion* commanded = nullptr;     ///< the card's pulses
     const sim::Motion* real = nullptr;    ///< the rotor, in pulses
+    const parts::DcMotor* servo = nullptr;  ///< what turns it, if no pulses do
     double pulses_per_unit = 1;
     double origin = 0;                    ///< mm or degrees where both counts are 0
     double jump_hz = 1;                   ///< rates that change by more than this at once are jumps, not ramps
@@ -32,6 +34,7 @@ struct Sample {
     Instant at{};
     std::array<double, control::axis_count> position = {};  ///< real, mm or degrees
     std::array<double, control::axis_count> speed = {};     ///< of the pulses, per second
+    std::array<float, control::axis_count> volts = {};      ///< at the amplifier of a servo
     std::array<float, control::axis_count> accel = {};      ///< over 4 samples, per second squared; NaN where the speed jumped
 };
 
@@ -120,6 +123,7 @@ class Monitor final : public sim::Device {
         Instant at{};
         std::array<std::int64_t, control::axis_count> count = {};
         std::array<double, control::axis_count> rate = {};
+        std::array<float, control::axis_count> volts = {};
         std::array<std::uint32_t, control::axis_count> jumps = {};
         std::array<bool, control::axis_count> steady = {};
     };

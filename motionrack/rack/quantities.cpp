@@ -17,7 +17,7 @@ bool has_encoder(const RunningAxis& axis) { return axis.machine->has_encoder(); 
 
 double rotor(RunningAxis& axis, Instant now) { return static_cast<double>(axis.machine->rotor().count(now)); }
 
-constexpr std::array<Quantity, 11> table = {{
+constexpr std::array<Quantity, 13> table = {{
     {"position_{u}", "where the table is",
      [](RunningAxis& axis, Instant now) { return axis.machine->position(now); },
      [](RunningAxis& axis, double value, Instant now) {
@@ -25,7 +25,7 @@ constexpr std::array<Quantity, 11> table = {{
      },
      always},
     {"speed_{u}_s", "how fast the rotor moves the table, signed",
-     [](RunningAxis& axis, Instant now) { return axis.machine->rotor().rate(now) * axis.machine->units_per_pulse(); }, nullptr,
+     [](RunningAxis& axis, Instant now) { return axis.speed(now); }, nullptr,
      always},
     {"position_pulses", "the rotor in microsteps from where it stood at the start", rotor,
      [](RunningAxis& axis, double value, Instant now) { return value - rotor(axis, now); }, always},
@@ -49,6 +49,12 @@ constexpr std::array<Quantity, 11> table = {{
     {"home", "the same for the home switch",
      [](RunningAxis& axis, Instant) { return axis.machine->home().active() ? 1.0 : 0.0; }, nullptr,
      [](const RunningAxis& axis) { return axis.machine->home().present(); }},
+    {"cam", "1 while the machine is on its reference cam",
+     [](RunningAxis& axis, Instant now) { return axis.cam->active(now) ? 1.0 : 0.0; }, nullptr,
+     [](const RunningAxis& axis) { return axis.cam != nullptr; }},
+    {"drive_v", "the voltage at the servo amplifier",
+     [](RunningAxis& axis, Instant) { return axis.servo->volts(); }, nullptr,
+     [](const RunningAxis& axis) { return axis.servo != nullptr; }},
 }};
 
 struct Found {
@@ -112,7 +118,7 @@ Result<void> set_quantity(Rack& rack, std::string_view name, double value) {
                                                   "at once. Nothing was done.",
                                                   name, value, push, greatest_push));
     // A rotor in step springs back unless it is brought past the middle of an electrical cycle.
-    const double least = machine.in_step() ? 2.0 * static_cast<double>(machine.settings().motor.microsteps) : 0.5;
+    const double least = machine.in_step() && !found.axis->servo ? 2.0 * static_cast<double>(machine.settings().motor.microsteps) : 0.5;
     if (std::fabs(push) < least) return {};
     return inject_fault(rack, fmt::format("motor.push={:.0f}", push), std::string(1, found.axis->config.letter));
 }

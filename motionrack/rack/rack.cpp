@@ -1,6 +1,8 @@
 // From a rack file's config to cards, parts and wires in one kernel.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/rack.hpp>
 
@@ -29,37 +31,75 @@ void Rack::build_cards() {
     }
 }
 
+namespace {
+
+parts::DcMotorSettings servo_settings(const RackAxis& axis) {
+    const RackServo& servo = *axis.servo;
+    const double counts = axis.counts_per_unit();
+    parts::DcMotorSettings out;
+    out.gain = servo.speed_per_volt * counts;
+    out.top_speed = servo.fastest() * counts;
+    out.top_accel = servo.top_accel * counts;
+    out.friction = servo.friction * counts;
+    out.lag_s = servo.lag_ms * 1e-3;
+    out.dead_band_v = servo.dead_band_v;
+    out.load = servo.load;
+    return out;
+}
+
+/// The rotor of a servo is its encoder: it follows whatever turns it.
+parts::StepperSettings motor_settings(const RackAxis& axis) {
+    if (axis.servo) return {axis.encoder_counts_per_rev, 1, 1e12, 1e12};
+    return {axis.motor_steps_per_rev, axis.microsteps, axis.motor.start_stop_hz, axis.motor.pull_out_hz};
+}
+
+}  // namespace
+
 void Rack::build_axes() {
-    for (const RackAxis& axis : config_.axes) {
-        parts::AxisMachineSettings settings;
-        settings.motor = {axis.motor_steps_per_rev, axis.microsteps, axis.motor.start_stop_hz, axis.motor.pull_out_hz};
-        settings.axle.travel_per_rev =
-            axis.kind == AxisKind::linear ? parts::linear_travel(axis.lead_mm) : parts::rotary_travel(axis.gear_ratio);
-        settings.axle.start_position = axis.start_position;
-        settings.encoder.counts_per_rev = axis.encoder_counts_per_rev;
-        auto set = [&](parts::LimitSwitchSettings& which, const std::optional<double>& position) {
-            which.position = position;
-            which.hysteresis = axis.switches.hysteresis;
-            which.bounce = from_seconds(axis.switches.bounce_ms * 1e-3);
-        };
-        set(settings.limit_minus, axis.switches.limit_minus);
-        set(settings.limit_plus, axis.switches.limit_plus);
-        set(settings.home, axis.switches.home);
-        RunningAxis running;
-        running.config = axis;
-        running.card = card(axis.card);
-        MOTIONRACK_ASSERT(running.card != nullptr);
-        running.channel = running.card->channel_number(axis.channel);
-        running.machine = std::make_unique<parts::AxisMachine>(kernel_, std::string(1, axis.letter), settings);
-        axes_.push_back(std::move(running));
-    }
+    for (const RackAxis& axis : config_.axes) build_axis(axis);
+}
+
+void Rack::build_axis(const RackAxis& axis) {
+    parts::AxisMachineSettings settings;
+    settings.motor = motor_settings(axis);
+    settings.axle.travel_per_rev =
+        axis.kind == AxisKind::linear ? parts::linear_travel(axis.lead_mm) : parts::rotary_travel(axis.gear_ratio);
+    settings.axle.start_position = axis.start_position;
+    settings.encoder.counts_per_rev = axis.encoder_counts_per_rev;
+    auto set = [&](parts::LimitSwitchSettings& which, const std::optional<double>& position) {
+        which.position = position;
+        which.hysteresis = axis.switches.hysteresis;
+        which.bounce = from_seconds(axis.switches.bounce_ms * 1e-3);
+    };
+    set(settings.limit_minus, axis.switches.limit_minus);
+    set(settings.limit_plus, axis.switches.limit_plus);
+    set(settings.home, axis.switches.home);
+    const std::string name(1, axis.letter);
+    RunningAxis running;
+    running.config = axis;
+    running.card = card(axis.card);
+    MOTIONRACK_ASSERT(running.card != nullptr);
+    running.channel = running.card->channel_number(axis.channel);
+    if (axis.servo) running.servo = std::make_unique<parts::DcMotor>(kernel_, name + ".servo", servo_settings(axis), name + ".drive");
+    running.machine = std::make_unique<parts::AxisMachine>(kernel_, name, settings);
+    axes_.push_back(std::move(running));
 }
 
 void Rack::join_links() {
     std::vector<sim::Motion*> pulses(axes_.size(), &still_);
     for (const PulseLink& link : config_.pulse_links)
         pulses[static_cast<std::size_t>(link.axis)] = &cards_[static_cast<std::size_t>(link.card)]->pulses(link.channel);
-    for (std::size_t i = 0; i < axes_.size(); ++i) axes_[i].machine->connect(*pulses[i]);
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        RunningAxis& axis = axes_[i];
+        axis.machine->connect(axis.servo ? *axis.servo : *pulses[i]);
+        const RackSwitches& switches = axis.config.switches;
+        if (!switches.cam_from) continue;
+        const auto count = [&axis](double position) {
+            return static_cast<std::int64_t>(std::floor((position - axis.config.start_position) * axis.config.pulses_per_unit() + 0.5));
+        };
+        axis.cam = std::make_unique<parts::ReferenceCam>(kernel_, fmt::format("{}.cam", axis.config.letter), axis.machine->rotor(),
+                                                         count(*switches.cam_from), count(*switches.cam_to), 0);
+    }
     for (const EncoderLink& link : config_.encoder_links) {
         sim::Motion* counts = &axes_[static_cast<std::size_t>(link.axis)].machine->encoder();
         if (link.swapped) {
@@ -68,6 +108,9 @@ void Rack::join_links() {
         }
         cards_[static_cast<std::size_t>(link.card)]->connect_encoder(link.channel, *counts);
     }
+    for (const auto& card : cards_)
+        if (std::none_of(axes_.begin(), axes_.end(), [&](const RunningAxis& axis) { return axis.card == card.get(); }))
+            card->connect_ideal_machine();
 }
 
 /// The name of an end's wire in the kernel. Pulses and encoder tracks of an axis have none: they are links.
@@ -88,8 +131,19 @@ void Rack::build_wires() {
         const sim::WireId from = kernel_.find_wire(wire_name(wire.from));
         const sim::WireId to = kernel_.find_wire(wire_name(wire.to));
         MOTIONRACK_ASSERT(from != sim::WireId::none && to != sim::WireId::none);
-        junctions_->join(from, to);
+        junctions_->join(from, to, is_contact(wire.to));
     }
+    // A contact's input without a wire: no current flows.
+    const sim::WireId no_current = config_.open.empty() ? sim::WireId::none : kernel_.add_wire("no_current", 0);
+    for (const WireEnd& input : config_.open)
+        if (is_contact(input)) junctions_->join(no_current, kernel_.find_wire(wire_name(input)), true);
+}
+
+bool Rack::is_contact(const WireEnd& end) const {
+    if (end.owner != EndOwner::card) return false;
+    for (const Pin& pin : pins_of(*find_card_type(config_.cards[static_cast<std::size_t>(end.index)].type)))
+        if (pin.name == end.pin) return pin.kind == PinKind::contact;
+    return false;
 }
 
 void Rack::start() {
@@ -102,6 +156,8 @@ void Rack::start() {
 Result<control::PathAxes*> Rack::path_axes() {
     if (axes_.empty())
         return fail(Trouble::refused, "The rack has no axes, so no program can run on it; add an [axis.X] section to the rack file.");
+    if (std::none_of(axes_.begin(), axes_.end(), [](const RunningAxis& axis) { return axis.card->follows_paths(); }))
+        return positioning_axes();
     for (const RunningAxis& axis : axes_)
         if (axis.card != axes_.front().card)
             return fail(Trouble::refused, fmt::format("Axis {} is on card '{}' and axis {} on card '{}', but a path is followed by the axes of "
@@ -109,6 +165,16 @@ Result<control::PathAxes*> Rack::path_axes() {
                                                       axes_.front().config.letter, axes_.front().config.card, axis.config.letter,
                                                       axis.config.card));
     return axes_.front().card->path_axes(config_, start_position());
+}
+
+Result<control::PathAxes*> Rack::positioning_axes() {
+    std::array<control::Axis*, control::axis_count> axes = {};
+    for (const RunningAxis& axis : axes_) {
+        control::Axis*& one = axes[static_cast<std::size_t>(axis.config.index())];
+        MOTIONRACK_TRY(one, axis.card->axis(config_, axis.config.letter));
+        MOTIONRACK_CHECK(one->set_position(axis.config.start_position));
+    }
+    return &positioning_.emplace(axes, config_.limits(), axes_.front().card->host());
 }
 
 void Rack::on_slice(Duration slice, std::function<void()> call) {
@@ -131,7 +197,7 @@ std::string Rack::describe(const sim::Condition& condition) {
                            "it was. Look at the section [wires] of the rack file",
                            kernel_.wire_name(static_cast<sim::WireId>(condition.a)), to_seconds(condition.at), condition.b);
     for (const RunningAxis& axis : axes_)
-        if (axis.machine->id() == condition.device) return parts::describe(condition, kernel_.device_name(condition.device));
+        if (axis.machine->id() == condition.device || (axis.servo && axis.servo->id() == condition.device)) return parts::describe(condition, kernel_.device_name(condition.device));
     for (const auto& card : cards_)
         if (card->device() == condition.device) return card->describe(condition);
     return fmt::format("{}: condition {} ({}, {})", kernel_.device_name(condition.device), condition.code, condition.a, condition.b);

@@ -1,13 +1,15 @@
 // A running rack: the cards, wires and machine that a rack file describes, in one kernel.
 //
 //   RackConfig ──► cards (catalogue) ──pulses──► axis machines ──encoders──► cards
-//                       ▲   wires (junctions) ◄── switches, index, emergency stop
+//                       │        └─volts─► servos ──┘   ▲
+//                       ▲   wires (junctions) ◄── switches, cams, index, emergency stop
 //                       └── VirtualPort ◄── driver ◄── axes ◄── controller
 #pragma once
 
 #include <functional>
 #include <memory>
 #include <motionrack/control/path_axes.hpp>
+#include <motionrack/control/positioning.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/motions.hpp>
@@ -15,7 +17,10 @@
 #include <motionrack/sim/junction.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/parts/axis_machine.hpp>
+#include <motionrack/sim/parts/dc_motor.hpp>
+#include <motionrack/sim/parts/reference_cam.hpp>
 #include <motionrack/sim/virtual_port.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,7 +32,14 @@ struct RunningAxis {
     RackAxis config;
     Card* card = nullptr;
     int channel = 0;  ///< of the card
+    std::unique_ptr<parts::DcMotor> servo;  ///< nullptr: a stepping motor, which is a part of the machine
     std::unique_ptr<parts::AxisMachine> machine;
+    std::unique_ptr<parts::ReferenceCam> cam;  ///< may be nullptr
+
+    /// What turns the machine: the card's pulses or the servo.
+    sim::Motion& turned_by() const { return servo ? static_cast<sim::Motion&>(*servo) : card->pulses(channel); }
+    /// How fast the rotor moves the table at `now`, mm/s or degrees/s, signed.
+    double speed(Instant now) const { return servo ? servo->rate(now) * machine->units_per_pulse() : machine->speed(); }
 };
 
 class Rack {
@@ -47,8 +59,8 @@ class Rack {
     /// No more parts: virtual time can run.
     void start();
     bool started() const { return started_; }
-    /// All axes of the rack's motion card as a group that follows paths, set up at the machine's start position. Errors: refused if
-    /// the axes are not all on one card. The rack must be started.
+    /// All axes of the rack as a group that follows paths, set up at the machine's start position: those of one card that can, or axes
+    /// that position one by one (see point_to_point). Errors: refused if the rack has both kinds. The rack must be started.
     Result<control::PathAxes*> path_axes();
     /// For progress, draining and Ctrl-C: see VirtualPort.
     void on_slice(Duration slice, std::function<void()> call);
@@ -59,11 +71,14 @@ class Rack {
     std::string describe(const sim::Condition& condition);
 
   private:
+    Result<control::PathAxes*> positioning_axes();
     void build_cards();
     void build_axes();
+    void build_axis(const RackAxis& axis);
     void join_links();
     void build_wires();
     std::string wire_name(const WireEnd& end) const;
+    bool is_contact(const WireEnd& end) const;
 
     RackConfig config_;
     sim::Kernel kernel_;
@@ -73,6 +88,7 @@ class Rack {
     StillMotion still_;  // what turns a motor whose step input is open
     std::vector<std::unique_ptr<MirroredMotion>> mirrored_;
     std::unique_ptr<sim::Junctions> junctions_;
+    std::optional<control::Positioning> positioning_;
     bool started_ = false;
 };
 

@@ -8,10 +8,11 @@
 namespace motionrack::rack {
 namespace {
 
-constexpr std::array<TemplateVariant, 3> variants = {{
+constexpr std::array<TemplateVariant, 4> variants = {{
     {"router", "three linear axes X Y Z and a rotary table A on the card's fourth channel"},
     {"stage", "two linear axes X Y"},
     {"single", "one linear axis X"},
+    {"carriage", "a transfer carriage with a servo on a positioning card"},
 }};
 
 /// A linear axis with switches 2 mm outside its travel.
@@ -62,6 +63,26 @@ RackConfig single() {
     return out;
 }
 
+RackConfig carriage() {
+    RackConfig out;
+    out.name = "transfer carriage";
+    RackAxis axis = default_axis('X');
+    axis.card = "motion";
+    axis.lead_mm = 10;
+    axis.encoder_counts_per_rev = 1000;
+    axis.max_speed = 500;
+    axis.min_position = -200;
+    axis.max_position = 2900;
+    axis.switches.limit_minus = -300;
+    axis.switches.limit_plus = 3000;
+    axis.switches.cam_from = 126;
+    axis.switches.cam_to = 132;
+    axis.servo.emplace();
+    axis.servo->hold_within = 0.25;
+    out.axes = {axis};
+    return out;
+}
+
 /// Writes sections as "key = value  # meaning; range; default", the comments in one column.
 class Writer {
   public:
@@ -69,9 +90,12 @@ class Writer {
         text_ += fmt::format("\n[{}]  # {}\n", header, doc);
     }
 
-    void fields(std::span<const Field> fields, const void* object, const void* defaults, std::string_view unit) {
+    /// Leaves out what is of other units, and `without`.
+    void fields(std::span<const Field> fields, const void* object, const void* defaults, std::string_view unit,
+                std::initializer_list<std::string_view> without = {}) {
         for (const Field& field : fields) {
             if (!field.only.empty() && field.only != unit) continue;
+            if (std::find(without.begin(), without.end(), field.key) != without.end()) continue;
             const FieldValue value = field.get(object, field);
             const bool absent = std::holds_alternative<std::monostate>(value);
             const std::string key = with_unit(field.key, unit);
@@ -94,17 +118,26 @@ void write_axis(Writer& out, const RackAxis& axis) {
     const std::string_view unit = axis.unit();
     const std::string name = fmt::format("axis.{}", axis.letter);
     out.section(name, axis.kind == AxisKind::linear ? "a linear axis: mm" : "a rotary axis: degrees");
-    out.fields(axis_fields(), &axis, &defaults, unit);
-    out.section(name + ".motor", "the stepping motor; its pulses are microsteps");
-    out.fields(motor_fields(), &axis.motor, &defaults.motor, unit);
+    if (axis.servo) {
+        const RackServo servo;
+        out.fields(axis_fields(), &axis, &defaults, unit, {"channel", "motor_steps_per_rev", "microsteps"});
+        out.section(name + ".servo", "a servo amplifier with a DC motor and tacho in place of a stepping motor");
+        out.fields(servo_fields(), &*axis.servo, &servo, unit);
+    } else {
+        out.fields(axis_fields(), &axis, &defaults, unit);
+        out.section(name + ".motor", "the stepping motor; its pulses are microsteps");
+        out.fields(motor_fields(), &axis.motor, &defaults.motor, unit);
+    }
     out.section(name + ".switches", "machine positions where they act; leave a switch out and the axis has none");
     out.fields(switch_fields(), &axis.switches, &defaults.switches, unit);
     out.section(name + ".homing", "how the axis finds its home switch (motionrack home)");
     out.fields(homing_fields(), &axis.homing, &defaults.homing, unit);
 }
 
-std::string write(RackConfig config) {
+/// `type`: of its one card, which is called motion.
+std::string write(RackConfig config, std::string_view card_type = "mcx314") {
     RackCard card;
+    card.type = card_type;
     card.name = "motion";
     card.slot = 0;
     const CardType& type = *find_card_type(card.type);
@@ -123,8 +156,13 @@ std::string write(RackConfig config) {
     out.section("controller", "how paths are cut where the part program does not say");
     out.fields(controller_fields(), &config.controller, &defaults.controller, "");
     out.section("wires", "only what differs from the default rule: input = output that drives it, or \"open\"");
-    out.line("# \"motion.xin1\" = \"X.home\"              # the home switch of X also at stop input 1");
-    out.line("# \"motion.xin2\" = \"open\"                # the encoder's index not connected");
+    if (type.channels.empty()) {
+        out.line("# \"motion.ref\" = \"X.limit_minus\"        # the end stop is also the reference");
+        out.line("# \"motion.esr\" = \"open\"                 # a broken wire: the input is active");
+    } else {
+        out.line("# \"motion.xin1\" = \"X.home\"              # the home switch of X also at stop input 1");
+        out.line("# \"motion.xin2\" = \"open\"                # the encoder's index not connected");
+    }
     return out.take();
 }
 
@@ -138,6 +176,7 @@ Result<std::string> rack_template(std::string_view variant) {
     if (variant == "router") return write(router());
     if (variant == "stage") return write(stage());
     if (variant == "single") return write(single());
+    if (variant == "carriage") return write(carriage(), "databoard4002");
     std::vector<std::string_view> names;
     for (const TemplateVariant& known : variants) names.push_back(known.name);
     const std::string hint = did_you_mean(variant, names);

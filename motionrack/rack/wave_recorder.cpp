@@ -139,7 +139,7 @@ void WaveRecorder::choose_axes() {
     for (RunningAxis& axis : rack_.axes()) {
         const std::string name(1, axis.config.letter);
         parts::AxisMachine& machine = *axis.machine;
-        const bool pulses = wanted(name + ".step") || wanted(name + ".dir");
+        const bool pulses = !axis.servo && (wanted(name + ".step") || wanted(name + ".dir"));
         const bool lines = machine.has_encoder() && (wanted(name + ".enc_a") || wanted(name + ".enc_b"));
         if (pulses) {
             const std::size_t step = add(name, "step", 1, 0), direction = add(name, "dir", 1, 1);
@@ -177,14 +177,12 @@ void WaveRecorder::choose_wires() {
 
 void WaveRecorder::choose_counters() {
     for (const auto& card : rack_.cards())
-        for (int channel = 0; channel < card->channel_count(); ++channel)
-            for (const bool encoder : {false, true}) {
-                const std::string name = card->channel_name(channel) + (encoder ? "ep" : "lp");
-                if (!wanted(card->name() + "." + name)) continue;
-                Counter counter{card.get(), channel, encoder, 0};
-                counter.signal = add(card->name(), name, 32, counter.value() & 0xFFFF'FFFFu);
-                counters_.push_back(counter);
-            }
+        for (const CardCounter& each : card->counters()) {
+            if (!wanted(card->name() + "." + each.name)) continue;
+            Counter counter{card.get(), each.channel, each.encoder, 0};
+            counter.signal = add(card->name(), each.name, 32, counter.value() & 0xFFFF'FFFFu);
+            counters_.push_back(counter);
+        }
 }
 
 // ---- recording --------------------------------------------------------------------------------------------------------

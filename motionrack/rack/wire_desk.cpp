@@ -8,6 +8,10 @@
 
 namespace motionrack::rack {
 
+namespace {
+constexpr double most_volts = 15;  // of an analog input
+}
+
 WireDesk::WireDesk(Rack& rack) : rack_(rack) {
     wires_["estop"] = {Kind::plain, rack_.kernel().find_wire("estop"), -1, 0, 1, {}};
     add_cards();
@@ -39,6 +43,8 @@ void WireDesk::add_axes() {
                 wire.kind = Kind::track;
                 wire.which = end.name == "enc_b";
                 wire.refused = fmt::format("{} is the encoder's own output; drive the input of a card that it leads to", name);
+            } else if (end.volts > 0) {
+                wire.unit = end.volts;
             } else if (end.direction == PinDirection::input) {
                 wire.kind = Kind::pulses;
                 wire.refused = fmt::format("{} follows the pulses of a channel as a whole; the pulses of a card drive it, or a push", name);
@@ -129,7 +135,13 @@ Result<void> WireDesk::check(std::string_view name, double value) const {
     const Wire* wire = find(name);
     if (wire == nullptr) return unknown(name);
     if (!wire->refused.empty()) return fail(Trouble::refused, wire->refused + ". Nothing was done.");
-    if (!std::isnan(value) && value != 0 && value != 1)
+    if (std::isnan(value)) return {};
+    if (wire->unit != 1) {
+        if (std::fabs(value) <= most_volts) return {};
+        return fail(Trouble::refused, fmt::format("{} cannot be driven with {} V; it takes -{} .. {} V. Nothing was done.", name, value,
+                                                  most_volts, most_volts));
+    }
+    if (value != 0 && value != 1)
         return fail(Trouble::refused, fmt::format("{} cannot be driven with {}: it is a digital wire, 0 or 1 (NaN releases it). "
                                                   "Nothing was done.",
                                                   name, value));
@@ -140,12 +152,13 @@ Result<void> WireDesk::set(std::string_view name, double value) {
     MOTIONRACK_CHECK(check(name, value));
     const Wire& wire = *find(name);
     const bool released = std::isnan(value);
+    const int level = released ? 0 : static_cast<int>(std::floor(value / wire.unit + 0.5));
     rack_.input_log().add({rack_.kernel().now(), released ? sim::InputKind::release_wire : sim::InputKind::force_wire,
-                           static_cast<std::uint16_t>(wire.id), 0, static_cast<std::uint16_t>(value == 1)});
+                           static_cast<std::uint16_t>(wire.id), 0, static_cast<std::uint16_t>(level != 0), static_cast<double>(level)});
     if (released)
         release(wire);
     else
-        drive(wire, value == 1);
+        drive(wire, level);
     rack_.kernel().settle();
     return {};
 }

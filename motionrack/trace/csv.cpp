@@ -185,6 +185,7 @@ Result<void> write_csv(const ReportData& data, const std::string& path) {
         add(column_name(axis.name, "position", axis.unit), axis.position);
         add(column_name(axis.name, "speed", axis.unit + "_s"), axis.speed);
         add(column_name(axis.name, "acceleration", axis.unit + "_s2"), axis.accel);
+        if (axis.servo) add(column_name(axis.name, "drive", "v"), axis.volts);
     }
     add("deviation_mm", data.deviation_mm);
     if (!data.driven.empty()) columns.insert(columns.end(), {"driven_x_mm", "driven_y_mm", "driven_z_mm"});

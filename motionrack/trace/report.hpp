@@ -30,6 +30,7 @@ struct ReportNumber {
 struct ReportAxis {
     std::string name;         ///< "X"
     std::string unit = "mm";  ///< "mm" or "deg"
+    bool servo = false;       ///< it follows a voltage: no pulses are sent, and none can be lost
     double min_position = 0;  ///< travel; min >= max: the travel is not limited
     double max_position = 0;
     double max_speed = 0;              ///< limit; 0: none
@@ -49,6 +50,7 @@ struct ReportAxis {
     std::vector<float> position;
     std::vector<float> speed;
     std::vector<float> accel;
+    std::vector<float> volts;  ///< at a servo's amplifier, V; of other axes empty
 };
 
 /// A piece of the programmed path, from its start to its end; arcs come as the points of a polyline.

@@ -157,6 +157,7 @@ void add_axis(const ReportData& data, std::size_t index, std::vector<PageChart>&
         if (axis.max_accel > 0) out.limits = {{axis.max_accel, ""}, {-axis.max_accel, ""}};
         charts.push_back({number_of, std::move(out)});
     }
+    if (!axis.volts.empty()) charts.push_back({number_of, chart("Voltage at the amplifier, V", look, data, axis.volts)});
 }
 
 std::string limits_as_text(const std::vector<SvgLimit>& limits) {

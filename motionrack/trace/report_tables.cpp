@@ -45,10 +45,11 @@ std::string axis_row(const ReportAxis& axis) {
     const std::string lost =
         axis.lost_steps == 0 ? "none" : "<b class=\"bad\">" + grouped(axis.lost_steps) + " lost</b>";
     std::string out = "<tr><th scope=\"row\">" + shown(axis.name, 40) + "</th>";
-    out += cell(grouped(axis.pulses_sent) + (same ? "<br><small>card counts the same</small>"
+    if (axis.servo) out += cell("servo<br><small>no pulses</small>");
+    else out += cell(grouped(axis.pulses_sent) + (same ? "<br><small>card counts the same</small>"
                                                   : "<br><b class=\"bad\">net " + grouped(axis.pulses_net) +
                                                         ", the card counts " + grouped(axis.pulse_counter) + "</b>"));
-    out += cell(pair(axis.counts_read, axis.counts_expected)) + cell(lost);
+    out += cell(pair(axis.counts_read, axis.counts_expected)) + cell(axis.servo ? "-" : lost);
     out += cell(against(axis.top_speed, axis.max_speed, unit + "/s")) +
            cell(against(axis.top_accel, axis.max_accel, unit + "/s\xC2\xB2"));
     out += cell(number(axis.top_jump) + " <small>" + unit + "/s</small>");

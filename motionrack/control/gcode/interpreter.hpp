@@ -132,6 +132,7 @@ class Interpreter {
     bool motion();
     bool motion_needs(std::int16_t code, bool wants_motion);
     bool straight(std::int16_t code);
+    bool by_itself(std::int16_t code);
     bool arc(std::int16_t code);
     bool arc_centre(bool counter_clockwise, Planar& centre);
     bool arc_centre_of_radius(Planar start, Planar end, bool closed, bool counter_clockwise, Planar& centre);

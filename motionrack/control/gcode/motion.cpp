@@ -99,11 +99,24 @@ bool Interpreter::straight(std::int16_t code) {
     move.end = end_;
     move.feed = 0;
     move.feed_mode = FeedMode::units_per_second;
-    if (code != 0 && !feed_of(move)) return false;
+    if (code != 0 && (!by_itself(code) || !feed_of(move))) return false;
     moving_.line = line_;
     motion_ = Motion::single;
     todo_ |= todo_motion;
     return true;
+}
+
+/// Where each axis positions by itself only one of them can move at a feed.
+bool Interpreter::by_itself(std::int16_t code) {
+    if (!settings_.point_to_point) return true;
+    std::string moving;
+    for (int axis = 0; axis < axis_count; ++axis)
+        if (end_[axis] != position_[axis]) moving += (moving.empty() ? "" : ", ") + std::string(1, axis_letters[axis]);
+    if (moving.size() <= 1 && !is_arc(code)) return true;
+    return fail_at(blame(), GrblStatus::unsupported,
+                   is_arc(code) ? fmt::format("{} is an arc, but the axes of this rack position one by one; write straight moves", name_of_g(code))
+                                : fmt::format("{} moves {} together, but the axes of this rack position one by one; write a line for each, or G0, "
+                                              "where each goes at its own speed", name_of_g(code), moving));
 }
 
 bool Interpreter::feed_of(Move& move) {

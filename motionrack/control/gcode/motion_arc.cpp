@@ -29,7 +29,7 @@ constexpr std::array<const char*, 3> plane_names = {"G17 (XY)", "G18 (XZ)", "G19
 }  // namespace
 
 bool Interpreter::arc(std::int16_t code) {
-    if (!targets(false)) return false;
+    if (!by_itself(code) || !targets(false)) return false;
     const auto& axes = plane_axes[next_.plane];
     const bool counter_clockwise = code == 30;
     double turns = 1;

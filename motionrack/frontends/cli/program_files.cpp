@@ -33,6 +33,7 @@ control::gcode::Settings reader_settings(const rack::RackConfig& config, bool bl
     control::gcode::Settings settings;
     settings.limits = config.limits();
     settings.block_delete = block_delete;
+    settings.point_to_point = config.point_to_point();
     settings.path_tolerance_mm = config.controller.default_path_tolerance_mm;
     for (const rack::RackAxis& axis : config.axes) {
         const auto i = static_cast<std::size_t>(axis.index());

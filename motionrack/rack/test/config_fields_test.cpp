@@ -47,6 +47,7 @@ std::vector<FieldCase> all_fields() {
     for (const auto& [letter, unit] : {std::pair{'X', "mm"}, std::pair{'A', "deg"}}) {
         add(axis_fields(), fmt::format("axis.{}", letter), letter, unit);
         add(motor_fields(), fmt::format("axis.{}.motor", letter), letter, unit);
+        add(servo_fields(), fmt::format("axis.{}.servo", letter), letter, unit);
         add(switch_fields(), fmt::format("axis.{}.switches", letter), letter, unit);
         add(homing_fields(), fmt::format("axis.{}.homing", letter), letter, unit);
     }
@@ -164,13 +165,15 @@ TEST(RackTemplate, EveryVariantReadsWithoutErrorsOrWarnings) {
 TEST(RackTemplate, NamesTheTemplatesIfThereIsNoSuchOne) {
     const Result<std::string> text = rack_template("routr");
     ASSERT_FALSE(text.has_value());
-    EXPECT_THAT(text.error().message, HasSubstr("router, stage, single; did you mean 'router'?"));
+    EXPECT_THAT(text.error().message, HasSubstr("router, stage, single, carriage; did you mean 'router'?"));
 }
 
 TEST(RackTemplate, SaysOfEveryKeyItsRangeAndDefault) {
-    const std::string text = *rack_template("router");
+    const std::string router = *rack_template("router"), carriage = *rack_template("carriage");
     for (const FieldCase& c : all_fields()) {
-        if (c.type != "mcx314") continue;  // the template's card
+        const bool servo = c.header.find(".servo") != std::string::npos;
+        if (servo && c.axis != 'X') continue;  // no template has a rotary servo
+        const std::string& text = servo || c.type == "databoard4002" ? carriage : router;
         const std::string key = with_unit(c.field->key, c.unit);
         std::size_t at = text.find('\n' + key + " = ");
         if (at == std::string::npos) at = text.find("\n# " + key + " =");
@@ -209,7 +212,7 @@ TEST(RackReference, HasEveryKeyPinAndEnd) {
         EXPECT_THAT(page, HasSubstr(std::string(c.field->doc)));
     }
     for (const CardType& type : card_types()) {
-        for (const PinType& pin : type.channel_pins) EXPECT_THAT(page, HasSubstr(fmt::format("`x{}`", pin.name)));
+        for (const PinType& pin : type.channel_pins) EXPECT_THAT(page, HasSubstr(fmt::format("`{}{}`", type.channel_name(0), pin.name)));
         for (const PinType& pin : type.chip_pins) EXPECT_THAT(page, HasSubstr(fmt::format("`{}`", pin.name)));
     }
     for (const AxisEnd& end : axis_ends()) EXPECT_THAT(page, HasSubstr(fmt::format("`X.{}`", end.name)));
@@ -222,7 +225,7 @@ TEST(CardTypes, HaveUniquePinsAndChoicesThatTheReaderKnows) {
         EXPECT_EQ(find_card_type(type.name), &type);
         for (const DefaultWire& wire : type.default_wires) {
             EXPECT_NE(find_axis_end(wire.end), nullptr);
-            EXPECT_EQ(names.count(type.channels[0] + std::string(wire.pin)), 1U);
+            EXPECT_EQ(names.count(std::string(type.channel_name(0)).append(wire.pin)), 1U);
         }
         const auto& choices = card_fields()[0].choices;
         EXPECT_NE(std::find(choices.begin(), choices.end(), type.name), choices.end());

@@ -90,7 +90,7 @@ const std::vector<BadFile>& bad_files() {
         {rack_with("[axis.x]\n"), {6, 7}, {"no axis 'x'", "did you mean 'X'?"}},
         {rack_with("[axis.U]\n"), {6, 7}, {"no axis 'U'", "X Y Z", "A B C"}},
         {rack_with("[axis.Y]\nchannel = \"y\"\n"), {6, 7}, {"axis Y has no card"}},
-        {rack_with("[axis.Y]\ncard = \"m\"\n"), {6, 7}, {"axis Y has no channel"}},
+        {rack_with("[axis.Y]\ncard = \"m\"\n"), {6, 7}, {"Axis Y names no channel; a card of type mcx314 has the channels x y z u"}},
         {rack_with("[axis.Y]\ncard = \"q\"\nchannel = \"y\"\n[card.motion]\ntype = \"mcx314\"\n"),
          {7, 8},
          {"Axis Y", "'q'", "which the rack does not have."}},

@@ -122,7 +122,7 @@ TEST(Databoard4002InARack, WrongRackFilesAreRefusedWithThePlace) {
     EXPECT_THAT(straps.errors[0].message, HasSubstr("quadrature x4"));
     const RackReading axis = read_rack_text("[card.c1]\ntype = \"databoard4002\"\n[axis.X]\ncard = \"c1\"\nchannel = \"x\"\n");
     ASSERT_FALSE(axis.errors.empty());
-    EXPECT_THAT(axis.errors[0].message, HasSubstr("no channels for axes"));
+    EXPECT_THAT(axis.errors[0].message, HasSubstr("has but one, without a name: leave the key out"));
     EXPECT_THAT(Session::open("card.c1 = \"databoard4002\"").value()->part("c1.speed").error().message, HasSubstr("fout_hz"));
 }
 

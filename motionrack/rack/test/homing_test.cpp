@@ -111,7 +111,7 @@ TEST(RackHomes, RefusesWhatItCannotDo) {
     unknown.axes = "XQ";
     EXPECT_THAT(message(two_axes, unknown), HasSubstr("no axis 'Q'; its axes are X, Y"));
     EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin0\" = \"open\"\n"),
-                HasSubstr("not wired to a stop input of its channel (xin0 .. xin3 of card motion)"));
+                HasSubstr("not wired to a stop input of its channel (xin0, xin1, xin2, xin3 of card motion)"));
     EXPECT_THAT(message(std::string(two_axes) + "[wires]\n\"motion.xin2\" = \"open\"\n"), HasSubstr("type 4 needs the encoder's index"));
     EXPECT_THAT(message(std::string(two_axes) + "[axis.Y.homing]\nspeed_mm_s = 101\n"), HasSubstr("the speed is 101 mm/s, but may be above 0 and up to 100"));
     EXPECT_THAT(message("card.c1 = \"mcx314\""), HasSubstr("No axis of the rack has a home switch"));

@@ -81,11 +81,12 @@ DcLaw DcMotor::law_from(double speed) const {
 
 // ---- the rotor ------------------------------------------------------------------------------------------------------
 
-DcMotor::DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSettings& settings)
+DcMotor::DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSettings& settings,
+                 const std::string& wire)
     : kernel_(kernel),
       settings_(settings),
       id_(kernel.add(*this, sim::Phase::parts, name)),
-      drive_(kernel.add_wire(name + ".drive", 0)) {
+      drive_(kernel.add_wire(wire.empty() ? name + ".drive" : wire, 0)) {
     MOTIONRACK_ASSERT(settings.gain > 0 && settings.top_speed > 0 && settings.top_speed <= 1e6 && settings.friction >= 0);
     MOTIONRACK_ASSERT(settings.top_accel > settings.friction && settings.lag_s >= 1e-4 && settings.lag_s <= 10);
     MOTIONRACK_ASSERT(settings.dead_band_v >= 0 && settings.load >= 0);

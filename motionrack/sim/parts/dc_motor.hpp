@@ -54,8 +54,8 @@ struct DcLaw {
 
 class DcMotor final : public sim::Device, public sim::Motion {
   public:
-    /// Adds the device `name` and its wire NAME.drive (level in uV) to the kernel, before it starts.
-    DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSettings& settings);
+    /// Adds the device `name` and its wire NAME.drive (level in uV), or `wire`, to the kernel, before it starts.
+    DcMotor(sim::Kernel& kernel, const std::string& name, const DcMotorSettings& settings, const std::string& wire = {});
 
     // ---- the rotor
     std::int64_t count(Instant t) const override;
@@ -71,6 +71,7 @@ class DcMotor final : public sim::Device, public sim::Motion {
     double tacho(Instant t) const { return rate(t) / settings_.top_speed; }
     /// +1, -1: stands at that end of travel.
     int blocked() const { return state_.blocked; }
+    double volts() const { return state_.volts; }
     sim::WireId drive_wire() const { return drive_; }
     sim::DeviceId id() const { return id_; }
     const DcMotorSettings& settings() const { return settings_; }

@@ -4,16 +4,23 @@
 
 namespace motionrack::parts {
 
-ReferenceCam::ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t from, std::int64_t to)
+ReferenceCam::ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t from, std::int64_t to,
+                           int active_level)
     : kernel_(kernel),
       place_(place),
       from_(from),
       to_(to),
+      active_level_(active_level),
       id_(kernel.add(*this, sim::Phase::parts, name)),
-      wire_(kernel.add_wire(name, 0)),
+      wire_(kernel.add_wire(name, 1 - active_level)),
       slot_(place.listen(*this)) {
     MOTIONRACK_ASSERT(from <= to);
     kernel.schedule(id_, Instant{0});
+}
+
+bool ReferenceCam::active(Instant t) const {
+    const std::int64_t here = place_.count(t);
+    return here >= from_ && here <= to_;
 }
 
 void ReferenceCam::act(Instant now) {
@@ -22,7 +29,7 @@ void ReferenceCam::act(Instant now) {
 
 void ReferenceCam::look(Instant now) {
     const std::int64_t here = place_.count(now);
-    kernel_.set_wire(wire_, here >= from_ && here <= to_);
+    kernel_.set_wire(wire_, active(now) ? active_level_ : 1 - active_level_);
     if (here < from_)
         place_.watch(slot_, sim::unwatched_below, from_);
     else if (here > to_)

@@ -1,6 +1,6 @@
 // A cam on a moving part with a switch: active between two places, both included.
 //
-//   count  ----[from]~~~~~~~~~~[to]----->      wire: 1 between, 0 outside
+//   count  ----[from]~~~~~~~~~~[to]----->      wire: the active level between, the other one outside
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,11 @@ namespace motionrack::parts {
 class ReferenceCam final : public sim::Device, private sim::MotionListener {
   public:
     /// Adds the device `name` and its wire of the same name to the kernel, before it starts. `from` <= `to`, counts of `place`.
-    ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t from, std::int64_t to);
+    ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t from, std::int64_t to,
+                 int active_level = 1);
 
     sim::WireId wire() const { return wire_; }
+    bool active(Instant t) const;
 
     void act(Instant now) override;
 
@@ -28,6 +30,7 @@ class ReferenceCam final : public sim::Device, private sim::MotionListener {
     sim::Motion& place_;
     std::int64_t from_;
     std::int64_t to_;
+    int active_level_;
     sim::DeviceId id_{};
     sim::WireId wire_{};
     int slot_ = 0;

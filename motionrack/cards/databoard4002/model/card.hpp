@@ -19,6 +19,7 @@
 #include <motionrack/sim/byte_device.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/motion.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -71,6 +72,7 @@ class Card final : public sim::Device,
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
     /// watchdog.hang; esl.broken, esr.broken, ems.broken, ref.broken: the input's wire is broken while not 0, so it is active.
     bool fault(std::string_view name, double value, Instant now) override;
+    static std::span<const std::string_view> fault_names();
 
   private:
     enum Pin : int { o1_pin, o2_pin, zero_pin, ref_pin, ems_pin, esr_pin, esl_pin, vout_pin, sign_pin, fout_pin, relay_pin,

@@ -41,6 +41,11 @@ void Card::on_wire(int pin, int level, Instant now) {
     reschedule();
 }
 
+std::span<const std::string_view> Card::fault_names() {
+    static constexpr std::string_view names[] = {"watchdog.hang", "esl.broken", "esr.broken", "ems.broken", "ref.broken"};
+    return names;
+}
+
 bool Card::fault(std::string_view name, double value, Instant now) {
     begin();
     if (name == "watchdog.hang") {

@@ -1,0 +1,235 @@
+// The states of the search, one look at a time.
+#include <motionrack/cards/databoard4002/axes/home_search.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace motionrack::databoard4002 {
+
+namespace {
+
+constexpr Duration contacts_rest = milliseconds(5);
+constexpr std::array<std::string_view, 9> names = {"", "BACK", "BACK_STOP", "SEARCH", "SEARCH_STOP", "SLOW", "SLOW_STOP", "HOMED", "FAILED"};
+
+}  // namespace
+
+std::string_view HomeSearch::state_name() const { return names[static_cast<std::size_t>(state_)]; }
+
+tl::unexpected<Error> HomeSearch::failed(const std::string& why) const {
+    const std::string where = state_ == State::idle ? "Nothing was moved" : fmt::format("It was stopped in {}", state_name());
+    return fail(Trouble::machine, fmt::format("Homing of axis {}: {}. {}; the position is not trusted.", frame_.name, why, where));
+}
+
+// ---- beginning and ending -------------------------------------------------------------------------------------------
+
+void HomeSearch::begin(const control::HomeOrder& order, const HomeFrame& frame, Instant now) {
+    order_ = order;
+    frame_ = frame;
+    outcome_ = {};
+    outcome_.type = order.type;
+    outcome_.towards_plus = order.towards_plus;
+    outcome_.from = now;
+    error_ = {};
+    turned_ = zeroed_ = false;
+    way_ = pace_ = 0;
+    state_ = State::idle;
+    looked_ = now;
+    Result<void> begun;
+    if (auto here = driver_.position()) {
+        counts_ = *here;
+        way_ = static_cast<double>(counts_);
+        const Status status = driver_.status();
+        if (status.emergency())
+            begun = failed("the emergency stop is active; release it");
+        else
+            begun = enter(status.reference() ? State::back : State::search, now);
+    } else {
+        begun = tl::unexpected<Error>(here.error());
+    }
+    if (!begun) fail_with(begun.error(), now);
+}
+
+void HomeSearch::fail_with(const Error& error, Instant now) {
+    error_ = error;
+    static_cast<void>(driver_.quit());
+    finish(State::failed, error.message, now);
+}
+
+void HomeSearch::stop() {
+    if (!running()) return;
+    fail_with({Trouble::stopped, fmt::format("Homing of axis {} was stopped in {}; the position is not trusted.", frame_.name, state_name())},
+              host_.now());
+}
+
+void HomeSearch::leave(Instant now) {
+    if (state_ == State::idle) return;
+    outcome_.stays.push_back({std::string(state_name()), to_seconds(entered_ - outcome_.from), to_seconds(now - entered_), entered_way_, way_});
+}
+
+/// Turns ways into places, which are known from here on.
+void HomeSearch::finish(State state, std::string sentence, Instant now) {
+    leave(now);
+    state_ = state;
+    outcome_.homed = state == State::homed;
+    outcome_.sentence = std::move(sentence);
+    outcome_.took_s = to_seconds(now - outcome_.from);
+    const double zero = zeroed_ ? home_way_ : 0, called = zeroed_ ? order_.position : frame_.offset;
+    const auto place_of = [&](double way) { return called + (way - zero) / frame_.counts_per_unit; };
+    for (control::HomeStay& stay : outcome_.stays) stay.from = place_of(stay.from), stay.to = place_of(stay.to);
+    for (control::HomeEdge& edge : outcome_.edges) edge.position = place_of(edge.position);
+    outcome_.position = place_of(way_);
+    if (zeroed_) outcome_.moved_by = order_.position - place(home_way_);
+}
+
+// ---- entering a state -----------------------------------------------------------------------------------------------
+
+/// The events that make the counter 0 in the present state.
+std::uint8_t HomeSearch::marks() const {
+    if (!marking()) return 0;
+    const bool index = order_.type == control::HomeType::index_after_switch || (order_.type == control::HomeType::twice_and_index && state_ == State::slow);
+    return static_cast<std::uint8_t>(event::REF | (index ? event::ZERO : 0));
+}
+
+Result<void> HomeSearch::drive(bool towards, int rate) {
+    forward_ = towards == order_.towards_plus;
+    const Status status = driver_.status();
+    if (forward_ ? status.end_stop_right() : status.end_stop_left()) {
+        stop_seen_ = host_.now();  // no edge comes of it
+        return {};
+    }
+    const std::int64_t far = std::clamp<std::int64_t>(counts_ + (forward_ ? frame_.travel : -frame_.travel), map::least_24, map::greatest_24);
+    MOTIONRACK_CHECK(driver_.on_regulation());
+    MOTIONRACK_CHECK(driver_.set_rate(rate));
+    MOTIONRACK_CHECK(driver_.set_target(far));
+    MOTIONRACK_TRY(const Events old, driver_.enable_events(static_cast<std::uint8_t>(marks() | event::POSITION | event::STOP)));
+    static_cast<void>(old);
+    return driver_.go();
+}
+
+Result<void> HomeSearch::enter(State state, Instant now) {
+    leave(now);
+    state_ = state;
+    entered_ = still_since_ = now;
+    entered_way_ = way_;
+    marked_ = counted_ = seen_ = off_ = false;
+    stop_seen_ = never;
+    switch (state) {
+        case State::back: return drive(false, frame_.speed_rate);
+        case State::search: return drive(true, frame_.speed_rate);
+        case State::slow: return drive(true, frame_.slow_rate);
+        default: return driver_.quit();  // the stops
+    }
+}
+
+// ---- looking --------------------------------------------------------------------------------------------------------
+
+void HomeSearch::step(Instant now) {
+    if (!running()) return;
+    if (const Result<void> looked = look(now); !looked) fail_with(looked.error(), now);
+}
+
+/// The way since the last look; where the counter was set to 0 meanwhile, from the pace before.
+Result<void> HomeSearch::count(Instant now) {
+    MOTIONRACK_TRY(const std::int64_t counts, driver_.position());
+    const double seconds = to_seconds(now - looked_);
+    double step = static_cast<double>(counts - counts_);
+    if (marked_ && !counted_) {
+        step = pace_ * seconds;
+        counted_ = true;
+        home_way_ = way_ + step - static_cast<double>(counts);
+    } else if (seconds > 0) {
+        pace_ += (step / seconds - pace_) / 8;  // a look sees whole counts
+    }
+    if (counts != counts_) still_since_ = now;
+    way_ += step;
+    counts_ = counts;
+    looked_ = now;
+    return {};
+}
+
+Result<void> HomeSearch::look_at_events(Instant now) {
+    if (!driver_.status().event()) return {};
+    // Without the marks: a bounce of the reference must not set the counter to 0 once more.
+    constexpr auto others = static_cast<std::uint8_t>(event::POSITION | event::STOP);
+    MOTIONRACK_TRY(const Events seen, driver_.enable_events(others));
+    if (seen.was_reset()) return failed("the card was reset (its watchdog, or the bus); set it up again");
+    if (seen.stop()) stop_seen_ = later(now, contacts_rest);
+    if ((seen.word & marks()) != 0) {
+        marked_ = true;
+    } else if (seen.position() && (marking() || state_ == State::back)) {
+        return failed(fmt::format("no {} was found on a way of {:.3f} {}; look at its wire", marks() == (event::REF | event::ZERO) ? "zero pulse under the reference" : "reference",
+                                  static_cast<double>(frame_.travel) / frame_.counts_per_unit, frame_.unit));
+    }
+    if (!marking() || marked_) return {};
+    MOTIONRACK_CHECK(driver_.enable_events(static_cast<std::uint8_t>(marks() | others)));
+    // It may have become active between the two.
+    return driver_.status().reference() && !driver_.status().event() ? enter(State::back, now) : Result<void>{};
+}
+
+/// The contacts of a stop are at rest: does it hold the axis?
+Result<void> HomeSearch::look_at_stop(Instant now) {
+    stop_seen_ = never;
+    const Status status = driver_.status();
+    if (status.emergency()) return failed("the emergency stop is active; release it");
+    if (!(marking() || state_ == State::back) || !(forward_ ? status.end_stop_right() : status.end_stop_left())) return {};
+    if (state_ == State::search && order_.turn_at_limit && !turned_) {
+        turned_ = true;
+        outcome_.notes.push_back(fmt::format("the {} end stop was met first; the reference was searched the other way", forward_ ? "right" : "left"));
+        MOTIONRACK_CHECK(driver_.quit());
+        return enter(State::back, now);
+    }
+    return failed(fmt::format("the {} end stop is active and no reference was found before it", forward_ ? "right" : "left"));
+}
+
+Result<void> HomeSearch::look(Instant now) {
+    MOTIONRACK_CHECK(look_at_events(now));
+    MOTIONRACK_CHECK(count(now));
+    if (now >= stop_seen_) return look_at_stop(now);
+    switch (state_) {
+        case State::back: return look_back(now);
+        case State::search:
+        case State::slow: return look_search(now);
+        default: return now - still_since_ >= frame_.settle ? look_standing(now) : Result<void>{};
+    }
+}
+
+Result<void> HomeSearch::look_back(Instant now) {
+    const bool active = driver_.status().reference();
+    if (active) {
+        seen_ = true;
+        off_ = false;
+    } else if (seen_ && !off_) {
+        off_ = true;
+        off_way_ = way_;
+        outcome_.edges.push_back({"switch off", std::string(state_name()), way_, std::fabs(pace_) * 1e-3 / frame_.counts_per_unit,
+                                  std::fabs(pace_) / frame_.counts_per_unit, to_seconds(now - outcome_.from)});
+    }
+    if (!off_ || std::fabs(way_ - off_way_) < order_.clearance * frame_.counts_per_unit) return {};
+    return enter(State::back_stop, now);
+}
+
+Result<void> HomeSearch::look_search(Instant now) {
+    if (!marked_) return {};
+    outcome_.edges.push_back({(marks() & event::ZERO) != 0 ? "index" : "switch on", std::string(state_name()), home_way_, 0,
+                              std::fabs(pace_) / frame_.counts_per_unit, to_seconds(now - outcome_.from)});
+    zeroed_ = true;
+    return enter(state_ == State::search ? State::search_stop : State::slow_stop, now);
+}
+
+Result<void> HomeSearch::look_standing(Instant now) {
+    switch (state_) {
+        case State::back_stop: return enter(twice() ? State::slow : State::search, now);
+        case State::search_stop:
+            if (twice()) return enter(State::back, now);
+            break;
+        default: break;
+    }
+    MOTIONRACK_CHECK(driver_.enable_events(0));
+    finish(State::homed, fmt::format("Axis {} is homed.", frame_.name), now);
+    return {};
+}
+
+}  // namespace motionrack::databoard4002

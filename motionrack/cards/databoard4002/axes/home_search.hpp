@@ -1,0 +1,99 @@
+// Finding home with the card's own zeroing: the reference input (a cam, a switch), the encoder's zero pulse, or both at once make the
+// counter 0 at that instant.
+//
+//   type 1  SEARCH ─ref─► STOP ─► HOMED            the counter is 0 at the edge, the axis stands behind it
+//   type 2  SEARCH ─ref─► STOP ─► BACK ─off─► STOP ─► SLOW ─ref─► STOP ─► HOMED
+//   type 3, 4 as 1, 2, but the counter is 0 at the zero pulse under the cam
+//
+//   on the cam at the start, or an end stop met in SEARCH ─► BACK, the other way over the cam, ─► SEARCH or SLOW
+#pragma once
+
+#include <cstdint>
+#include <motionrack/cards/databoard4002/driver/driver.hpp>
+#include <motionrack/cards/databoard4002/driver/slope.hpp>
+#include <motionrack/control/home.hpp>
+#include <string>
+#include <string_view>
+
+namespace motionrack::databoard4002 {
+
+/// What a search needs to know of its axis.
+struct HomeFrame {
+    std::string name;
+    std::string_view unit;
+    double counts_per_unit = 100;
+    int speed_rate = 1;   ///< of the search
+    int slow_rate = 1;    ///< of the second approach
+    std::int64_t travel = 0;  ///< counts: the longest way of a state
+    double offset = 0;        ///< what the counter's 0 is called before
+    Duration settle{};        ///< without a count: the axis stands
+};
+
+class HomeSearch {
+  public:
+    HomeSearch(Driver& driver, Interrupt& host) : driver_(driver), host_(host) {}
+
+    void begin(const control::HomeOrder& order, const HomeFrame& frame, Instant now);
+    /// One look; commands take the card's time.
+    void step(Instant now);
+    /// Ends it: the output is 0 at once.
+    void stop();
+
+    bool running() const { return state_ != State::idle && state_ != State::homed && state_ != State::failed; }
+    bool homed() const { return state_ == State::homed; }
+    std::string_view state_name() const;
+    /// What the counter's 0 is called once it is homed.
+    double home_position() const { return order_.position; }
+    const control::HomeOutcome& outcome() const { return outcome_; }
+    /// How it failed. Only after it ended without success.
+    const Error& error() const { return error_; }
+
+  private:
+    enum class State : std::uint8_t { idle, back, back_stop, search, search_stop, slow, slow_stop, homed, failed };
+
+    bool twice() const { return order_.type == control::HomeType::twice_to_switch || order_.type == control::HomeType::twice_and_index; }
+    bool marking() const { return state_ == State::search || state_ == State::slow; }
+    std::uint8_t marks() const;
+    Result<void> enter(State state, Instant now);
+    Result<void> drive(bool towards, int rate);
+    Result<void> look(Instant now);
+    Result<void> look_back(Instant now);
+    Result<void> look_search(Instant now);
+    Result<void> look_standing(Instant now);
+    Result<void> look_at_events(Instant now);
+    Result<void> look_at_stop(Instant now);
+    Result<void> count(Instant now);
+    void leave(Instant now);
+    void fail_with(const Error& error, Instant now);
+    void finish(State state, std::string sentence, Instant now);
+    tl::unexpected<Error> failed(const std::string& why) const;
+    double place(double way) const { return frame_.offset + way / frame_.counts_per_unit; }
+    double since(Instant now) const { return to_seconds(now - outcome_.from); }
+
+    Driver& driver_;
+    Interrupt& host_;
+    control::HomeOrder order_;
+    HomeFrame frame_;
+    State state_ = State::idle;
+    bool seen_ = false;        // BACK: the reference has been active
+    bool turned_ = false;      // an end stop was met
+    bool zeroed_ = false;      // the counter's 0 is home
+    bool marked_ = false;      // the event that the state waits for has come
+    bool counted_ = false;     // and is in the way
+    bool forward_ = false;     // direction of the present drive
+    std::int64_t counts_ = 0;  // the card's counter
+    double way_ = 0;           // counts along the whole search, as if nothing had set the counter to 0
+    double home_way_ = 0;      // where that was
+    double pace_ = 0;          // counts a second at the last look
+    Instant looked_{};
+    double off_way_ = 0;       // BACK: where the reference was left
+    bool off_ = false;
+    Instant still_since_{};
+    Instant entered_{};
+    double entered_way_ = 0;
+    Instant stop_seen_ = never;  // when the contacts of a stop are at rest
+    control::HomeOutcome outcome_;
+    Error error_;
+};
+
+}  // namespace motionrack::databoard4002

@@ -1,0 +1,376 @@
+// Orders of the axis and what they become.
+#include <motionrack/cards/databoard4002/axes/position_axis.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace motionrack::databoard4002 {
+
+namespace {
+
+constexpr Duration look_every = milliseconds(1);
+constexpr Duration contacts_rest = milliseconds(5);
+
+}  // namespace
+
+PositionAxis::PositionAxis(Driver& driver, Interrupt& host, const PositionAxisSettings& settings)
+    : driver_(driver), host_(host), settings_(settings), search_(driver, host) {
+    MOTIONRACK_ASSERT(settings.counts_per_unit > 0);
+}
+
+Result<void> PositionAxis::set_up() {
+    const control::AxisLimits& limits = settings_.limits;
+    const double scale = settings_.counts_per_unit;
+    SlopeDemand demand;
+    demand.top_speed = limits.max_speed * scale;
+    demand.acceleration = demand.deceleration = limits.max_accel * scale;
+    demand.creep_speed = limits.start_speed < limits.max_speed ? limits.start_speed * scale : 0;
+    demand.lag_s = settings_.lag_s;
+    auto table = design_slope(demand, settings_.scale);
+    if (!table) return refuse("Setting up", table.error().message);
+    table_ = *table;
+    MOTIONRACK_CHECK(driver_.connect());
+    MOTIONRACK_CHECK(driver_.set_slope(table_));
+    MOTIONRACK_TRY(last_counts_, driver_.position());
+    doing_ = Doing::nothing;
+    trusted_ = false;
+    error_.reset();
+    return {};
+}
+
+// ---- what is refused ------------------------------------------------------------------------------------------------
+
+tl::unexpected<Error> PositionAxis::refuse(const char* what, const std::string& why) const {
+    return fail(Trouble::refused, fmt::format("{} of axis {}: {}. Nothing was moved.", what, settings_.name, why));
+}
+
+Result<int> PositionAxis::rate_of(const char* what, double speed) const {
+    if (!(std::isfinite(speed) && speed > 0 && speed <= settings_.limits.max_speed))
+        return refuse(what, fmt::format("the speed is {} {}/s, but may be above 0 and up to {}", speed, settings_.unit, settings_.limits.max_speed));
+    const int rate = settings_.scale.rate_for(speed * settings_.counts_per_unit * (1 + 1e-12));
+    if (rate > 0) return rate;
+    return refuse(what, fmt::format("the speed is {} {}/s, but the card's slowest rate gives {:.4g}", speed, settings_.unit,
+                                    settings_.scale.speed(1) / settings_.counts_per_unit));
+}
+
+Result<void> PositionAxis::check_free(const char* what, bool forward) {
+    if (busy()) return refuse(what, "it moves; stop it and wait until it stands");
+    const Status status = driver_.status();
+    if (status.emergency()) return refuse(what, "the emergency stop is active; release it");
+    if (forward ? status.end_stop_right() : status.end_stop_left())
+        return refuse(what, fmt::format("it stands on the {} end stop; move it in {} direction", forward ? "right" : "left", forward ? "-" : "+"));
+    return {};
+}
+
+// ---- moves ----------------------------------------------------------------------------------------------------------
+
+Result<std::int64_t> PositionAxis::counts() {
+    MOTIONRACK_TRY(last_counts_, driver_.position());
+    return last_counts_;
+}
+
+double PositionAxis::position() {
+    static_cast<void>(counts());
+    return offset_ + static_cast<double>(last_counts_) / settings_.counts_per_unit;
+}
+
+Result<void> PositionAxis::begin(const char* what, std::int64_t target, int rate, bool forward) {
+    error_.reset();
+    forward_ = forward;
+    hold_after_ = false;
+    stop_seen_ = never;
+    MOTIONRACK_CHECK(driver_.on_regulation());
+    MOTIONRACK_CHECK(driver_.set_rate(rate));
+    MOTIONRACK_CHECK(driver_.set_target(target));
+    MOTIONRACK_TRY(const Events old, driver_.enable_events(event::POSITION | event::STOP));
+    if (old.was_reset()) {
+        trusted_ = false;
+        return refuse(what, "the card was reset since it was set up; its table and position are gone. Set it up again and home it");
+    }
+    return driver_.go();
+}
+
+Result<void> PositionAxis::move_to(double position, double speed) {
+    const control::AxisLimits& limits = settings_.limits;
+    if (!trusted_) return refuse("Move", "its position is not trusted; home it, or say where it is with set_position");
+    if (!(position >= limits.min_position && position <= limits.max_position))
+        return refuse("Move", fmt::format("{} {} is outside its travel of {} to {}", position, settings_.unit, limits.min_position, limits.max_position));
+    MOTIONRACK_TRY(const std::int64_t here, counts());
+    return move_by((position - offset_) - static_cast<double>(here) / settings_.counts_per_unit, speed);
+}
+
+Result<void> PositionAxis::move_by(double distance, double speed) {
+    MOTIONRACK_TRY(const int rate, rate_of("Move", speed));
+    MOTIONRACK_TRY(const std::int64_t here, counts());
+    const double target = std::floor(static_cast<double>(here) + distance * settings_.counts_per_unit + 0.5);
+    if (!(target >= static_cast<double>(map::least_24) && target <= static_cast<double>(map::greatest_24)) ||
+        std::fabs(target - static_cast<double>(here)) > static_cast<double>(longest_move))
+        return refuse("Move", fmt::format("it leads to {:.0f} counts, but the card's positions are {} to {} and its moves up to {}", target,
+                                          map::least_24, map::greatest_24, longest_move));
+    const double there = offset_ + target / settings_.counts_per_unit, rounding = 1 / settings_.counts_per_unit;
+    if (trusted_ && (there < settings_.limits.min_position - rounding || there > settings_.limits.max_position + rounding))
+        return refuse("Move", fmt::format("{:.4f} {} is outside its travel of {} to {}", there, settings_.unit, settings_.limits.min_position,
+                                          settings_.limits.max_position));
+    const bool forward = target >= static_cast<double>(here);
+    MOTIONRACK_CHECK(check_free("Move", forward));
+    MOTIONRACK_CHECK(begin("Move", static_cast<std::int64_t>(target), rate, forward));
+    doing_ = Doing::moving;
+    hold_after_ = true;
+    return {};
+}
+
+// ---- jogging --------------------------------------------------------------------------------------------------------
+
+Result<void> PositionAxis::begin_jog(double speed, Instant now) {
+    const bool forward = speed > 0;
+    MOTIONRACK_TRY(const int rate, rate_of("Jog", std::fabs(speed)));
+    MOTIONRACK_CHECK(check_free("Jog", forward));
+    MOTIONRACK_TRY(const std::int64_t here, counts());
+    const double end = forward ? settings_.limits.max_position : settings_.limits.min_position;
+    const auto limit = static_cast<std::int64_t>(std::floor((end - offset_) * settings_.counts_per_unit + 0.5));
+    const std::int64_t most = forward ? map::greatest_24 : map::least_24;
+    const std::int64_t target = std::clamp(trusted_ ? limit : most, std::max(map::least_24, here - longest_move),
+                                           std::min(map::greatest_24, here + longest_move));
+    if (forward ? target <= here : target >= here) return refuse("Jog", "it stands at the end of its travel");
+    MOTIONRACK_CHECK(begin("Jog", target, rate, forward));
+    doing_ = Doing::jogging;
+    speed_ = wanted_ = settings_.scale.speed(rate);
+    at_ = renewed_ = now;
+    return {};
+}
+
+Result<void> PositionAxis::jog(double speed, Instant now) {
+    if (speed == 0) {
+        next_jog_ = 0;
+        if (doing_ == Doing::jogging) stop();
+        return {};
+    }
+    if (doing_ == Doing::nothing && !search_.running()) return begin_jog(speed, now);
+    if (doing_ == Doing::moving || search_.running()) return refuse("Jog", "it moves; stop it and wait until it stands");
+    MOTIONRACK_TRY(const int rate, rate_of("Jog", std::fabs(speed)));
+    renewed_ = now;
+    if (doing_ == Doing::jogging && (speed > 0) == forward_) {
+        wanted_ = settings_.scale.speed(rate);
+        return {};
+    }
+    if (doing_ == Doing::jogging) stop();
+    next_jog_ = speed;  // by way of a stop
+    return {};
+}
+
+/// The speed follows the wish with the axis' acceleration.
+void PositionAxis::jog_on(Instant now) {
+    if (now - renewed_ > settings_.hold) return stop();
+    const double change = settings_.limits.max_accel * settings_.counts_per_unit * to_seconds(now - at_);
+    at_ = now;
+    const double next = std::clamp(wanted_, speed_ - change, speed_ + change);
+    if (next == speed_) return;
+    speed_ = next;
+    if (const Result<void> set = driver_.set_rate(std::max(1, settings_.scale.rate_for(speed_ * (1 + 1e-12)))); !set) end_with(set.error());
+}
+
+// ---- stops ----------------------------------------------------------------------------------------------------------
+
+/// A search that runs; its motor comes to a stop. False if none did.
+bool PositionAxis::stop_search() {
+    if (!search_.running()) return false;
+    search_.stop();
+    rest(host_.now());
+    return true;
+}
+
+void PositionAxis::stop() {
+    if (stop_search()) return;
+    if (doing_ != Doing::moving && doing_ != Doing::jogging) return;
+    const auto rate = driver_.rate();
+    if (!rate) return end_with(rate.error());
+    doing_ = Doing::stopping;
+    hold_after_ = false;
+    next_jog_ = 0;
+    speed_ = settings_.scale.speed(std::abs(*rate));
+    at_ = host_.now();
+}
+
+void PositionAxis::stop_now() {
+    if (stop_search()) return;
+    next_jog_ = 0;
+    if (const Result<void> done = driver_.quit(); !done) return end_with(done.error());
+    if (doing_ == Doing::nothing) return;
+    rest(host_.now());
+    hold_after_ = false;
+}
+
+void PositionAxis::ramp_down(Instant now) {
+    const double creep = std::min(settings_.limits.start_speed, settings_.limits.max_speed) * settings_.counts_per_unit;
+    speed_ -= settings_.limits.max_accel * settings_.counts_per_unit * to_seconds(now - at_);
+    at_ = now;
+    const int rate = speed_ > creep ? settings_.scale.rate_for(speed_) : 0;
+    const Result<void> done = rate > 0 ? driver_.set_rate(rate) : driver_.quit();
+    if (!done) return end_with(done.error());
+    if (rate == 0) rest(now);
+}
+
+/// The output is 0; the motor comes to a stop.
+void PositionAxis::rest(Instant now) {
+    doing_ = Doing::settling;
+    still_since_ = now;
+}
+
+void PositionAxis::end_with(Error error) {
+    error_ = std::move(error);
+    hold_after_ = false;
+    next_jog_ = 0;
+    static_cast<void>(driver_.quit());
+    rest(host_.now());
+}
+
+// ---- carrying on ----------------------------------------------------------------------------------------------------
+
+void PositionAxis::look_at_events(Instant now) {
+    if (!driver_.status().event()) return;
+    const auto seen = driver_.enable_events(event::POSITION | event::STOP);
+    if (!seen) return end_with(seen.error());
+    if (seen->was_reset()) {
+        trusted_ = false;
+        return end_with({Trouble::machine, fmt::format("The card of axis {} was reset while it moved (its watchdog, or the bus); its position is not "
+                                                       "trusted. Set it up again and home it.", settings_.name)});
+    }
+    if (seen->stop()) stop_seen_ = later(now, contacts_rest);
+    if (seen->position() && (doing_ == Doing::moving || doing_ == Doing::jogging || doing_ == Doing::stopping)) rest(now);
+}
+
+/// The contacts of a stop are at rest: does it hold the axis? One on the other side does no harm.
+void PositionAxis::look_at_stop(Instant) {
+    stop_seen_ = never;
+    const Status status = driver_.status();
+    std::string why = status.emergency() || (forward_ ? status.end_stop_right() : status.end_stop_left()) ? status.stops() : std::string();
+    if (why.empty()) {
+        const auto rate = driver_.rate();
+        if (!rate) return end_with(rate.error());
+        if (*rate != 0 || driver_.status().event()) return;
+        why = "the emergency stop was active";
+    }
+    end_with({Trouble::machine, fmt::format("Axis {} met a stop at {:.4f} {}: {}. The move was ended; its position is still counted. Move it the "
+                                            "other way, or release the stop.", settings_.name, position(), settings_.unit, why)});
+}
+
+void PositionAxis::settle(Instant now) {
+    const std::int64_t before = last_counts_;
+    if (const auto here = counts(); !here) {
+        error_ = here.error();
+        doing_ = Doing::nothing;
+        return;
+    } else if (*here != before) {
+        still_since_ = now;
+    }
+    if (now - still_since_ < settings_.settle) return;
+    doing_ = Doing::nothing;
+    if (next_jog_ != 0) {
+        const double speed = std::exchange(next_jog_, 0);
+        if (const Result<void> begun = begin_jog(speed, now); !begun) error_ = begun.error();
+        return;
+    }
+    if (!hold_after_ || error_ || !settings_.hold_window) return;
+    const auto window = static_cast<std::int64_t>(std::floor(*settings_.hold_window * settings_.counts_per_unit + 0.5));
+    Result<void> held = driver_.set_deviation(window);
+    if (held) held = driver_.lock();
+    if (!held) error_ = held.error();
+}
+
+void PositionAxis::step(Instant now) {
+    if (search_.running()) {
+        search_.step(now);
+        if (search_.homed()) {
+            offset_ = search_.home_position();
+            trusted_ = true;
+        } else if (!search_.running()) {
+            rest(now);
+        }
+        return;
+    }
+    if (doing_ == Doing::nothing) return;
+    look_at_events(now);
+    if (now >= stop_seen_) look_at_stop(now);
+    switch (doing_) {
+        case Doing::jogging: return jog_on(now);
+        case Doing::stopping: return ramp_down(now);
+        case Doing::settling: return settle(now);
+        default: return;
+    }
+}
+
+Result<void> PositionAxis::wait(Duration timeout) {
+    const Instant end = later(host_.now(), timeout);
+    const bool homing = search_.running();
+    bool asked = false;
+    while (true) {
+        step(host_.now());
+        if (!busy()) break;
+        if (!asked && host_.stop_requested()) {
+            asked = true;
+            stop();
+        }
+        if (host_.now() >= end)
+            return fail(Trouble::machine, fmt::format("Axis {} still moves after {:.3f} s, at {:.4f} {}; nothing was stopped. Wait longer, or stop it.",
+                                                      settings_.name, to_seconds(timeout), position(), settings_.unit));
+        host_.pass(look_every);
+    }
+    if (homing && !search_.homed()) return tl::unexpected<Error>(search_.error());
+    if (asked) return fail(Trouble::stopped, fmt::format("Axis {} was stopped on request and stands at {:.4f} {}.", settings_.name, position(), settings_.unit));
+    if (error_) return tl::unexpected<Error>(*error_);
+    return {};
+}
+
+control::AxisState PositionAxis::state() {
+    using control::AxisState;
+    if (search_.running()) return AxisState::homing;
+    switch (doing_) {
+        case Doing::moving: return AxisState::moving;
+        case Doing::jogging: return AxisState::jogging;
+        case Doing::stopping: return AxisState::stopping;
+        case Doing::settling: return hold_after_ ? AxisState::moving : AxisState::stopping;
+        case Doing::nothing: break;
+    }
+    return error_ || driver_.status().emergency() ? AxisState::error : AxisState::standstill;
+}
+
+// ---- position and home ----------------------------------------------------------------------------------------------
+
+Result<void> PositionAxis::set_position(double position) {
+    const double most = static_cast<double>(longest_move) / settings_.counts_per_unit;
+    if (!(std::fabs(position) <= most))
+        return refuse("Position", fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));
+    if (busy()) return refuse("Position", "it moves; stop it and wait until it stands");
+    MOTIONRACK_TRY(const std::int64_t here, counts());
+    offset_ = position - static_cast<double>(here) / settings_.counts_per_unit;
+    trusted_ = true;
+    return {};
+}
+
+Result<void> PositionAxis::home(const control::HomeOrder& order, Instant now) {
+    MOTIONRACK_TRY(const int rate, rate_of("Homing", order.speed));
+    MOTIONRACK_TRY(const int slow, rate_of("Homing", order.slow_speed));
+    if (busy()) return refuse("Homing", "it moves; stop it and wait until it stands");
+    if (!(order.clearance >= 0 && std::isfinite(order.clearance) && std::isfinite(order.position) && order.travel >= 0 && std::isfinite(order.travel)))
+        return refuse("Homing", "clearance, travel and position must be numbers, the first two 0 or more");
+    const control::AxisLimits& limits = settings_.limits;
+    const double travel = order.travel > 0 ? order.travel : 1.2 * (limits.max_position - limits.min_position);
+    HomeFrame frame;
+    frame.name = settings_.name;
+    frame.unit = settings_.unit;
+    frame.counts_per_unit = settings_.counts_per_unit;
+    frame.speed_rate = rate;
+    frame.slow_rate = slow;
+    frame.travel = static_cast<std::int64_t>(std::clamp(std::ceil(travel * settings_.counts_per_unit), 1.0, static_cast<double>(longest_move)));
+    frame.offset = offset_;
+    frame.settle = settings_.settle;
+    trusted_ = false;
+    error_.reset();
+    search_.begin(order, frame, now);
+    return {};
+}
+
+}  // namespace motionrack::databoard4002

@@ -1,0 +1,45 @@
+// Programs on cards that position each axis by itself: every straight move becomes an order to the axes that it moves, and the next one
+// waits until they stand.
+//
+//   PlannedMove ─► move_to of each axis that it moves ─► step all until they stand ─► the next
+#pragma once
+
+#include <array>
+#include <motionrack/base/port.hpp>
+#include <motionrack/control/axis.hpp>
+#include <motionrack/control/limits.hpp>
+#include <motionrack/control/path_axes.hpp>
+#include <vector>
+
+namespace motionrack::control {
+
+class Positioning final : public PathAxes {
+  public:
+    /// `axes`: nullptr where there is none; they must be trusted. `host`: whose time passes.
+    Positioning(const std::array<Axis*, axis_count>& axes, const MachineLimits& limits, Interrupt& host);
+
+    Result<void> begin() override;
+    /// Returns when the axes stand. A feed is the speed of the axis that moves, a traverse the greatest speed of each. Errors: those of
+    /// Axis::move_to and Axis::wait; refused, an arc or a feed of several axes.
+    Result<void> follow(const PlannedMove& move) override;
+    Result<void> finish() override;
+    void stop(bool immediate) override;
+    Point commanded_position() override { return commanded_; }
+    std::vector<PathNote> take_notes() override { return {}; }
+    std::vector<BlockStart> take_starts() override;
+
+  private:
+    Result<void> dwell(double seconds);
+    Result<void> order(const PlannedMove& move);
+    Result<void> wait();
+    double speed_of(const PlannedMove& move, std::size_t axis) const;
+
+    std::array<Axis*, axis_count> axes_;
+    MachineLimits limits_;
+    Interrupt& host_;
+    Point commanded_ = {};
+    std::int64_t blocks_ = 0;
+    std::vector<BlockStart> starts_;
+};
+
+}  // namespace motionrack::control
