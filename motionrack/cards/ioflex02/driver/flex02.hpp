@@ -1,0 +1,87 @@
+// The card's configuration object, the source's tIOFlex02: loads the array with an image, drives the outputs, reads the inputs. It knows
+// the card only by a register port, so it cannot tell a virtual card from a real one.
+//
+//   signature? ─► one card? ─► unpack ─► CONFIGURE, DATA .. DATA, END ─► RUNNING? ─► Result
+#pragma once
+
+#include <cstdint>
+#include <motionrack/base/port.hpp>
+#include <motionrack/base/result.hpp>
+#include <motionrack/cards/ioflex02/image.hpp>
+#include <motionrack/cards/ioflex02/map.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace motionrack::ioflex02 {
+
+/// Outcomes of Init; the source names them, the numbers are chosen.
+enum FlexResult : int {
+    Flex_Ok = 0,          ///< the array is configured
+    Flex_ErrCfg = 1,      ///< configuration failed: the image is cut short, damaged or foreign, or the array did not start
+    Flex_ErrDevice = 2,   ///< no card at the address, or two
+    Flex_ErrProject = 3   ///< the array runs, but another project or version
+};
+
+struct FlexSettings {
+    Duration start_timeout = whole_seconds(10);  ///< > 0: longest wait for the configured array
+    Duration poll = milliseconds(10);            ///< > 0: between two looks at STATUS
+    std::uint8_t ident = position_ident;         ///< the project version that is expected
+    std::vector<std::uint8_t> image = {};        ///< compressed; empty: the image that is built in
+};
+
+class Flex02 {
+  public:
+    Flex02(RegisterPort& port, Interrupt& interrupt, FlexSettings settings = {});
+    virtual ~Flex02() = default;
+    Flex02(const Flex02&) = delete;
+    Flex02& operator=(const Flex02&) = delete;
+
+    /// What the last Init or Configure came to, a FlexResult; before it Flex_ErrDevice. While it is not Flex_Ok nothing is written, and
+    /// every read gives 0.
+    int Result = Flex_ErrDevice;
+    /// The sentence to Result; empty if it is Flex_Ok.
+    const std::string& why() const { return why_; }
+    bool ok() const { return Result == Flex_Ok; }
+
+    /// Sets the base address, looks whether one card answers there, and loads the array. Takes seconds.
+    virtual void Init(std::uint16_t Addr);
+    /// Loads the array with a compressed image and checks its project; the base address stays. Sets Result.
+    void Configure(std::span<const std::uint8_t> image);
+    std::uint16_t base_address() const { return base_; }
+
+    /// Version of the project in the array.
+    std::uint8_t GetIdent();
+    /// Low and high 8 outputs of X5. X7 is not driven by the project "position".
+    void WriteOutL(std::uint8_t Data);
+    void WriteOutH(std::uint8_t Data);
+    /// Low and high 8 inputs.
+    std::uint8_t ReadInL();
+    std::uint8_t ReadInH();
+
+  protected:
+    std::uint16_t get(std::uint32_t at);
+    void put(std::uint32_t at, std::uint16_t value);
+    /// Both halves of a 24-bit value, without sign.
+    std::uint32_t get24(std::uint32_t low);
+    Instant now() const { return interrupt_.now(); }
+    void pass(Duration duration) { interrupt_.pass(duration); }
+    bool stop_requested() const { return interrupt_.stop_requested(); }
+
+  private:
+    bool set(FlexResult result, std::string why = {});
+    bool find_card();
+    bool feed(std::span<const std::uint8_t> raw);
+    bool wait_until_running();
+    bool check_project();
+    std::uint16_t in(std::uint32_t at) { return port_.read(base_ + at); }
+    void out(std::uint32_t at, std::uint16_t value) { port_.write(base_ + at, value); }
+
+    RegisterPort& port_;
+    Interrupt& interrupt_;
+    FlexSettings settings_;
+    std::uint16_t base_ = 0;
+    std::string why_ = "Init was not called, so nothing can be read or written.";
+};
+
+}  // namespace motionrack::ioflex02

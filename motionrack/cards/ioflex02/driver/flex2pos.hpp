@@ -1,0 +1,117 @@
+// The unit uFlex2Pos: the source's object tIOFlexPos with every name of its table, and one layer up what a program of today wants:
+// readings of one instant whose time and counts do not wrap, modes, diagnostics.
+//
+//   tIOFlex02 (Flex02) ◄── tIOFlexPos (Flex2Pos)
+//
+// Time and counts of the card have 24 bits. The object carries them on in 64 bits as long as it sees every clearing of the time (so do not
+// share a card between two objects), and as long as an axis moves less than 8,388,607 counts between two readings.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/cards/ioflex02/driver/flex02.hpp>
+
+namespace motionrack::ioflex02 {
+
+inline constexpr int cVerNo = 0x0251;                 ///< version of the unit, BCD
+inline constexpr char cVer[] = "02.51, 07.08.2003";   ///< the same as text, with its date
+
+/// An axis in a reading.
+struct AxisReading {
+    std::int64_t position = 0;  ///< counts since the calibration, carried on beyond 24 bits
+    std::int64_t travel = 0;    ///< counts since Init, which no calibration touches
+    std::int64_t age = 0;       ///< ticks since the last count; oldest_age: that or more, or none yet
+    bool down = false;          ///< the last count was downwards
+};
+inline constexpr std::int64_t oldest_age = mask_24;
+
+/// Everything of one instant.
+struct Reading {
+    std::int64_t ticks = 0;  ///< time since Init in ticks of 1.2 us, carried on over wraps and clearings
+    std::array<AxisReading, axis_count> axes{};
+    double seconds() const { return static_cast<double>(ticks) * to_seconds(time_tick); }
+};
+
+/// An axis looked at closely; places are travel counts.
+struct AxisDetail {
+    AxisReading at;                ///< where it is at this instant
+    std::int64_t ticks = 0;
+    bool a = false, b = false, z = false, cal = false;  ///< levels of the lines
+    std::uint16_t edges_a = 0, edges_b = 0;             ///< modulo 65,536
+    std::uint16_t indexes = 0;                          ///< index pulses, modulo 65,536
+    std::int64_t index_at = 0;                          ///< place of the last index pulse
+    std::uint16_t illegal = 0;                          ///< illegal transitions, at most 65,535
+    std::int64_t illegal_at = 0;                        ///< place of the last one
+    int edges = 4;                                      ///< how many edges of a line are counted: 4, 2 or 1
+    /// A place in counts since the calibration.
+    std::int64_t position_of(std::int64_t place) const { return place - at.travel + at.position; }
+};
+
+/// How an axis counts.
+struct AxisMode {
+    bool reversed = false;
+    int edges = 4;           ///< 4, 2 or 1 counts for a line of the encoder
+    bool index_low = false;  ///< the index is active low
+    int filter = 0;          ///< 0 .. 15: a level counts after filter + 1 samples of 100 ns
+    friend bool operator==(const AxisMode&, const AxisMode&) = default;
+};
+
+class Flex2Pos final : public Flex02 {
+  public:
+    using Flex02::Flex02;
+    void Init(std::uint16_t Addr) override;
+
+    // ---- the source's functions; Longint is 32 bits with sign
+    /// Time in ticks of 1.2 us, 0 .. 16,777,215.
+    std::int32_t ReadTime();
+    /// The same, and the counter is cleared in the same access.
+    std::int32_t ReadTimeClr();
+    /// Position in counts since the calibration, -8,388,608 .. 8,388,607.
+    std::int32_t ReadPosition0() { return read_position(0); }
+    std::int32_t ReadPosition1() { return read_position(1); }
+    std::int32_t ReadPosition2() { return read_position(2); }
+    std::int32_t ReadPosition3() { return read_position(3); }
+    /// Time (cleared) and the positions of one instant; 11 accesses, four ReadPosition are 12.
+    void ReadTimeClrPosition(std::int32_t& Time, std::int32_t& Pos0, std::int32_t& Pos1, std::int32_t& Pos2, std::int32_t& Pos3);
+    /// One calibration command for each axis, together; what was pending is replaced.
+    void WriteCmd(tIOFlexCmd Cmd0, tIOFlexCmd Cmd1, tIOFlexCmd Cmd2, tIOFlexCmd Cmd3);
+    void ReadSts(tIOFlexSts& Sts0, tIOFlexSts& Sts1, tIOFlexSts& Sts2, tIOFlexSts& Sts3);
+
+    // ---- one layer up; axes are 0 .. 3
+    /// Time, positions, travels and ages of one instant.
+    Reading read();
+    /// All four axes, looked at closely, of one instant.
+    std::array<AxisDetail, axis_count> read_details();
+    /// Commands and statuses as lists.
+    void calibrate(const std::array<tIOFlexCmd, axis_count>& commands);
+    std::array<tIOFlexSts, axis_count> statuses();
+    /// Waits until the axis is sCal. Errors: machine, if that has not come within `timeout`; stopped.
+    motionrack::Result<void> wait_calibrated(int axis, Duration timeout);
+    /// Errors: refused (edges or filter out of range; nothing was written), machine (Init has not succeeded).
+    motionrack::Result<void> set_mode(int axis, const AxisMode& mode);
+    AxisMode mode(int axis);
+    void clear_errors();
+    /// Positions and the card's time begin at 0; what this object has carried on (ticks, travel) goes on.
+    void reset();
+
+  private:
+    /// A 24-bit counter carried on in 64 bits.
+    struct Carried {
+        std::uint32_t last = 0;
+        std::int64_t value = 0;
+    };
+    void forget();
+    std::int32_t read_position(std::uint32_t axis);
+    std::int64_t carry_time(std::uint32_t time, bool cleared);
+    void carry_axis(std::size_t axis, std::uint32_t position, std::uint32_t travel);
+    Reading read_captured();
+
+    std::int64_t ticks_ = 0;
+    std::uint32_t last_time_ = 0;
+    Instant host_then_{};
+    std::array<Carried, axis_count> travel_{};
+    std::array<std::int64_t, axis_count> position_{};
+    std::array<std::uint32_t, axis_count> zero_{};  ///< travel at the position's zero, 24 bits
+};
+
+}  // namespace motionrack::ioflex02

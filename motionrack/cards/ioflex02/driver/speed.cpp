@@ -1,0 +1,79 @@
+// The two estimates and their bounds.
+#include <algorithm>
+#include <motionrack/cards/ioflex02/driver/speed.hpp>
+
+namespace motionrack::ioflex02 {
+
+namespace {
+
+const double tick_s = to_seconds(time_tick);
+/// How far the length of a stretch may be off: a tick, and a sample.
+const double stretch_error_s = to_seconds(time_tick + sample_time);
+
+/// `counts` +- `off` over `ticks` ticks, of which as much as above may be missing. Not known if nothing of them is sure.
+SpeedEstimate mean(std::int64_t counts, double off, std::int64_t from, std::int64_t to) {
+    SpeedEstimate out;
+    const double length = static_cast<double>(to - from) * tick_s;
+    const double least = length - stretch_error_s;
+    if (least <= 0) return out;
+    const double size = static_cast<double>(counts < 0 ? -counts : counts);
+    out.known = true;
+    out.counts_s = static_cast<double>(counts) / length;
+    out.error = (size + off) / least - size / length;
+    out.from = from;
+    out.to = to;
+    return out;
+}
+
+/// The place of the edge that made the last count: between two counts.
+std::int64_t place_of(const AxisReading& axis) {
+    return axis.travel + (axis.down ? 1 : 0);
+}
+
+}  // namespace
+
+SpeedEstimate SpeedMeter::difference(const AxisReading& axis, std::int64_t ticks) const {
+    // Both readings are somewhere within their count.
+    return mean(axis.travel - travel_, 1 + 2 * edge_error_, ticks_, ticks);
+}
+
+/// No edge since the last one: less than a count in all that time.
+SpeedEstimate SpeedMeter::silence(const AxisReading& axis, std::int64_t ticks) const {
+    // "None yet" looks as old as can be; sure is only what was seen.
+    const std::int64_t since = edge_known_ ? ticks - edge_ticks_ : std::min(axis.age, ticks - first_ticks_);
+    SpeedEstimate out = mean(0, 1 + 2 * edge_error_, ticks - since, ticks);
+    if (!out.known) return out;
+    const double most = out.error;
+    out.counts_s = std::clamp(edge_speed_, -most, most);
+    out.error = most + (out.counts_s < 0 ? -out.counts_s : out.counts_s);
+    return out;
+}
+
+Speed SpeedMeter::update(const AxisReading& axis, std::int64_t ticks) {
+    Speed out;
+    const bool told = axis.age < oldest_age;
+    const std::int64_t edge_ticks = ticks - axis.age, place = place_of(axis);
+    if (!told && edge_known_ && place != edge_place_) edge_known_ = false;  // edges came and are too long ago
+    if (begun_) {
+        out.difference = difference(axis, ticks);
+        if (told && edge_known_ && edge_ticks > edge_ticks_) {
+            out.edges = mean(place - edge_place_, 2 * edge_error_, edge_ticks_, edge_ticks);
+            out.edge_came = out.edges.known;
+        } else if (!told || (edge_known_ && place == edge_place_)) {
+            out.edges = silence(axis, ticks);
+        }
+    }
+    if (told && (!edge_known_ || out.edge_came)) {
+        edge_known_ = true;
+        edge_ticks_ = edge_ticks;
+        edge_place_ = place;
+        edge_speed_ = out.edge_came ? out.edges.counts_s : 0;
+    }
+    if (!begun_) first_ticks_ = ticks;
+    begun_ = true;
+    ticks_ = ticks;
+    travel_ = axis.travel;
+    return out;
+}
+
+}  // namespace motionrack::ioflex02

@@ -1,0 +1,37 @@
+// Counts of an axis in the user's unit: mm of a scale, degrees of a spindle.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <fmt/format.h>
+#include <motionrack/base/result.hpp>
+
+namespace motionrack::ioflex02 {
+
+class Units {
+  public:
+    /// Counts themselves.
+    Units() = default;
+    /// A linear scale; negative: the axis counts the other way. Errors: refused (0 or not finite).
+    static Result<Units> mm(double counts_per_mm) { return of(counts_per_mm, "counts for a mm"); }
+    /// A rotary encoder, in degrees. Errors: refused (0 or not finite).
+    static Result<Units> degrees(double counts_per_turn) { return of(counts_per_turn / 360, "counts for a degree"); }
+
+    double of_counts(double counts) const { return counts / counts_per_unit_; }
+    double of_counts(std::int64_t counts) const { return of_counts(static_cast<double>(counts)); }
+    double to_counts(double value) const { return value * counts_per_unit_; }
+    double counts_per_unit() const { return counts_per_unit_; }
+
+  private:
+    static Result<Units> of(double counts_per_unit, const char* what) {
+        if (!std::isfinite(counts_per_unit) || counts_per_unit == 0)
+            return fail(Trouble::refused, fmt::format("There are {} {}, but that must be a number other than 0. The units were not changed.",
+                                                      counts_per_unit, what));
+        Units out;
+        out.counts_per_unit_ = counts_per_unit;
+        return out;
+    }
+    double counts_per_unit_ = 1;
+};
+
+}  // namespace motionrack::ioflex02
