@@ -1,0 +1,88 @@
+// Where the edges are, and watching for them.
+#include <cstdlib>
+#include <motionrack/base/result.hpp>
+#include <motionrack/sim/parts/encoder_part.hpp>
+
+namespace motionrack::parts {
+
+EncoderPart::EncoderPart(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t turn, std::int64_t place_per_turn,
+                         const LineOutputSettings& lines)
+    : kernel_(kernel),
+      place_(place),
+      turn_(turn),
+      place_per_turn_(place_per_turn),
+      id_(kernel.add(*this, sim::Phase::parts, name)),
+      output_(kernel, name, lines, state_.lines),
+      slot_(place.listen(*this)) {
+    MOTIONRACK_ASSERT(turn > 0 && turn % 4 == 0 && place_per_turn > 0);
+    kernel.schedule(id_, Instant{0});
+}
+
+// ---- geometry -------------------------------------------------------------------------------------------------------
+
+/// The first place at which the count is n or more.
+std::int64_t EncoderPart::place_of(std::int64_t n) const {
+    // Displacements in 2^-20 counts, so that all that follows is whole numbers.
+    constexpr std::int64_t fine = 1 << 20;
+    const double early = displacement(floor_mod(n, turn_)) * static_cast<double>(fine);
+    const auto whole = static_cast<std::int64_t>(early < 0 ? early - 0.5 : early + 0.5);
+    if (whole == 0) return ceil_div(Wide{n} * place_per_turn_, turn_);
+    return ceil_div((Wide{n} * fine - whole) * place_per_turn_, turn_ * fine);
+}
+
+std::int64_t EncoderPart::count_at(std::int64_t place) const {
+    // The count before is near, unless the place has jumped.
+    const std::int64_t straight = floor_div(Wide{place} * turn_, place_per_turn_);
+    std::int64_t n = std::llabs(straight - state_.count) < turn_ ? state_.count : straight;
+    while (place_of(n + 1) <= place) ++n;
+    while (place_of(n) > place) --n;
+    return n;
+}
+
+// ---- time -----------------------------------------------------------------------------------------------------------
+
+void EncoderPart::schedule() {
+    kernel_.schedule(id_, state_.begun ? output_.next() : Instant{0});
+}
+
+void EncoderPart::look(Instant now) {
+    state_.count = count_at(place_.count(now));
+    place_.watch(slot_, place_of(state_.count) - 1, place_of(state_.count + 1));
+    if (blind()) {
+        state_.was_blind = 1;
+        return;
+    }
+    if (state_.was_blind) {
+        // What turned unseen is known within a turn only: the shorter way is gone.
+        const std::int64_t away = state_.count - output_.shown();
+        output_.rename(floor_div(away + turn_ / 2, turn_) * turn_);
+        state_.was_blind = 0;
+    }
+    output_.show(state_.count, now);
+    schedule();
+}
+
+void EncoderPart::look_again(Instant now) {
+    if (state_.begun) look(now);
+}
+
+void EncoderPart::act(Instant now) {
+    if (!state_.begun) {
+        state_.begun = 1;
+        state_.count = count_at(place_.count(now));
+        output_.begin(state_.count);
+        look(now);
+    }
+    output_.act(now);
+    schedule();
+}
+
+bool EncoderPart::fault(std::string_view name, double value, Instant now) {
+    constexpr std::string_view prefix = "encoder.";
+    if (name.substr(0, prefix.size()) == prefix) name.remove_prefix(prefix.size());
+    if (!output_.fault(name, value, now)) return false;
+    schedule();
+    return true;
+}
+
+}  // namespace motionrack::parts

@@ -1,0 +1,76 @@
+// What turns a place into the lines of an encoder: a disc or scale whose edges are where they should be, or nearly.
+//
+//   Motion (fine counts of a rotor, a carriage) ──► edge n at place n * den / num, less its displacement ──► LineOutput ──► a b z
+//
+// One edge is one event: the part watches the place for the next edge on either side. For axes that only count, a Motion connected to the
+// card as a whole costs nothing for an edge; this part is for those whose lines matter.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/parts/line_output.hpp>
+#include <string>
+#include <string_view>
+
+namespace motionrack::parts {
+
+class EncoderPart : public sim::Device, private sim::MotionListener {
+  public:
+    sim::WireId a() const { return output_.a(); }
+    sim::WireId b() const { return output_.b(); }
+    sim::WireId z() const { return output_.z(); }
+    /// What the disc shows: the count that a perfect encoder and counter would have, 0 at place 0.
+    std::int64_t count() const { return state_.count; }
+    /// Counts that were too quick for the electronics, in all.
+    std::int64_t lost() const { return output_.lost(); }
+
+    void act(Instant now) override;
+    std::span<std::byte> state() override { return sim::bytes_of(state_); }
+    /// Those of LineOutput, also with "encoder." before them.
+    bool fault(std::string_view name, double value, Instant now) override;
+
+  protected:
+    /// `turn` counts (a multiple of 4) for `place_per_turn` counts of `place` (both > 0). Adds the device and its wires, before the start.
+    EncoderPart(sim::Kernel& kernel, const std::string& name, sim::Motion& place, std::int64_t turn, std::int64_t place_per_turn,
+                const LineOutputSettings& lines);
+
+    /// How far edge n (0 .. turn - 1) is seen too early, in counts; less than a quarter of a turn, and so smooth that edges keep their order.
+    virtual double displacement(std::int64_t n) const = 0;
+    /// True: nothing can be seen, the lines stay.
+    virtual bool blind() const { return false; }
+    /// After displacement or blind have changed.
+    void look_again(Instant now);
+    std::int64_t turn() const { return turn_; }
+
+    LineOutput& output() { return output_; }
+
+    /// For the parts' own state.
+    struct State {
+        LineOutputState lines;
+        std::int64_t count = 0;
+        std::int64_t own[4] = {};  ///< of the derived part
+        std::uint32_t begun = 0;
+        std::uint32_t was_blind = 0;
+    };
+    static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
+    State state_{};
+    sim::Kernel& kernel_;
+
+  private:
+    void crossed(Instant now) override { look(now); }
+    void rate_changed(double, double, Instant) override {}
+    void look(Instant now);
+    void schedule();
+    std::int64_t place_of(std::int64_t n) const;
+    std::int64_t count_at(std::int64_t place) const;
+
+    sim::Motion& place_;
+    std::int64_t turn_;
+    std::int64_t place_per_turn_;
+    sim::DeviceId id_{};
+    LineOutput output_;
+    int slot_ = 0;
+};
+
+}  // namespace motionrack::parts

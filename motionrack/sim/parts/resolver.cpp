@@ -1,0 +1,63 @@
+// What the converter makes of windings that are not quite alike.
+#include <cmath>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/sim/parts/resolver.hpp>
+
+namespace motionrack::parts {
+
+namespace {
+
+constexpr double fine = 1e9;  // gain and offsets are kept in billionths
+constexpr double most = 0.3;
+
+LineOutputSettings lines_of_converter(const ResolverSettings& s) {
+    LineOutputSettings out;
+    out.index_every = s.counts_per_turn;
+    out.fastest = s.fastest;
+    out.loses_lines = false;
+    out.seed = s.seed;
+    return out;
+}
+
+}  // namespace
+
+Resolver::Resolver(sim::Kernel& kernel, const std::string& name, sim::Motion& place, const ResolverSettings& settings)
+    : EncoderPart(kernel, name, place, settings.counts_per_turn, settings.place_per_turn, lines_of_converter(settings)),
+      los_(kernel.add_wire(name + ".los", 0)) {}
+
+/// The converter shows the angle f where the rotor is at t:  (1 + g) sin t + a  :  cos t + b  =  sin f : cos f. That is
+/// A sin t - B cos t = C  with  A = (1 + g) cos f,  B = sin f,  C = b sin f - a cos f.
+double Resolver::displacement(std::int64_t n) const {
+    if (state_.own[gain] == 0 && state_.own[offset_sin] == 0 && state_.own[offset_cos] == 0) return 0;
+    const double g = static_cast<double>(state_.own[gain]) / fine;
+    const double a = static_cast<double>(state_.own[offset_sin]) / fine, b = static_cast<double>(state_.own[offset_cos]) / fine;
+    const double counts = static_cast<double>(turn());
+    const double f = 2 * pi * static_cast<double>(n) / counts;
+    const SinCos shown = sin_cos(f);
+    const double big_a = (1 + g) * shown.cos, big_b = shown.sin, c = b * shown.sin - a * shown.cos;
+    const double t = atan2(big_b, big_a) + pi / 2 - acos(c / std::sqrt(big_a * big_a + big_b * big_b));
+    double early = f - t;
+    if (early > pi) early -= 2 * pi;
+    if (early < -pi) early += 2 * pi;
+    return early * counts / (2 * pi);
+}
+
+bool Resolver::fault(std::string_view name, double value, Instant now) {
+    constexpr std::string_view prefix = "encoder.";
+    if (name.substr(0, prefix.size()) == prefix) name.remove_prefix(prefix.size());
+    if (name == "broken_sin" || name == "broken_cos") {
+        const std::int64_t bit = name == "broken_sin" ? 1 : 2;
+        state_.own[broken] = value != 0 ? state_.own[broken] | bit : state_.own[broken] & ~bit;
+        kernel_.set_wire(los_, blind());
+        look_again(now);
+        return true;
+    }
+    const int which = name == "gain" ? gain : name == "offset_sin" ? offset_sin : name == "offset_cos" ? offset_cos : -1;
+    if (which < 0) return EncoderPart::fault(name, value, now);
+    if (!(value >= -most && value <= most)) return false;
+    state_.own[which] = static_cast<std::int64_t>(value * fine);
+    look_again(now);
+    return true;
+}
+
+}  // namespace motionrack::parts
