@@ -51,7 +51,7 @@ TEST_P(Example, PrintsWhatItsFolderSays) {
     EXPECT_EQ(printed, text_of(folder / "expected.txt"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Folders, Example, testing::Values("01_first_move", "02_part", "03_helix", "04_s_curve", "05_limit_hit", "08_homing"));
+INSTANTIATE_TEST_SUITE_P(Folders, Example, testing::Values("01_first_move", "02_part", "03_helix", "04_s_curve", "05_limit_hit", "08_homing", "11_carriage"));
 
 TEST(Examples, TheLibraryExampleEndsWhereItsProgramSays) {
     const Ran ran = run(examples, MOTIONRACK_LIBRARY_EXAMPLE);
@@ -76,6 +76,15 @@ TEST(Examples, TheOldHostProgramPrintsWhatItsFolderSays) {
     const Ran ran = run(examples, MOTIONRACK_DATABOARD_C_EXAMPLE);
     EXPECT_EQ(ran.code, 0);
     EXPECT_EQ(ran.out, text_of(examples / "10_databoard_c" / "expected.txt"));
+}
+
+TEST(Examples, TheCarriageInCppPrintsAndDrawsWhatItsPageShows) {
+    const auto picture = std::filesystem::temp_directory_path() / "motionrack_carriage_test.svg";
+    const Ran ran = run(examples / "11_carriage", MOTIONRACK_CARRIAGE_EXAMPLE " machine.toml '" + picture.string() + "'");
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.out, text_of(examples / "11_carriage" / "expected_cpp.txt"));
+    EXPECT_EQ(text_of(picture), text_of(examples / "11_carriage" / "carriage.svg")) << "make it anew: example_carriage machine.toml carriage.svg";
+    std::filesystem::remove(picture);
 }
 
 TEST(Examples, TheBuiltInExampleIsThePart) {

@@ -36,7 +36,8 @@ struct Error {
         std::string out = file;
         if (place.line > 0) {
             if (!out.empty()) out += ':';
-            out += std::to_string(place.line) + ':' + std::to_string(place.column);
+            out += std::to_string(place.line);
+            if (place.column > 0) out += ':' + std::to_string(place.column);
         }
         return out.empty() ? message : out + ": " + message;
     }

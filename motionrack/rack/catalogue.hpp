@@ -68,6 +68,8 @@ class Card {
     virtual sim::VirtualHost& host() = 0;
     /// Its bus of 16-bit registers; nullptr if it has none.
     virtual sim::VirtualPort* port() { return nullptr; }
+    /// Its bus of 8-bit ports; nullptr if it has none.
+    virtual sim::VirtualBytePort* byte_port() { return nullptr; }
     /// Whether it can move axes together along a path; else each positions by itself.
     virtual bool follows_paths() const { return true; }
     /// The card's axes as a group that follows paths, set up at `position`; `channel[i]` moves axis i of the rack.

@@ -168,6 +168,7 @@ class Databoard4002Card final : public Card {
     std::span<const std::string_view> fault_names() const override { return db::Card::fault_names(); }
     bool fault(std::string_view name, double value, Instant now) override { return card_.fault(name, value, now); }
     sim::VirtualHost& host() override { return port_; }
+    sim::VirtualBytePort* byte_port() override { return &port_; }
     std::string describe(const sim::Condition& condition) const override { return db::describe(condition, name_); }
 
   private:

@@ -60,7 +60,7 @@ JobOutcome Job::run() {
     control::Controller controller(**axes, settings);
     controller.on_block([&](std::int64_t block, const control::PlannedMove& move) {
         monitor_->planned(block, move);
-        out.tolerance_mm = std::max(out.tolerance_mm, move.move.path == control::PathControl::continuous ? move.move.tolerance_mm : 0.0);
+        if (!settings.gcode.point_to_point) out.tolerance_mm = std::max(out.tolerance_mm, move.move.path == control::PathControl::continuous ? move.move.tolerance_mm : 0.0);
         if (planned_.size() < most_planned) planned_.push_back(move);
     });
     monitor_->begin();

@@ -112,8 +112,8 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     data.numbers = {{"Time of the job", fmt::format("{:.3f}", to_seconds(outcome.time)), "s"},
                     {"Path", fmt::format("{:.1f}", outcome.path_mm), "mm"},
                     {"Moves", fmt::format("{}", outcome.run.plan.moves), ""},
-                    {"Worst deviation", fmt::format("{:.4f}", outcome.worst.mm), "mm"},
-                    {"Chip segments", fmt::format("{}", outcome.chip_segments), ""}};
+                    {"Worst deviation", fmt::format("{:.4f}", outcome.worst.mm), "mm"}};
+    if (!rack.config().point_to_point()) data.numbers.push_back({"Chip segments", fmt::format("{}", outcome.chip_segments), ""});
     add_axes(data, job, outcome);
     const std::vector<Sample>& samples = job.monitor().samples();
     const Instant began = samples.empty() ? Instant{0} : samples.front().at;
@@ -144,7 +144,8 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
         "Deviation is the distance of X, Y, Z from the programmed path; a rotary axis that lags behind does not show in it."};
     if (outcome.rest_axis >= 0)
         data.notes.push_back("A servo's speed follows its voltage, which is that behind the card's relay, as its lag, current limit and friction let "
-                             "it; each move is as long as the card's slope table makes it, not as the plan has it.");
+                             "it; each move is as long as the card's slope table makes it, not as the plan has it. The table has 24 steps of speed up and 24 down, "
+                             "each a jump of the voltage, so the acceleration is in turn above its limit and below it.");
     return data;
 }
 
