@@ -49,6 +49,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"sim", {"base"}},
     {"parts", {"base", "sim"}},
     {"control", {"base"}},
+    {"decode", {"base"}},
     {"trace", {"base", "sim"}},
     {"mcx314/map", {"base"}},
     {"mcx314/chip", {"base", "sim", "mcx314/map"}},
@@ -63,7 +64,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"databoard4002/axes", {"base", "control", "databoard4002/map", "databoard4002/driver"}},
     {"rack", {"base", "sim", "parts", "control", "trace", "mcx314/map", "mcx314/chip", "mcx314/driver", "mcx314/axes",
               "databoard4002/map", "databoard4002/model", "databoard4002/axes"}},
-    {"frontends", {"base", "live", "control", "trace", "rack", "c.h"}},
+    {"frontends", {"base", "live", "control", "decode", "trace", "rack", "c.h"}},
     {"mcx314lib", {"base", "rack", "mcx314/map", "mcx314/driver"}},
 };
 

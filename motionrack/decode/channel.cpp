@@ -1,0 +1,139 @@
+// Sampled lines are cut into chunks that stay in the first cache; only a chunk in which something rare happened is looked at again.
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <motionrack/base/result.hpp>
+#include <motionrack/decode/channel.hpp>
+
+namespace motionrack::decode {
+
+namespace {
+
+constexpr std::size_t chunk_words = 64;
+
+using Plane = std::array<std::uint64_t, chunk_words>;
+
+/// The word with `size` (1 .. 63) samples, the last of which goes on.
+std::uint64_t filled(std::uint64_t word, std::size_t size) {
+    const std::uint64_t there = (std::uint64_t{1} << size) - 1;
+    return (word >> (size - 1) & 1U) != 0 ? word | ~there : word & there;
+}
+
+std::uint64_t level(std::uint8_t byte, int bit) { return byte >> bit & 1U; }
+
+}  // namespace
+
+void ChannelDecoder::begin(std::uint64_t a, std::uint64_t b, std::uint64_t z) {
+    if (begun_) return;
+    begun_ = true;
+    last_ = {a, b};
+    last_z_ = z;
+}
+
+void ChannelDecoder::bytes(const std::uint8_t* samples, std::size_t size, const Lines& lines) {
+    if (size == 0) return;
+    for (const int bit : {lines.a, lines.b, lines.z}) MOTIONRACK_ASSERT(bit >= -1 && bit < 8);
+    begin(level(*samples, lines.a), level(*samples, lines.b), lines.z < 0 ? 0 : level(*samples, lines.z));
+    Plane a, b, z;
+    const auto decode = [&](const std::uint8_t* from, std::size_t words, std::size_t count) {
+        kernels_->split_pair(from, words, {lines.a, lines.b}, a.data(), b.data());
+        const auto mask = static_cast<std::uint8_t>(lines.z < 0 ? 0U : 1U << lines.z);
+        const bool quiet = lines.z < 0 || kernels_->steady(from, words, mask, static_cast<std::uint8_t>(last_z_ != 0 ? mask : 0));
+        if (!quiet) kernels_->split(from, words, lines.z, z.data());
+        this->words(a.data(), b.data(), quiet ? nullptr : z.data(), words, count);
+    };
+    while (size >= 64) {
+        const std::size_t words = std::min(size / 64, chunk_words);
+        decode(samples, words, words * 64);
+        samples += words * 64, size -= words * 64;
+    }
+    if (size == 0) return;
+    std::array<std::uint8_t, 64> rest;
+    std::memcpy(rest.data(), samples, size);
+    std::memset(rest.data() + size, rest[size - 1], 64 - size);
+    decode(rest.data(), 1, size);
+}
+
+void ChannelDecoder::planes(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t size) {
+    if (size == 0) return;
+    begin(*a & 1U, *b & 1U, z ? *z & 1U : 0);
+    std::size_t at = 0;
+    while (at < size / 64) {
+        const std::size_t words = std::min(size / 64 - at, chunk_words * 8);
+        this->words(a + at, b + at, z ? z + at : nullptr, words, words * 64);
+        at += words;
+    }
+    const std::size_t rest = size % 64;
+    if (rest == 0) return;
+    const std::uint64_t last_a = filled(a[at], rest), last_b = filled(b[at], rest), last_z = z ? filled(z[at], rest) : 0;
+    words(&last_a, &last_b, z ? &last_z : nullptr, 1, rest);
+}
+
+/// Whole words, of which `size` samples are new.
+void ChannelDecoder::words(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words, std::size_t size) {
+    const Sums sums = kernels_->tally(a, b, words, last_);
+    const bool illegal = sums.illegal != 0 && illegal_samples_.size() < settings_.illegal_kept;
+    if (illegal || (z && index_in(z, words))) keep_events(a, b, z, words);
+    sums_ += sums;
+    samples_ += size;
+    last_ = {a[words - 1] >> 63, b[words - 1] >> 63};
+    if (z) last_z_ = z[words - 1] >> 63;
+}
+
+/// Whether the index line changes at all.
+bool ChannelDecoder::index_in(const std::uint64_t* z, std::size_t words) const {
+    const std::uint64_t steady = 0 - last_z_;
+    std::uint64_t changed = 0;
+    for (std::size_t w = 0; w < words; ++w) changed |= z[w] ^ steady;
+    return changed != 0;
+}
+
+void ChannelDecoder::keep_events(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words) {
+    Levels before = last_;
+    std::uint64_t before_z = last_z_, sample = samples_;
+    std::int64_t count = this->count();
+    for (std::size_t w = 0; w < words; ++w, sample += 64) {
+        const WordMasks masks = masks_of(a[w], b[w], before);
+        if (masks.illegal != 0) keep_illegal(masks.illegal, sample);
+        if (z) {
+            const std::uint64_t earlier = z[w] << 1 | before_z;
+            const std::uint64_t edges = settings_.index_low ? ~z[w] & earlier : z[w] & ~earlier;
+            if (edges != 0) keep_indexes(edges, masks, count, sample);
+            before_z = z[w] >> 63;
+        }
+        count += std::popcount(masks.up) - std::popcount(masks.down);
+        before = {a[w] >> 63, b[w] >> 63};
+    }
+}
+
+void ChannelDecoder::keep_illegal(std::uint64_t mask, std::uint64_t sample) {
+    for (; mask != 0 && illegal_samples_.size() < settings_.illegal_kept; mask &= mask - 1)
+        illegal_samples_.push_back(sample + static_cast<std::uint64_t>(std::countr_zero(mask)));
+}
+
+/// `count`: before the word, whose first sample is `sample`.
+void ChannelDecoder::keep_indexes(std::uint64_t edges, const WordMasks& masks, std::int64_t count, std::uint64_t sample) {
+    indexes_ += static_cast<std::uint64_t>(std::popcount(edges));
+    for (; edges != 0 && index_events_.size() < settings_.indexes_kept; edges &= edges - 1) {
+        const std::uint64_t lowest = edges & (0 - edges), until = lowest | (lowest - 1);
+        index_events_.push_back({sample + static_cast<std::uint64_t>(std::countr_zero(edges)),
+                                 count + std::popcount(masks.up & until) - std::popcount(masks.down & until)});
+    }
+}
+
+void FourChannelDecoder::bytes(const std::uint8_t* samples, std::size_t size) {
+    if (size == 0) return;
+    if (!begun_) last_ = *samples;
+    begun_ = true;
+    const std::size_t words = size / 64, rest = size % 64;
+    kernels_->four(samples, words, bits_, last_, sums_);
+    if (words > 0) last_ = samples[words * 64 - 1];
+    if (rest == 0) return;
+    std::array<std::uint8_t, 64> filled;
+    std::memcpy(filled.data(), samples + words * 64, rest);
+    std::memset(filled.data() + rest, filled[rest - 1], 64 - rest);
+    kernels_->four(filled.data(), 1, bits_, last_, sums_);
+    last_ = filled[rest - 1];
+}
+
+}  // namespace motionrack::decode
