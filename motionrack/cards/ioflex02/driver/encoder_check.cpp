@@ -19,20 +19,20 @@ std::int64_t modulo_16(int now, int before) {
 
 void EncoderCheck::look_at_lines(const AxisDetail& now, std::vector<Finding>& out) {
     const std::int64_t illegal = now.illegal >= last_.illegal ? now.illegal - last_.illegal : now.illegal;
-    if (illegal > 0) out.push_back({EncoderFault::illegal, illegal, last_.at.travel, now.illegal_at});
+    if (illegal > 0) out.push_back({EncoderFault::illegal, illegal, last_.at.raw, now.illegal_at});
     const std::int64_t a = modulo_16(now.edges_a, last_.edges_a), b = modulo_16(now.edges_b, last_.edges_b);
     if ((a > 0 && b > 0) || (a > 0 && b_alone_ > 0) || (b > 0 && a_alone_ > 0)) {
         a_alone_ = b_alone_ = 0;
         told_alone_ = false;
     }
-    if (a_alone_ + b_alone_ == 0) alone_from_ = last_.at.travel;
+    if (a_alone_ + b_alone_ == 0) alone_from_ = last_.at.raw;
     if (b == 0) a_alone_ += a;
     if (a == 0) b_alone_ += b;
     const std::int64_t alone = std::max(a_alone_, b_alone_);
     if (told_alone_ || alone < settings_.edges_alone) return;
     told_alone_ = true;
     const EncoderFault fault = b_alone_ > 0 ? EncoderFault::line_a_missing : EncoderFault::line_b_missing;
-    out.push_back({fault, alone, std::min(alone_from_, now.at.travel), std::max(alone_from_, now.at.travel)});
+    out.push_back({fault, alone, std::min(alone_from_, now.at.raw), std::max(alone_from_, now.at.raw)});
 }
 
 // ---- index ----------------------------------------------------------------------------------------------------------
@@ -76,7 +76,7 @@ void EncoderCheck::look_at_index(const AxisDetail& now, std::vector<Finding>& ou
     const std::int64_t turn = settings_.counts_per_index, came = modulo_16(now.indexes, last_.indexes);
     if (turn <= 0) return;
     // Without an index a turn and an eighth are waited for.
-    const std::int64_t here = came > 0 ? now.index_at : now.at.travel, patience = came > 0 ? -settings_.tolerance : settings_.tolerance + turn / 8;
+    const std::int64_t here = came > 0 ? now.index_at : now.at.raw, patience = came > 0 ? -settings_.tolerance : settings_.tolerance + turn / 8;
     const auto passed = [&] { return std::max<std::int64_t>(0, std::llabs(here - index_) - patience) / turn; };
     if (came == 0 && doubtful_known_ && passed() > 1) {
         tell_spacing(index_, doubtful_, out);
@@ -107,15 +107,15 @@ std::vector<Finding> EncoderCheck::look(const AxisDetail& now) {
 
 std::vector<Finding> EncoderCheck::check_move(const AxisDetail& before, const AxisDetail& now, std::int64_t counts) const {
     std::vector<Finding> out;
-    const std::int64_t seen = now.at.travel - before.at.travel;
+    const std::int64_t seen = now.at.raw - before.at.raw;
     const std::int64_t a = modulo_16(now.edges_a, before.edges_a), b = modulo_16(now.edges_b, before.edges_b);
     if (seen * (counts > 0 ? 1 : -1) < -std::llabs(counts) / 2)
-        out.push_back({EncoderFault::backwards, std::llabs(seen), before.at.travel, now.at.travel});
+        out.push_back({EncoderFault::backwards, std::llabs(seen), before.at.raw, now.at.raw});
     const std::int64_t enough = std::llabs(counts) / 8 * (4 / now.edges);
-    if (a <= enough / 8 && b > enough) out.push_back({EncoderFault::line_a_missing, b, before.at.travel, now.at.travel});
-    if (b <= enough / 8 && a > enough) out.push_back({EncoderFault::line_b_missing, a, before.at.travel, now.at.travel});
+    if (a <= enough / 8 && b > enough) out.push_back({EncoderFault::line_a_missing, b, before.at.raw, now.at.raw});
+    if (b <= enough / 8 && a > enough) out.push_back({EncoderFault::line_b_missing, a, before.at.raw, now.at.raw});
     const std::int64_t more = a + b - (std::max(std::llabs(seen), std::llabs(counts)) + 1) * (4 / now.edges);
-    if (more > settings_.edges_alone && out.empty()) out.push_back({EncoderFault::too_many_edges, more, before.at.travel, now.at.travel});
+    if (more > settings_.edges_alone && out.empty()) out.push_back({EncoderFault::too_many_edges, more, before.at.raw, now.at.raw});
     return out;
 }
 

@@ -4,7 +4,7 @@
 //                              ^ extra          ^ counts lost: one or more lines are dirty between the two
 //
 // Looks must come often enough that an axis makes less than 65,536 edges between two of them; an index pulse is placed best when there is
-// not more than one between two looks. Places are travel counts (AxisDetail::position_of makes positions of them).
+// not more than one between two looks. Places are raw counts (AxisDetail::position_of makes positions of them).
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ enum class EncoderFault : std::uint8_t {
 struct Finding {
     EncoderFault fault{};
     std::int64_t number = 0;
-    std::int64_t from = 0;  ///< places, travel counts
+    std::int64_t from = 0;  ///< places, raw counts
     std::int64_t to = 0;
 };
 

@@ -27,7 +27,7 @@ void Flex2Pos::Init(std::uint16_t Addr) {
 void Flex2Pos::forget() {
     ticks_ = 0;
     last_time_ = 0;
-    travel_ = {};
+    raw_ = {};
     position_ = {};
     zero_ = {};
     host_then_ = now();
@@ -47,12 +47,12 @@ std::int64_t Flex2Pos::carry_time(std::uint32_t time, bool cleared) {
     return ticks_;
 }
 
-void Flex2Pos::carry_axis(std::size_t axis, std::uint32_t position, std::uint32_t travel) {
-    Carried& carried = travel_[axis];
-    const std::int64_t moved = signed24(std::int64_t{travel} - carried.last);
+void Flex2Pos::carry_axis(std::size_t axis, std::uint32_t position, std::uint32_t raw) {
+    Carried& carried = raw_[axis];
+    const std::int64_t moved = signed24(std::int64_t{raw} - carried.last);
     carried.value += moved;
-    carried.last = travel;
-    const std::uint32_t zero = (travel - position) & mask_24;
+    carried.last = raw;
+    const std::uint32_t zero = (raw - position) & mask_24;
     position_[axis] = zero == zero_[axis] ? position_[axis] + moved : signed24(position);
     zero_[axis] = zero;
 }
@@ -63,10 +63,10 @@ Reading Flex2Pos::read_captured() {
     out.ticks = carry_time(get24(offset("TIME_L")), false);
     for (std::size_t i = 0; i < axis_count; ++i) {
         const std::uint32_t position = get24(of_axis(offset("POS0_L"), i));
-        const std::uint32_t travel = get24(of_axis(offset("TRAVEL0_L"), i));
-        carry_axis(i, position, travel);
+        const std::uint32_t raw = get24(of_axis(offset("RAW0_L"), i));
+        carry_axis(i, position, raw);
         out.axes[i].position = position_[i];
-        out.axes[i].travel = travel_[i].value;
+        out.axes[i].raw = raw_[i].value;
         out.axes[i].age = get24(of_axis(offset("AGE0_L"), i));
     }
     const unsigned down = get(offset("DOWN"));
@@ -96,9 +96,9 @@ std::array<AxisDetail, axis_count> Flex2Pos::read_details() {
         d.edges_a = get(offset("EDGES_A"));
         d.edges_b = get(offset("EDGES_B"));
         d.indexes = get(offset("INDEXES"));
-        d.index_at = d.at.travel - signed24(std::int64_t{travel_[i].last} - get24(offset("INDEX_AT_L")));
+        d.index_at = d.at.raw - signed24(std::int64_t{raw_[i].last} - get24(offset("INDEX_AT_L")));
         d.illegal = get(offset("ILLEGAL"));
-        d.illegal_at = d.at.travel - signed24(std::int64_t{travel_[i].last} - get24(offset("ILLEGAL_AT_L")));
+        d.illegal_at = d.at.raw - signed24(std::int64_t{raw_[i].last} - get24(offset("ILLEGAL_AT_L")));
         const unsigned edges = EDGES.get(get(offset("MODE_NOW")));
         d.edges = edges == 0 ? 4 : edges == 1 ? 2 : 1;
     }
@@ -211,7 +211,7 @@ void Flex2Pos::reset() {
     read();
     put(offset("CONTROL"), field("CONTROL", "RESET").mask);
     last_time_ = 0;
-    for (std::size_t i = 0; i < axis_count; ++i) travel_[i].last = 0;
+    for (std::size_t i = 0; i < axis_count; ++i) raw_[i].last = 0;
     position_ = {};
     zero_ = {};
 }

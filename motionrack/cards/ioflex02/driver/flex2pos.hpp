@@ -19,7 +19,7 @@ inline constexpr char cVer[] = "02.51, 07.08.2003";   ///< the same as text, wit
 /// An axis in a reading.
 struct AxisReading {
     std::int64_t position = 0;  ///< counts since the calibration, carried on beyond 24 bits
-    std::int64_t travel = 0;    ///< counts since Init, which no calibration touches
+    std::int64_t raw = 0;    ///< counts since Init, which no calibration touches
     std::int64_t age = 0;       ///< ticks since the last count; oldest_age: that or more, or none yet
     bool down = false;          ///< the last count was downwards
 };
@@ -32,7 +32,7 @@ struct Reading {
     double seconds() const { return static_cast<double>(ticks) * to_seconds(time_tick); }
 };
 
-/// An axis looked at closely; places are travel counts.
+/// An axis looked at closely; places are raw counts.
 struct AxisDetail {
     AxisReading at;                ///< where it is at this instant
     std::int64_t ticks = 0;
@@ -44,7 +44,7 @@ struct AxisDetail {
     std::int64_t illegal_at = 0;                        ///< place of the last one
     int edges = 4;                                      ///< how many edges of a line are counted: 4, 2 or 1
     /// A place in counts since the calibration.
-    std::int64_t position_of(std::int64_t place) const { return place - at.travel + at.position; }
+    std::int64_t position_of(std::int64_t place) const { return place - at.raw + at.position; }
 };
 
 /// How an axis counts.
@@ -78,7 +78,7 @@ class Flex2Pos final : public Flex02 {
     void ReadSts(tIOFlexSts& Sts0, tIOFlexSts& Sts1, tIOFlexSts& Sts2, tIOFlexSts& Sts3);
 
     // ---- one layer up; axes are 0 .. 3
-    /// Time, positions, travels and ages of one instant.
+    /// Time, positions, raw counts and ages of one instant.
     Reading read();
     /// All four axes, looked at closely, of one instant.
     std::array<AxisDetail, axis_count> read_details();
@@ -91,7 +91,7 @@ class Flex2Pos final : public Flex02 {
     motionrack::Result<void> set_mode(int axis, const AxisMode& mode);
     AxisMode mode(int axis);
     void clear_errors();
-    /// Positions and the card's time begin at 0; what this object has carried on (ticks, travel) goes on.
+    /// Positions and the card's time begin at 0; what this object has carried on (ticks, raw counts) goes on.
     void reset();
 
   private:
@@ -103,15 +103,15 @@ class Flex2Pos final : public Flex02 {
     void forget();
     std::int32_t read_position(std::uint32_t axis);
     std::int64_t carry_time(std::uint32_t time, bool cleared);
-    void carry_axis(std::size_t axis, std::uint32_t position, std::uint32_t travel);
+    void carry_axis(std::size_t axis, std::uint32_t position, std::uint32_t raw);
     Reading read_captured();
 
     std::int64_t ticks_ = 0;
     std::uint32_t last_time_ = 0;
     Instant host_then_{};
-    std::array<Carried, axis_count> travel_{};
+    std::array<Carried, axis_count> raw_{};
     std::array<std::int64_t, axis_count> position_{};
-    std::array<std::uint32_t, axis_count> zero_{};  ///< travel at the position's zero, 24 bits
+    std::array<std::uint32_t, axis_count> zero_{};  ///< raw count at the position's zero, 24 bits
 };
 
 }  // namespace motionrack::ioflex02

@@ -27,14 +27,14 @@ SpeedEstimate mean(std::int64_t counts, double off, std::int64_t from, std::int6
 
 /// The place of the edge that made the last count: between two counts.
 std::int64_t place_of(const AxisReading& axis) {
-    return axis.travel + (axis.down ? 1 : 0);
+    return axis.raw + (axis.down ? 1 : 0);
 }
 
 }  // namespace
 
 SpeedEstimate SpeedMeter::difference(const AxisReading& axis, std::int64_t ticks) const {
     // Both readings are somewhere within their count.
-    return mean(axis.travel - travel_, 1 + 2 * edge_error_, ticks_, ticks);
+    return mean(axis.raw - raw_, 1 + 2 * edge_error_, ticks_, ticks);
 }
 
 /// No edge since the last one: less than a count in all that time.
@@ -72,7 +72,7 @@ Speed SpeedMeter::update(const AxisReading& axis, std::int64_t ticks) {
     if (!begun_) first_ticks_ = ticks;
     begun_ = true;
     ticks_ = ticks;
-    travel_ = axis.travel;
+    raw_ = axis.raw;
     return out;
 }
 

@@ -51,7 +51,7 @@ class SpeedMeter {
     double edge_error_;
     bool begun_ = false;
     std::int64_t first_ticks_ = 0;
-    std::int64_t ticks_ = 0, travel_ = 0;  // of the reading before
+    std::int64_t ticks_ = 0, raw_ = 0;  // of the reading before
     bool edge_known_ = false;
     std::int64_t edge_ticks_ = 0, edge_place_ = 0;  // the last edge that was used
     double edge_speed_ = 0;

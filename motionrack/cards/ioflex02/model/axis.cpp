@@ -27,14 +27,14 @@ void count(AxisState& axis, unsigned before, unsigned after, std::int64_t sample
     if (changed == 3) {
         if (axis.illegal == 0) axis.illegal_sample = sample;
         if (axis.illegal < 0xFFFF) ++axis.illegal;
-        axis.illegal_at = axis.travel;
+        axis.illegal_at = axis.raw;
         return;
     }
     int change = sim::QuadratureDecoder(edges_of(axis.mode), static_cast<std::uint8_t>(before)).lines(static_cast<std::uint8_t>(after));
     if (change == 0) return;
     if (mode::REVERSED.test(axis.mode)) change = -change;
     axis.position += change;
-    axis.travel += change;
+    axis.raw += change;
     axis.edge = sample;
     axis.down = change < 0;
 }
@@ -65,7 +65,7 @@ void take(AxisState& axis, std::int64_t sample) {
     const bool index = (after >> z_line & 1) != mode::INDEX_LOW.get(axis.mode);
     if (((before ^ after) >> z_line & 1) != 0 && index) {
         ++axis.indexes;
-        axis.index_at = axis.travel;
+        axis.index_at = axis.raw;
         calibrate(axis, CalEvent::index);
     }
     // After the index: an index of the same sample does not come after this edge.

@@ -30,10 +30,10 @@ struct AxisState {
     std::int64_t pending = 0;               ///< the first sample that sees the raw levels
     std::int64_t done = no_sample;          ///< samples up to this one have been worked off
     std::int64_t position = 0;
-    std::int64_t travel = 0;
+    std::int64_t raw = 0;
     std::int64_t edge = no_sample;          ///< sample of the last count
-    std::int64_t index_at = 0;              ///< travel at the last index
-    std::int64_t illegal_at = 0;            ///< travel at the last illegal transition
+    std::int64_t index_at = 0;              ///< raw count at the last index
+    std::int64_t illegal_at = 0;            ///< raw count at the last illegal transition
     std::int64_t illegal_sample = no_sample;  ///< the first one since CLEAR_ERRORS
     std::uint16_t illegal = 0;              ///< stays at FFFFh
     std::uint16_t edges_a = 0, edges_b = 0, indexes = 0;

@@ -3,7 +3,7 @@
 //   CONTROL, DATA ──► [ array: image ─► project ]            STATUS, CFG_ERROR, SIGNATURE, SERIAL
 //                                │
 //   a b z cal (4 axes) ──► [ sample ─► filter ─► count ─► calibrate ] ──┐
-//   1.2 us ──────────────► [ time ] ────────────────────────────────────┴─► STROBE ──► TIME, POS, TRAVEL, AGE, ..
+//   1.2 us ──────────────► [ time ] ────────────────────────────────────┴─► STROBE ──► TIME, POS, RAW, AGE, ..
 //   in0 .. in15 ──► IN         OUTL, OUTH ──► out0 .. out15   (out16 .. out31, X7: not driven by this project)
 //
 // Nothing polls and nothing is scheduled: a wire's change is noted with the sample that sees it, and worked off when it is asked for.
@@ -35,6 +35,8 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     ArrayState array() const { return seen().configuration.array; }
     /// -8,388,608 .. 8,388,607.
     std::int32_t position(int axis) const { return signed24(axis_of(axis).position); }
+    /// Counts since the project began, without bounds.
+    std::int64_t raw_count(int axis) const { return axis_of(axis).raw; }
     tIOFlexSts status(int axis) const { return status_of(axis_of(axis).cal); }
     CalState calibration(int axis) const { return axis_of(axis).cal; }
     std::uint16_t illegal(int axis) const { return axis_of(axis).illegal; }

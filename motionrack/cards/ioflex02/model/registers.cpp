@@ -51,7 +51,7 @@ std::uint16_t Card::project_word(const State& state, std::uint32_t at) const {
     const Captured& all = state.captured;
     const auto of = [&all, at](std::uint32_t from) -> const CapturedAxis& { return all.axes[(at - from) / 4]; };
     if (axes_below(offset("POS0_L"))) return half(of(offset("POS0_L")).position, at, offset("POS0_L"));
-    if (axes_below(offset("TRAVEL0_L"))) return half(of(offset("TRAVEL0_L")).travel, at, offset("TRAVEL0_L"));
+    if (axes_below(offset("RAW0_L"))) return half(of(offset("RAW0_L")).raw, at, offset("RAW0_L"));
     if (axes_below(offset("AGE0_L"))) return half(of(offset("AGE0_L")).age, at, offset("AGE0_L"));
     const CapturedAxis& axis = all.axes[state.axis];
     unsigned bits = 0;
@@ -154,7 +154,7 @@ void Card::strobe(std::uint16_t word) {
             CapturedAxis& out = state_.captured.axes[i];
             const std::int64_t age = axis.edge == no_sample ? mask_24 : ticks - ticks_at(state_, sample_time * axis.edge);
             out.position = static_cast<std::uint32_t>(axis.position) & mask_24;
-            out.travel = static_cast<std::uint32_t>(axis.travel) & mask_24;
+            out.raw = static_cast<std::uint32_t>(axis.raw) & mask_24;
             out.age = static_cast<std::uint32_t>(std::min<std::int64_t>(age, mask_24));
             out.index_at = static_cast<std::uint32_t>(axis.index_at) & mask_24;
             out.illegal_at = static_cast<std::uint32_t>(axis.illegal_at) & mask_24;

@@ -28,7 +28,7 @@ struct Configuration {
 
 /// What STROBE latches of an axis.
 struct CapturedAxis {
-    std::uint32_t position = 0, travel = 0, age = 0;
+    std::uint32_t position = 0, raw = 0, age = 0;
     std::uint32_t index_at = 0, illegal_at = 0;
     std::uint16_t lines = 0, edges_a = 0, edges_b = 0, indexes = 0, illegal = 0;
     std::uint16_t down = 0;

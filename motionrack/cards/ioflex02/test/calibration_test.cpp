@@ -60,7 +60,7 @@ TEST(Ioflex02Calibration, ACountInTheSampleOfTheIndexIsLost) {
     rig.kernel.set_wire(rig.kernel.find_wire("c1.z0"), 1);
     rig.run(microseconds(1));
     EXPECT_EQ(position(rig, 0), 0);
-    EXPECT_EQ(signed24(rig.read24(offset("TRAVEL0_L"))), 1);
+    EXPECT_EQ(signed24(rig.read24(offset("RAW0_L"))), 1);
 }
 
 TEST(Ioflex02Calibration, ResNmSigWaitsForCalThenForTheIndex) {

@@ -301,9 +301,9 @@ TEST(Flex2Pos, TheTimeIsCarriedOnOverWrapsOfAnyNumberAndOverClearings) {
 
 TEST(Flex2Pos, PositionsAreCarriedOnOver24BitsAndCalibration) {
     OnScript on;
-    std::int64_t position = 0, travel = 0;
+    std::int64_t position = 0, raw = 0;
     const auto reading = [&] {
-        for (const auto& [at, value] : {std::pair{offset("POS2_L"), position}, {offset("TRAVEL2_L"), travel}}) {
+        for (const auto& [at, value] : {std::pair{offset("POS2_L"), position}, {offset("RAW2_L"), raw}}) {
             on.port.words[at] = static_cast<std::uint16_t>(value);
             on.port.words[at + 2] = static_cast<std::uint16_t>(value >> 16 & 0xFF);
         }
@@ -311,19 +311,19 @@ TEST(Flex2Pos, PositionsAreCarriedOnOver24BitsAndCalibration) {
     };
     for (int i = 0; i < 8; ++i) {
         position += 5'000'000;
-        travel += 5'000'000;
+        raw += 5'000'000;
         EXPECT_EQ(reading().position, position);
-        EXPECT_EQ(reading().travel, travel);
+        EXPECT_EQ(reading().raw, raw);
     }
     position = -3;  // calibrated meanwhile
-    travel += 4;
+    raw += 4;
     EXPECT_EQ(reading().position, -3);
-    EXPECT_EQ(reading().travel, travel);
+    EXPECT_EQ(reading().raw, raw);
     for (int i = 0; i < 8; ++i) {
         position -= 8'000'000;
-        travel -= 8'000'000;
+        raw -= 8'000'000;
         EXPECT_EQ(reading().position, position);
-        EXPECT_EQ(reading().travel, travel);
+        EXPECT_EQ(reading().raw, raw);
     }
 }
 
@@ -337,7 +337,7 @@ TEST(Flex2Pos, AResetOfTheProjectDoesNotDisturbWhatIsCarriedOn) {
     r.rig.turn(0, 5);
     const Reading after = r.card.read();
     EXPECT_EQ(after.axes[0].position, 5);
-    EXPECT_EQ(after.axes[0].travel, before.axes[0].travel + 5);
+    EXPECT_EQ(after.axes[0].raw, before.axes[0].raw + 5);
     EXPECT_NEAR(static_cast<double>(after.ticks - before.ticks), 10'000, 10);
 }
 
@@ -349,7 +349,7 @@ TEST(Flex2Pos, DetailsHaveLinesEdgesIndexAndIllegalTransitions) {
     r.rig.turn(1, -10);
     const AxisDetail d = r.card.read_details()[1];
     EXPECT_EQ(d.at.position, -10);
-    EXPECT_EQ(d.at.travel, 31);
+    EXPECT_EQ(d.at.raw, 31);
     EXPECT_TRUE(d.at.down);
     EXPECT_EQ(d.edges_a + d.edges_b, 51);
     EXPECT_EQ(d.indexes, 1);

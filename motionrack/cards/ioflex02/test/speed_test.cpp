@@ -183,10 +183,10 @@ RC_GTEST_PROP(SpeedMeter, ItHoldsForAnyMotionAsTheMeanOfItsStretch, ()) {
         path.push_back({seconds, place});
         std::stable_sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.seconds < b.seconds; });
         AxisReading r;
-        r.travel = static_cast<std::int64_t>(std::floor(place));
+        r.raw = static_cast<std::int64_t>(std::floor(place));
         r.age = edges.empty() ? oldest_age : tick(seconds) - tick(edges.back().seconds);
         r.down = !edges.empty() && edges.back().down;
-        if (!edges.empty()) RC_ASSERT(r.travel == edges.back().count);
+        if (!edges.empty()) RC_ASSERT(r.raw == edges.back().count);
         const Speed s = meter.update(r, tick(seconds));
         // The stretch's ends are known to a tick; the mean over the true one is what the bound is for.
         const auto holds = [](const SpeedEstimate& e, double true_mean) { return std::abs(e.counts_s - true_mean) <= e.error * (1 + 1e-9) + 1e-6; };

@@ -94,7 +94,7 @@ void Twin::sample(Axis& axis, int axis_number) {
     if (b) axis.edges_b = (axis.edges_b + 1) % 65536;
     if (a && b) {
         if (axis.illegal < 65535) ++axis.illegal;
-        axis.illegal_at = axis.travel;
+        axis.illegal_at = axis.raw;
         if (!axis.told) note(1, axis_number, now_ * 50);
         axis.told = true;
     } else if (a || b) {
@@ -108,7 +108,7 @@ void Twin::sample(Axis& axis, int axis_number) {
         if (counts) {
             const int step = up != ((axis.mode & 1) != 0) ? 1 : -1;
             axis.position += step;
-            axis.travel += step;
+            axis.raw += step;
             axis.down = step < 0;
             axis.counted = true;
             axis.age = 0;
@@ -117,7 +117,7 @@ void Twin::sample(Axis& axis, int axis_number) {
     const int active = (axis.mode & 8) ? 0 : 1;
     if (before[2] != axis.taken[2] && axis.taken[2] == active) {
         axis.indexes = (axis.indexes + 1) % 65536;
-        axis.index_at = axis.travel;
+        axis.index_at = axis.raw;
         if (axis.state == 1) {
             axis.state = 0;
             axis.position = 0;
@@ -230,7 +230,7 @@ int Twin::captured(int at) const {
     const auto part = [](std::int64_t value, int which) { return static_cast<int>(which ? value >> 16 & 255 : value & 65535); };
     if (at < 0x14) return part(latched_time_, half);
     if (at < 0x24) return part(latched_[(at - 0x14) / 4].position, (at - 0x14) / 2 % 2);
-    if (at < 0x34) return part(latched_[(at - 0x24) / 4].travel, (at - 0x24) / 2 % 2);
+    if (at < 0x34) return part(latched_[(at - 0x24) / 4].raw, (at - 0x24) / 2 % 2);
     if (at < 0x44) {
         const Axis& axis = latched_[(at - 0x34) / 4];
         return part(axis.counted && axis.age < 0xFFFFFF ? axis.age : 0xFFFFFF, (at - 0x34) / 2 % 2);

@@ -36,7 +36,7 @@ class Twin {
         int taken[4] = {};
         std::deque<int> history[4];  // what the last samples saw, the newest in front
         int mode = 0, image_mode = 0;
-        std::int64_t position = 0, travel = 0, age = 0;
+        std::int64_t position = 0, raw = 0, age = 0;
         bool counted = false, told = false;
         int down = 0, edges_a = 0, edges_b = 0, indexes = 0, illegal = 0;
         std::int64_t index_at = 0, illegal_at = 0;
