@@ -14,6 +14,7 @@ constexpr const char* footer = R"(Examples:
   motionrack check part.ngc --rack router.toml   list everything wrong, move nothing
   motionrack home XY --rack router.toml          find the home switches, tell what was found
   motionrack new router > router.toml            a commented rack file to start from
+  motionrack decode run.vcd                      count the encoders in a logic capture
   motionrack describe mcx314                     the card's registers, commands and states
 
 Exit codes: 0 done, 1 wrong command line, 2 wrong input (nothing moved), 3 refused (nothing moved),
@@ -37,6 +38,7 @@ int main(int argc, char** argv) {
     add_registers(app, chosen);
     add_trace(app, chosen);
     add_canon(app, chosen);
+    add_decode(app, chosen);
     add_bench(app, chosen);
     add_completion(app, chosen);
     add_manual(app, chosen);
