@@ -218,6 +218,7 @@ Result<Analysis> Run::all() {
     out.samples = number_;
     out.first_s = seconds_of(first_), out.last_s = seconds_of(last_);
     out.tick_s = capture_.tick_s();
+    out.timed = capture_.timed();
     out.window_s = seconds_of(window_);
     out.cut = capture_.cut();
     for (std::size_t i = 0; i < runs_.size(); ++i) out.channels.push_back(result_of(choices_[i], runs_[i]));

@@ -56,6 +56,7 @@ struct Analysis {
     std::uint64_t samples = 0;
     double first_s = 0, last_s = 0;  ///< times of the first and the last sample
     double tick_s = 0;
+    bool timed = false;  ///< the times are the file's, not the sample rate's
     double window_s = 0;
     std::vector<ChannelResult> channels;
     std::optional<Error> cut;  ///< where the file is cut off

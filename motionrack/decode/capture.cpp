@@ -34,6 +34,8 @@ class Looked final : public Source {
         }
         return std::string_view(head_.data(), size_);
     }
+    /// Leaves out the first bytes (of those looked at).
+    void skip(std::size_t size) { at_ = size; }
     Result<std::size_t> read(char* to, std::size_t size) override {
         if (at_ == size_) return source_->read(to, size);
         const std::size_t got = std::min(size, size_ - at_);
@@ -48,6 +50,13 @@ class Looked final : public Source {
     std::array<char, 512> head_;
     std::size_t at_ = 0, size_ = 0;
 };
+
+/// The line that sigrok-cli puts before binary samples; "" if it is not there.
+std::string_view sigrok_line(std::string_view head) {
+    static constexpr std::string_view begin = "META samplerate: ";
+    const std::size_t end = head.substr(0, 64).find('\n');
+    return head.rfind(begin, 0) == 0 && end != std::string_view::npos ? head.substr(0, end + 1) : std::string_view();
+}
 
 Format guess(const std::string& name, std::string_view head) {
     if (ends_in(name, ".vcd")) return Format::vcd;
@@ -76,6 +85,13 @@ Result<std::unique_ptr<Capture>> open_capture(std::unique_ptr<Source> source, co
     if (settings.format != Format::raw && head.rfind("PK\3\4", 0) == 0)
         return fail(Trouble::bad_input, "This is a packed file (a session of sigrok or Saleae?). Nothing was decoded; make a VCD file of it, for instance with "
                                         "sigrok-cli -i in.sr -O vcd -o out.vcd.", {}, name);
+    if (format == Format::raw && !sigrok_line(head).empty()) {
+        const std::string_view line = sigrok_line(head);
+        CaptureSettings told = settings;
+        if (const auto rate = read_rate(line.substr(17, line.size() - 18)); rate && !(told.sample_rate_hz > 0)) told.sample_rate_hz = *rate;
+        looked->skip(line.size());
+        return open_raw(std::move(looked), name, told);
+    }
     switch (format) {
         case Format::vcd: return open_vcd(std::move(looked), name);
         case Format::raw: return open_raw(std::move(looked), name, settings);

@@ -1,7 +1,7 @@
 // Reads raw captures: samples of 1 to 8 bytes, a line a bit.
 #include <fmt/format.h>
 
-#include <cstring>
+#include <array>
 #include <motionrack/decode/capture.hpp>
 #include <motionrack/decode/kernels.hpp>
 
@@ -10,6 +10,14 @@ namespace motionrack::decode {
 namespace {
 
 constexpr std::size_t block_bytes = std::size_t{1} << 18;
+
+/// Every `size`-th byte.
+template <std::size_t size>
+void gather(const std::uint8_t* __restrict from, std::size_t samples, std::uint8_t* __restrict to) {
+    for (std::size_t i = 0; i < samples; ++i) to[i] = from[i * size];
+}
+constexpr std::array<void (*)(const std::uint8_t*, std::size_t, std::uint8_t*), 8> gathers = {
+    gather<1>, gather<2>, gather<3>, gather<4>, gather<5>, gather<6>, gather<7>, gather<8>};
 
 class RawCapture final : public Capture {
   public:
@@ -37,11 +45,15 @@ void RawCapture::split(std::size_t samples) {
     const std::size_t words = (samples + 63) / 64;
     planes_.resize(chosen_.size());
     column_.resize(words * 64);
-    for (std::size_t line = 0; line < chosen_.size(); ++line) {
-        const std::size_t byte = chosen_[line] / 8;
-        for (std::size_t i = 0; i < samples; ++i) column_[i] = buffer_[i * size_ + byte];
-        planes_[line].resize(words);
-        best_kernels().split(column_.data(), words, static_cast<int>(chosen_[line] % 8), planes_[line].data());
+    for (std::size_t byte = 0; byte < size_; ++byte) {
+        bool there = false;
+        for (std::size_t line = 0; line < chosen_.size(); ++line) {
+            if (chosen_[line] / 8 != byte) continue;
+            if (!there) gathers[size_ - 1](buffer_.data() + byte, samples, column_.data());
+            there = true;
+            planes_[line].resize(words);
+            best_kernels().split(column_.data(), words, static_cast<int>(chosen_[line] % 8), planes_[line].data());
+        }
     }
 }
 

@@ -29,13 +29,17 @@ std::string duration(double seconds) {
     return fmt::format("{:.6g} ps", seconds * 1e12);
 }
 
+/// The times of CSV are decimals, whose last place nobody knows.
+bool has_tick(const Analysis& analysis) { return !(analysis.format == Format::csv && analysis.timed); }
+
 /// Places that the capture's time can tell.
 int places_of(const Analysis& analysis) {
+    if (!has_tick(analysis)) return 9;
     return std::clamp(static_cast<int>(std::ceil(-std::log10(std::max(analysis.tick_s, 1e-12)) - 1e-6)), 3, 12);
 }
 
 std::string illegal_text(const ChannelResult& channel, int places, std::size_t shown) {
-    if (channel.illegal == 0) return "";
+    if (channel.illegal == 0 || shown == 0) return "";
     std::string out = fmt::format("\nillegal transitions of {}: {}\n{}{:>16}  {:>14}\n", channel.name, channel.illegal, tab, "at s", "sample");
     std::size_t told = 0;
     for (const IllegalAt& at : channel.first_illegal)
@@ -45,7 +49,7 @@ std::string illegal_text(const ChannelResult& channel, int places, std::size_t s
 }
 
 std::string index_text(const ChannelResult& channel, int places, std::size_t shown) {
-    if (channel.indexes == 0) return "";
+    if (channel.indexes == 0 || shown == 0) return "";
     std::string out = fmt::format("\nindexes of {}: {}\n{}{:>16}  {:>14}  {:>14}  {:>14}\n", channel.name, channel.indexes, tab, "at s", "sample", "count",
                                   "since the last");
     std::size_t told = 0;
@@ -80,9 +84,9 @@ nlohmann::json json_of(const ChannelResult& channel) {
 
 std::string analysis_text(const Analysis& analysis, const std::string& name, std::size_t shown) {
     const int places = places_of(analysis);
-    std::string out = fmt::format("{}: {}, {} samples, {}, {} a {}\n", name, name_of(analysis.format), analysis.samples,
-                                  duration(analysis.last_s - analysis.first_s), duration(analysis.tick_s),
-                                  analysis.format == Format::raw ? "sample" : "tick");
+    std::string out = fmt::format("{}: {}, {} samples, {}", name, name_of(analysis.format), analysis.samples, duration(analysis.last_s - analysis.first_s));
+    if (has_tick(analysis)) out += fmt::format(", {} a {}", duration(analysis.tick_s), analysis.timed ? "tick" : "sample");
+    out += '\n';
     std::size_t wide = 5;
     for (const ChannelResult& channel : analysis.channels) wide = std::max(wide, lines_of(channel).size());
     out += fmt::format("\n{:<10} {:<{}} {:>12} {:>12} {:>12} {:>14} {:>14} {:>8} {:>8}\n", "channel", "lines", wide, "counts", "up", "down", "mean /s", "peak /s",

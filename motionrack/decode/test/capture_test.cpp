@@ -230,7 +230,7 @@ TEST(RawCapture, FindsTheSpeedOfItsFastestWindow) {
             file += static_cast<char>((phase & 3U) ^ (phase & 3U) >> 1);
         }
     };
-    run(100'000, 50, 1);   // 20,000 counts/s at 1 MHz
+    run(100'000, 50, 1);   // 20,000 counts/s at 1 MHz; its first count only sets the lines
     run(100'000, 10, 3);   // 100,000 counts/s backwards
     run(100'000, 1000, 1);
     AnalysisSettings how;
@@ -240,7 +240,15 @@ TEST(RawCapture, FindsTheSpeedOfItsFastestWindow) {
     ASSERT_TRUE(analysis->channels[0].peak);
     EXPECT_DOUBLE_EQ(analysis->channels[0].peak->counts_per_s, -100'000);
     EXPECT_NEAR(analysis->channels[0].peak->time_s, 0.1, 1e-9);
-    EXPECT_NEAR(analysis->channels[0].mean_per_s, (2000 - 10'000 + 100) / 0.299999, 0.1);
+    EXPECT_NEAR(analysis->channels[0].mean_per_s, (1999 - 10'000 + 100) / 0.299999, 0.1);
+}
+
+TEST(RawCapture, TakesTheLineThatSigrokPutsBeforeTheSamples) {
+    const auto analysis = analysed(std::string_view("META samplerate: 2000000\n\0\1\3\2\0", 30), "a.bin", {"X=0,1"});
+    ASSERT_TRUE(analysis) << analysis.error().text();
+    EXPECT_EQ(analysis->samples, 5u);
+    EXPECT_EQ(analysis->channels[0].count, 4);
+    EXPECT_DOUBLE_EQ(analysis->channels[0].seconds, 2e-6);
 }
 
 TEST(RawCapture, SaysWhatIsMissing) {

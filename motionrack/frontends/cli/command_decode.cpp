@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdio>
 #include <map>
 #include <memory>
 #include <motionrack/decode/analysis.hpp>
@@ -40,6 +41,7 @@ int print_analysis(const decode::Analysis& analysis, const DecodeOptions& option
         fmt::print("{}\n", decode::analysis_json(analysis, options.file));
     else
         fmt::print("{}", decode::analysis_text(analysis, options.file, options.list));
+    std::fflush(stdout);  // the tables before what is to be said of them
     for (const std::string& warning : decode::analysis_warnings(analysis)) print_warning(warning);
     if (analysis.cut) return report(*analysis.cut);
     if (!analysis.stopped) return exit_done;
@@ -90,7 +92,7 @@ void add_decode(CLI::App& app, Action& chosen) {
     command->add_option("--sample-bytes", options->capture.sample_bytes, "bytes a sample of a raw capture, the lowest first")->check(CLI::Range(1, 8))->capture_default_str();
     command->add_option("--window-ms", options->window_ms, "the peak speed is that of a window of so many ms")->check(CLI::PositiveNumber)->capture_default_str();
     command->add_flag("--index-low", options->analysis.channel.index_low, "the index line is active low: its falling edges count");
-    command->add_option("--list", options->list, "how many illegal transitions and indexes are listed for each channel")->capture_default_str();
+    command->add_option("--list", options->list, "how many illegal transitions and indexes are listed for each channel; 0: none")->capture_default_str();
     command->add_flag("--signals", options->signals, "list the capture's lines with their numbers, decode nothing");
     command->add_flag("--json", options->json, "print everything as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");
