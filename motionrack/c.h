@@ -88,7 +88,8 @@ MR_API uint64_t mr_now_ns(const mr_rack *rack);
 /* One access of the host to a card, with all its effects, as on the real bus: 8 bits for cards with byte ports (as IN
  * and OUT), 16 or 32 bits for cards with registers of that width (an mcx314: 16, or 8 where its section of the rack file
  * says bus = "8-bit"). `offset` is the byte offset of the register (the port's
- * number), as the card's reference page lists them. An access takes bus_access_ns of the rack file (250 ns if it says
+ * number), as the card's reference page lists them; of an ioflex02, which shares its bus with others, base_address of
+ * the rack file and that offset. An access takes bus_access_ns of the rack file (250 ns if it says
  * none): virtual time passes before the card sees it. `value` is left alone if it fails.
  * MR_BAD_CALL (null, no such card), MR_REFUSED (the card's bus is of another width; nothing at that offset). */
 MR_API int mr_read8(mr_rack *rack, const char *card, uint32_t port, uint8_t *value);

@@ -116,7 +116,7 @@ TEST(Journey, RewoundInTheMiddleItRunsToTheSameEnd) {
     EXPECT_EQ(kernel.trace_hash(), history);
     EXPECT_EQ(kernel.state_hash(), state_at_end);
     for (int channel = 0; channel < 4; ++channel)
-        EXPECT_EQ(again.rack.cards().front()->pulse_counter(channel), original.rack.cards().front()->pulse_counter(channel)) << channel;
+        EXPECT_EQ(again.rack.cards().front()->motion()->pulse_counter(channel), original.rack.cards().front()->motion()->pulse_counter(channel)) << channel;
 }
 
 TEST(Journey, AHundredThousandShortLinesEndExactly) {

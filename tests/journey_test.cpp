@@ -109,7 +109,7 @@ TEST(Journey, WhatCameFromOutsideReplaysToTheSameHistory) {
     });
     EXPECT_EQ(replayed.kernel().trace_hash(), recorded.kernel().trace_hash());
     for (int channel = 0; channel < 4; ++channel)
-        EXPECT_EQ(replayed.cards().front()->pulse_counter(channel), recorded.cards().front()->pulse_counter(channel));
+        EXPECT_EQ(replayed.cards().front()->motion()->pulse_counter(channel), recorded.cards().front()->motion()->pulse_counter(channel));
 }
 
 }  // namespace

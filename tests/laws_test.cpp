@@ -63,7 +63,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"ioflex02/driver", {"base", "ioflex02/map"}},
     {"databoard4002/axes", {"base", "control", "databoard4002/map", "databoard4002/driver"}},
     {"rack", {"base", "sim", "parts", "control", "trace", "mcx314/map", "mcx314/chip", "mcx314/driver", "mcx314/axes",
-              "databoard4002/map", "databoard4002/model", "databoard4002/axes"}},
+              "databoard4002/map", "databoard4002/model", "databoard4002/axes", "ioflex02/map", "ioflex02/model"}},
     {"frontends", {"base", "live", "control", "decode", "trace", "rack", "c.h"}},
     {"mcx314lib", {"base", "rack", "mcx314/map", "mcx314/driver"}},
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/rack/card_types.hpp>
 
 namespace motionrack::rack {
@@ -192,7 +193,46 @@ std::optional<CardFlaw> databoard4002_flaw(const RackCard& card, std::span<const
                                               most == 0 ? "0" : fmt::format("0 .. {}", most))};
 }
 
-constexpr std::array<CardType, 2> table = {{
+// ---- ioflex02 ---------------------------------------------------------------------------------------------------
+
+/// The card's own list of pins.
+constexpr auto ioflex02_pins = [] {
+    std::array<PinType, std::size(ioflex02::map::pins)> out{};
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const PinInfo& pin = ioflex02::map::pins[i];
+        out[i] = {pin.name, pin.direction == motionrack::PinDirection::input ? input : output, pin.meaning};
+    }
+    return out;
+}();
+
+constexpr std::array<Field, 5> ioflex02_settings = {
+    field<&Ioflex02Settings::base_address>("base_address", 0, 0xFF00, "", "where it answers on the host's bus: a multiple of 256"),
+    field<&Ioflex02Settings::serial>("serial", 0, 65'535, "", "its serial number"),
+    field<&Ioflex02Settings::configuration_ms>("configuration_ms", 0, 60'000, "ms",
+                                               "time from the last byte of a configuration image to the running project"),
+    field<&Ioflex02Settings::loaded>("loaded", 0, 0, "", "the project \"position\" runs from the start; else the host loads it"),
+    field<&Ioflex02Settings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns", "time that one access of the host takes"),
+};
+
+double nothing(const RackCard&) {
+    return 0;
+}
+
+void* ioflex02_of(RackCard& card) {
+    return &card.ioflex02;
+}
+
+std::optional<CardFlaw> ioflex02_flaw(const RackCard& card, std::span<const RackCard> before) {
+    for (const RackCard& other : before)
+        if (other.type == card.type && other.ioflex02.serial == card.ioflex02.serial)
+            return CardFlaw{"serial", fmt::format("Cards {} and {} have both the serial number {}; every card has its own.", other.name,
+                                                  card.name, card.ioflex02.serial)};
+    if (card.ioflex02.base_address % 256 == 0) return std::nullopt;
+    return CardFlaw{"base_address", fmt::format("base_address of card {} is {}; it is a multiple of 256, such as {}.", card.name,
+                                                card.ioflex02.base_address, card.ioflex02.base_address / 256 * 256)};
+}
+
+constexpr std::array<CardType, 3> table = {{
     {"mcx314", "four-axis pulse chip with interpolation", "xyzu", mcx314_channel_pins, mcx314_chip_pins, mcx314_wires,
      "emgn", mcx314_settings, mcx314_of, mcx314_pulse_hz, mcx314_accel_hz_s, mcx314_encoder_hz, 2'147'483'647,
      mcx314_stops, mcx314_stops},
@@ -202,6 +242,8 @@ constexpr std::array<CardType, 2> table = {{
      "", databoard4002_channel_pins, databoard4002_pins, databoard4002_wires, "ems", databoard4002_settings,
      databoard4002_of, databoard4002_pulse_hz, any_accel, databoard4002_encoder_hz, 8'388'607,
      databoard4002_references, databoard4002_zeros, true, databoard4002_flaw},
+    {"ioflex02", "position card for four encoders with calibration and time; it moves no axis, and its lines are wires", "", {},
+     ioflex02_pins, {}, "", ioflex02_settings, ioflex02_of, nothing, nothing, nothing, 8'388'607, {}, {}, false, ioflex02_flaw},
 }};
 
 }  // namespace
@@ -226,7 +268,7 @@ std::vector<Pin> pins_of(const CardType& type) {
 }
 
 int CardType::channel_of(std::string_view channel_name) const {
-    if (channels.empty()) return channel_name.empty() ? 0 : -1;
+    if (channels.empty()) return channel_name.empty() ? channel_count() - 1 : -1;
     const std::size_t at = channels.find(channel_name);
     return channel_name.size() != 1 || at == std::string_view::npos ? -1 : static_cast<int>(at);
 }

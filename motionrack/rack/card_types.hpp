@@ -45,7 +45,7 @@ struct CardFlaw {
 struct CardType {
     std::string_view name;
     std::string_view doc;
-    std::string_view channels;  ///< a letter for each axis channel; empty: one channel without a letter
+    std::string_view channels;  ///< a letter for each axis channel; empty: one without a letter, or none if there are no channel pins
     std::span<const PinType> channel_pins;
     std::span<const PinType> chip_pins;
     std::span<const DefaultWire> default_wires;
@@ -62,7 +62,7 @@ struct CardType {
     /// What no single key can tell; `before`: the cards before it in the file. May be nullptr.
     std::optional<CardFlaw> (*flaw)(const RackCard& card, std::span<const RackCard> before) = nullptr;
 
-    int channel_count() const { return channels.empty() ? 1 : static_cast<int>(channels.size()); }
+    int channel_count() const { return channels.empty() ? (channel_pins.empty() ? 0 : 1) : static_cast<int>(channels.size()); }
     /// "x"; empty for the one channel without a letter.
     std::string_view channel_name(int channel) const { return channels.empty() ? "" : channels.substr(static_cast<std::size_t>(channel), 1); }
     /// The channel of that name, or -1.

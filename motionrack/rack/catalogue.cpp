@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <motionrack/cards/databoard4002/map.hpp>
+#include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/mcx314/axes/axes.hpp>
 #include <motionrack/cards/mcx314/axes/single_axis.hpp>
 #include <motionrack/cards/mcx314/driver/driver.hpp>
@@ -18,7 +19,7 @@ namespace motionrack::rack {
 
 namespace {
 
-class Mcx314Card final : public Card {
+class Mcx314Card final : public MotionCard {
   public:
     Mcx314Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log)
         : name_(config.name),
@@ -168,9 +169,18 @@ std::unique_ptr<Card> make_mcx314(sim::Kernel& kernel, const RackCard& config, s
 constexpr CardKind kinds[] = {
     {"mcx314", &mcx314::card_map, &make_mcx314, &view_mcx314},
     {"databoard4002", &databoard4002::card_map, &make_databoard4002},
+    {"ioflex02", &ioflex02::card_map, &make_ioflex02},
 };
 
 }  // namespace
+
+tl::unexpected<Error> no_such_value(const Card& card, std::string_view name, std::span<const std::string_view> more) {
+    std::vector<std::string_view> known(more.begin(), more.end());
+    for (const RegisterInfo& reg : card.map().registers)
+        if (reg.access != Access::write && reg.bank.empty()) known.push_back(reg.name);
+    return fail(Trouble::bad_input, fmt::format("Card {} has no value {}; it has {}. Nothing was done.", card.name(), in_quotes(name),
+                                                fmt::join(known, ", ")));
+}
 
 std::span<const CardKind> card_kinds() { return kinds; }
 

@@ -20,44 +20,40 @@
 
 namespace motionrack::rack {
 
+class MotionCard;
+
 /// A position counter of a card by the name that a recording gives it.
 struct CardCounter {
     std::string name;
     int channel = 0;
-    bool encoder = false;  ///< Card::encoder_counter, else Card::pulse_counter
+    bool encoder = false;  ///< MotionCard::encoder_counter, else MotionCard::pulse_counter
 };
 
-/// A card in a running rack, with its bus, driver and axes.
+/// A card in a running rack, with its bus.
 class Card {
   public:
     virtual ~Card() = default;
     virtual const std::string& name() const = 0;
     virtual sim::DeviceId device() const = 0;
     virtual const CardMap& map() const = 0;
+    /// The same card as one that moves axes; nullptr if it moves none.
+    virtual MotionCard* motion() { return nullptr; }
+    const MotionCard* motion() const { return const_cast<Card*>(this)->motion(); }
     /// Registers as the host sees them; nullptr if the card has none.
     virtual sim::RegisterDevice* registers() { return nullptr; }
     /// Widths in bits (8, 16, 32) of the accesses that the card's bus makes.
     virtual std::span<const int> bus_widths() const = 0;
-    /// One access of the host, of one of these widths and at an address that the map declares; it takes the bus its time.
+    /// Where the map's offset 0 is on the host's bus.
+    virtual std::uint32_t bus_base() const { return 0; }
+    /// One access of the host, of one of these widths and at bus_base() + an offset that the map declares; it takes the bus its time.
     virtual std::uint32_t bus_read(int bits, std::uint32_t address) = 0;
     virtual void bus_write(int bits, std::uint32_t address, std::uint32_t value) = 0;
     /// A value by its name, without effects: a register or value of the card ("RR0"), of one channel with the channel's
     /// name and a dot in front ("x.RR1", "x.LP"). Counts are signed. Errors: bad_input with the names that there are.
     virtual Result<std::int64_t> inspect(std::string_view name) const = 0;
-    /// What a recording shows as numbers.
+    /// What a recording shows as numbers, and one of them.
     virtual std::vector<CardCounter> counters() const = 0;
-    /// Number of a channel by its name in the rack file.
-    virtual int channel_number(std::string_view channel) const = 0;
-    /// Pulses of a channel, as a function of time.
-    virtual sim::Motion& pulses(int channel) = 0;
-    virtual void connect_encoder(int channel, sim::Motion& counts) = 0;
-    /// Cuts the connected encoder of a channel off and forces its inputs to the levels that it has (`taken`), or releases
-    /// them and puts it back. In between what the inputs are forced to counts.
-    virtual void take_encoder(int channel, bool taken) = 0;
-    /// No axis of the rack file is on this card: what follows its pulses then, if anything does. Once, before the kernel starts.
-    virtual void connect_ideal_machine() {}
-    /// The two inputs of the encoder of that machine, which turns with `pulses(0)`; empty: there is none.
-    virtual std::span<const std::string_view> ideal_encoder() const { return {}; }
+    virtual std::int64_t counter(const CardCounter& which) = 0;
     /// A number of the card's own by its name ("fout_hz"), if it has one of that name.
     virtual std::optional<double> quantity(std::string_view) const { return std::nullopt; }
     virtual std::vector<std::string_view> quantity_names() const { return {}; }
@@ -70,6 +66,28 @@ class Card {
     virtual sim::VirtualPort* port() { return nullptr; }
     /// Its bus of 8-bit ports; nullptr if it has none.
     virtual sim::VirtualBytePort* byte_port() { return nullptr; }
+    /// Whether describe() knows the conditions of this device: the card, and its bus.
+    virtual bool speaks_for(sim::DeviceId id) const { return id == device(); }
+    virtual std::string describe(const sim::Condition& condition) const = 0;
+};
+
+/// A card that moves axes, with its driver.
+class MotionCard : public Card {
+  public:
+    MotionCard* motion() final { return this; }
+    std::int64_t counter(const CardCounter& which) final { return which.encoder ? encoder_counter(which.channel) : pulse_counter(which.channel); }
+    /// Number of a channel by its name in the rack file.
+    virtual int channel_number(std::string_view channel) const = 0;
+    /// Pulses of a channel, as a function of time.
+    virtual sim::Motion& pulses(int channel) = 0;
+    virtual void connect_encoder(int channel, sim::Motion& counts) = 0;
+    /// Cuts the connected encoder of a channel off and forces its inputs to the levels that it has (`taken`), or releases
+    /// them and puts it back. In between what the inputs are forced to counts.
+    virtual void take_encoder(int channel, bool taken) = 0;
+    /// No axis of the rack file is on this card: what follows its pulses then, if anything does. Once, before the kernel starts.
+    virtual void connect_ideal_machine() {}
+    /// The two inputs of the encoder of that machine, which turns with `pulses(0)`; empty: there is none.
+    virtual std::span<const std::string_view> ideal_encoder() const { return {}; }
     /// Whether it can move axes together along a path; else each positions by itself.
     virtual bool follows_paths() const { return true; }
     /// The card's axes as a group that follows paths, set up at `position`; `channel[i]` moves axis i of the rack.
@@ -88,7 +106,6 @@ class Card {
     /// The card's own counters of a channel: LP, EP.
     virtual std::int64_t pulse_counter(int channel) = 0;
     virtual std::int64_t encoder_counter(int channel) = 0;
-    virtual std::string describe(const sim::Condition& condition) const = 0;
 };
 
 /// One kind of card.
@@ -102,6 +119,11 @@ struct CardKind {
     RegisterView (*view)(RegisterPort& port, bool clearing) = nullptr;
 };
 
+/// The values that a card's map declares as registers that can be read, and `more`, as an error lists them.
+tl::unexpected<Error> no_such_value(const Card& card, std::string_view name, std::span<const std::string_view> more);
+
+std::unique_ptr<Card> make_ioflex02(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
+                                    std::span<const std::unique_ptr<Card>> before);
 std::unique_ptr<Card> make_databoard4002(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
                                          std::span<const std::unique_ptr<Card>> before);
 

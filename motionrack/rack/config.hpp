@@ -54,6 +54,15 @@ struct Databoard4002Settings {
     std::int64_t bus_access_ns = 1'000;                                      ///< 0 .. 100,000 ns
 };
 
+/// Settings of a card of type ioflex02.
+struct Ioflex02Settings {
+    std::int64_t base_address = 0x2300;   ///< 0 .. FF00h, a multiple of 100h: where it answers on the bus of all such cards
+    std::int64_t serial = 1;              ///< 0 .. 65,535
+    double configuration_ms = 2'000;      ///< 0 .. 60,000 ms from the image's last byte to the running project
+    bool loaded = true;                   ///< the project "position" runs from power-up, without an image
+    std::int64_t bus_access_ns = 500;     ///< 0 .. 100,000 ns
+};
+
 /// One card; only the settings of its own type mean something. Defaults of the members are the rack file's defaults.
 struct RackCard {
     std::string name;             ///< as the wires call it: letters, digits, '_'
@@ -61,6 +70,7 @@ struct RackCard {
     std::optional<int> slot;      ///< 0 .. 20; always set by read_rack (the lowest free slot if the file says none)
     Mcx314Settings mcx314;
     Databoard4002Settings databoard4002;
+    Ioflex02Settings ioflex02;
 };
 
 // ---- Axes -------------------------------------------------------------------------------------------------------
@@ -177,6 +187,7 @@ struct RackWire {
     WireEnd from;
     WireEnd to;
     bool by_default = true;  ///< from the default rule, not from the file
+    bool link = false;       ///< it is a part of a PulseLink or an EncoderLink, not switched edge by edge
 };
 
 /// Pulses and encoder tracks of the wires, joined into what they carry: a position as a function of time.

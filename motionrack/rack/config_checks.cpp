@@ -41,7 +41,7 @@ class AxisCheck {
         homing();
         motor();
         if (const RackCard* card = config_.card(axis_.card)) {
-            if (const CardType* type = find_card_type(card->type); type != nullptr) chip(*card, *type);
+            if (const CardType* type = find_card_type(card->type); type != nullptr && type->channel_count() > 0) chip(*card, *type);
         }
     }
 
@@ -60,6 +60,10 @@ class AxisCheck {
         }
         const CardType* type = find_card_type(card->type);
         if (type == nullptr || !source_.sound({"channel"})) return;
+        if (type->channel_count() == 0) {
+            error("card", {}, fmt::format("Axis {} names the card {}, but a {} moves no axis.", axis_.letter, in_quotes(axis_.card), type->name));
+            return;
+        }
         if (channel_index(config_, axis_) < 0) {
             const std::string said = axis_.channel.empty() ? "no channel" : "the channel " + in_quotes(axis_.channel);
             error("channel", {},

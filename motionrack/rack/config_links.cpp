@@ -3,6 +3,8 @@
 //
 //   m.xpp -> X.step,  m.xpm -> X.dir      the pulses of channel x turn the motor of X
 //   X.enc_a -> m.xeca, X.enc_b -> m.xecb  the encoder of X at channel x; crossed over: it counts backwards
+//
+// A card without channels has no pairs: its inputs are wires, on which the encoder makes every edge.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,8 +30,10 @@ class LinkResolver {
 
     void run() {
         for (std::size_t i = 0; i < config_.axes.size(); ++i) pulses_of(static_cast<int>(i));
-        for (const RackWire& wire : config_.wires)
-            if (is_track(wire.from)) encoder_at(wire);
+        for (RackWire& wire : config_.wires) {
+            wire.link = is_pulse_input(wire.to) || (is_track(wire.from) && !takes_edges(wire.to));
+            if (is_track(wire.from) && !takes_edges(wire.to)) encoder_at(wire);
+        }
         std::sort(config_.encoder_links.begin(), config_.encoder_links.end(),
                   [](const EncoderLink& a, const EncoderLink& b) {
                       return std::tie(a.card, a.channel) < std::tie(b.card, b.channel);
@@ -38,6 +42,10 @@ class LinkResolver {
     }
 
   private:
+    static bool is_pulse_input(const WireEnd& end) {
+        return end.owner == EndOwner::axis && (end.pin == "step" || end.pin == "dir");
+    }
+    bool takes_edges(const WireEnd& end) const { return end.owner == EndOwner::card && type_of(end.index).channel_count() == 0; }
     static bool is_track(const WireEnd& end) {
         return end.owner == EndOwner::axis && (end.pin == "enc_a" || end.pin == "enc_b");
     }
@@ -145,7 +153,10 @@ class LinkResolver {
 
     void too_many_readers() {
         for (std::size_t axis = 0; axis < config_.axes.size(); ++axis) {
-            int readers = 0;
+            const bool lines = std::any_of(config_.wires.begin(), config_.wires.end(), [&](const RackWire& wire) {
+                return wire.from.index == static_cast<int>(axis) && is_track(wire.from) && !wire.link;
+            });
+            int readers = lines;  // its edges as wires take one
             for (const EncoderLink& link : config_.encoder_links) {
                 if (link.axis != static_cast<int>(axis) || ++readers != sim::Motion::max_listeners + 1) continue;
                 const std::string input = name(pin_of(link.card, link.channel, "enc_a"));
@@ -176,15 +187,6 @@ class LinkResolver {
 };
 
 }  // namespace
-
-bool is_pulse_end(const WireEnd& end) {
-    constexpr std::array<std::string_view, 4> pulse_ends = {"step", "dir", "enc_a", "enc_b"};
-    return end.owner == EndOwner::axis && std::find(pulse_ends.begin(), pulse_ends.end(), end.pin) != pulse_ends.end();
-}
-
-bool is_link(const RackWire& wire) {
-    return is_pulse_end(wire.to) || is_pulse_end(wire.from);
-}
 
 void resolve_links(RackConfig& config, const std::function<Place(const std::string& input)>& place_of,
                    Problems& problems) {

@@ -63,11 +63,6 @@ void resolve_wires(RackConfig& config, const TomlNode* wires, Problems& problems
 void resolve_links(RackConfig& config, const std::function<Place(const std::string& input)>& place_of,
                    Problems& problems);
 
-/// Whether the wire carries pulses or encoder counts as a link.
-bool is_link(const RackWire& wire);
-/// Whether the end is the step or direction input, or an encoder track, of an axis.
-bool is_pulse_end(const WireEnd& end);
-
 /// The index of `axis`' channel in its card's type, or -1 if the card or the channel does not exist.
 int channel_index(const RackConfig& config, const RackAxis& axis);
 

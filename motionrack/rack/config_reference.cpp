@@ -34,7 +34,8 @@ std::string rows(std::span<const Field> fields, const void* linear, const void* 
 std::string card_type_text(const CardType& type) {
     RackCard defaults;
     std::string out = fmt::format("### {}\n{}. {}.\n\n", type.name, type.doc,
-                                  type.channels.empty() ? "It has one channel, without a name: an axis on it has no key `channel`"
+                                  type.channel_count() == 0 ? "No axis can be on it"
+                                  : type.channels.empty() ? "It has one channel, without a name: an axis on it has no key `channel`"
                                                         : fmt::format("Channels: {}", fmt::join(type.channels, " ")));
     const void* settings = type.settings_of(defaults);
     if (!type.settings.empty()) out += rows(type.settings, settings, settings);

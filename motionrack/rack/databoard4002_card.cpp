@@ -78,7 +78,7 @@ constexpr Value inspected[] = {
     {"EVENT", [](const db::Card& card) { return static_cast<double>(card.event_word()); }},
 };
 
-class Databoard4002Card final : public Card {
+class Databoard4002Card final : public MotionCard {
   public:
     Databoard4002Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log, std::shared_ptr<db::Bus> bus)
         : name_(config.name),
@@ -103,18 +103,14 @@ class Databoard4002Card final : public Card {
     }
 
     Result<std::int64_t> inspect(std::string_view name) const override {
-        std::vector<std::string_view> known;
+        std::vector<std::string_view> more;
         for (const Value& value : inspected) {
             if (value.name == name) return static_cast<std::int64_t>(value.get(card_));
-            known.push_back(value.name);
+            more.push_back(value.name);
         }
-        for (const RegisterInfo& reg : map().registers) {
-            if (reg.access == Access::write || !reg.bank.empty()) continue;
-            if (reg.name == name) return card_.peek(static_cast<std::uint8_t>(reg.offset));
-            known.push_back(reg.name);
-        }
-        return fail(Trouble::bad_input, fmt::format("Card {} has no value {}; it has {}. Nothing was done.", name_,
-                                                    in_quotes(name), fmt::join(known, ", ")));
+        for (const RegisterInfo& reg : map().registers)
+            if (reg.name == name && reg.access != Access::write && reg.bank.empty()) return card_.peek(static_cast<std::uint8_t>(reg.offset));
+        return no_such_value(*this, name, more);
     }
     std::optional<double> quantity(std::string_view name) const override {
         for (const Value& value : quantities_of_card)
@@ -169,6 +165,7 @@ class Databoard4002Card final : public Card {
     bool fault(std::string_view name, double value, Instant now) override { return card_.fault(name, value, now); }
     sim::VirtualHost& host() override { return port_; }
     sim::VirtualBytePort* byte_port() override { return &port_; }
+    bool speaks_for(sim::DeviceId id) const override { return id == card_.id() || id == bus_->id(); }
     std::string describe(const sim::Condition& condition) const override { return db::describe(condition, name_); }
 
   private:

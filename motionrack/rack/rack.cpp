@@ -77,7 +77,7 @@ void Rack::build_axis(const RackAxis& axis) {
     const std::string name(1, axis.letter);
     RunningAxis running;
     running.config = axis;
-    running.card = card(axis.card);
+    running.card = card(axis.card)->motion();
     MOTIONRACK_ASSERT(running.card != nullptr);
     running.channel = running.card->channel_number(axis.channel);
     if (axis.servo) running.servo = std::make_unique<parts::DcMotor>(kernel_, name + ".servo", servo_settings(axis), name + ".drive");
@@ -88,7 +88,7 @@ void Rack::build_axis(const RackAxis& axis) {
 void Rack::join_links() {
     std::vector<sim::Motion*> pulses(axes_.size(), &still_);
     for (const PulseLink& link : config_.pulse_links)
-        pulses[static_cast<std::size_t>(link.axis)] = &cards_[static_cast<std::size_t>(link.card)]->pulses(link.channel);
+        pulses[static_cast<std::size_t>(link.axis)] = &cards_[static_cast<std::size_t>(link.card)]->motion()->pulses(link.channel);
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         RunningAxis& axis = axes_[i];
         axis.machine->connect(axis.servo ? *axis.servo : *pulses[i]);
@@ -106,11 +106,12 @@ void Rack::join_links() {
             mirrored_.push_back(std::make_unique<MirroredMotion>(*counts));
             counts = mirrored_.back().get();
         }
-        cards_[static_cast<std::size_t>(link.card)]->connect_encoder(link.channel, *counts);
+        cards_[static_cast<std::size_t>(link.card)]->motion()->connect_encoder(link.channel, *counts);
     }
     for (const auto& card : cards_)
-        if (std::none_of(axes_.begin(), axes_.end(), [&](const RunningAxis& axis) { return axis.card == card.get(); }))
-            card->connect_ideal_machine();
+        if (MotionCard* mover = card->motion();
+            mover != nullptr && std::none_of(axes_.begin(), axes_.end(), [&](const RunningAxis& axis) { return axis.card == mover; }))
+            mover->connect_ideal_machine();
 }
 
 /// The name of an end's wire in the kernel. Pulses and encoder tracks of an axis have none: they are links.
@@ -127,8 +128,8 @@ void Rack::build_wires() {
     kernel_.add_wire("estop", 1);
     junctions_ = std::make_unique<sim::Junctions>(kernel_, "wiring");
     for (const RackWire& wire : config_.wires) {
-        if (is_link(wire)) continue;
-        const sim::WireId from = kernel_.find_wire(wire_name(wire.from));
+        if (wire.link) continue;
+        const sim::WireId from = output_wire(wire.from);
         const sim::WireId to = kernel_.find_wire(wire_name(wire.to));
         MOTIONRACK_ASSERT(from != sim::WireId::none && to != sim::WireId::none);
         junctions_->join(from, to, is_contact(wire.to));
@@ -137,6 +138,21 @@ void Rack::build_wires() {
     const sim::WireId no_current = config_.open.empty() ? sim::WireId::none : kernel_.add_wire("no_current", 0);
     for (const WireEnd& input : config_.open)
         if (is_contact(input)) junctions_->join(no_current, kernel_.find_wire(wire_name(input)), true);
+}
+
+/// The wire of an output. The tracks of an encoder are made as wires where the first card asks for them.
+sim::WireId Rack::output_wire(const WireEnd& end) {
+    if (end.owner != EndOwner::axis || (end.pin != "enc_a" && end.pin != "enc_b")) return kernel_.find_wire(wire_name(end));
+    RunningAxis& axis = axes_[static_cast<std::size_t>(end.index)];
+    const std::string name = fmt::format("{}.lines", axis.config.letter);
+    if (!axis.lines) {
+        parts::LineEncoderSettings settings;
+        settings.counts_per_turn = settings.place_per_turn = axis.config.encoder_counts_per_rev;
+        settings.index = false;
+        settings.fastest = nanoseconds(200);  // a pulse may be more than a count; its edges keep this distance
+        axis.lines = std::make_unique<parts::LineEncoder>(kernel_, name, axis.machine->encoder(), settings);
+    }
+    return kernel_.find_wire(name + (end.pin == "enc_a" ? ".a" : ".b"));
 }
 
 bool Rack::is_contact(const WireEnd& end) const {
@@ -199,7 +215,7 @@ std::string Rack::describe(const sim::Condition& condition) {
     for (const RunningAxis& axis : axes_)
         if (axis.machine->id() == condition.device || (axis.servo && axis.servo->id() == condition.device)) return parts::describe(condition, kernel_.device_name(condition.device));
     for (const auto& card : cards_)
-        if (card->device() == condition.device) return card->describe(condition);
+        if (card->speaks_for(condition.device)) return card->describe(condition);
     return fmt::format("{}: condition {} ({}, {})", kernel_.device_name(condition.device), condition.code, condition.a, condition.b);
 }
 

@@ -18,6 +18,7 @@
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/parts/axis_machine.hpp>
 #include <motionrack/sim/parts/dc_motor.hpp>
+#include <motionrack/sim/parts/line_encoder.hpp>
 #include <motionrack/sim/parts/reference_cam.hpp>
 #include <motionrack/sim/virtual_port.hpp>
 #include <optional>
@@ -30,11 +31,12 @@ namespace motionrack::rack {
 /// One axis of the running machine.
 struct RunningAxis {
     RackAxis config;
-    Card* card = nullptr;
+    MotionCard* card = nullptr;
     int channel = 0;  ///< of the card
     std::unique_ptr<parts::DcMotor> servo;  ///< nullptr: a stepping motor, which is a part of the machine
     std::unique_ptr<parts::AxisMachine> machine;
     std::unique_ptr<parts::ReferenceCam> cam;  ///< may be nullptr
+    std::unique_ptr<parts::LineEncoder> lines;  ///< the encoder's tracks as wires, where a card wants them so; may be nullptr
 
     /// What turns the machine: the card's pulses or the servo.
     sim::Motion& turned_by() const { return servo ? static_cast<sim::Motion&>(*servo) : card->pulses(channel); }
@@ -79,6 +81,7 @@ class Rack {
     void build_wires();
     std::string wire_name(const WireEnd& end) const;
     bool is_contact(const WireEnd& end) const;
+    sim::WireId output_wire(const WireEnd& end);
 
     RackConfig config_;
     sim::Kernel kernel_;

@@ -86,12 +86,13 @@ Result<Card*> Session::bus_of(std::string_view name, int bits, std::uint32_t add
                     fmt::format("Card {} is a {}: its bus makes accesses of {} bits, not of {}. Nothing was done.",
                                 card->name(), card->map().name, fmt::join(widths, ", "), bits));
     const auto bytes = static_cast<std::uint32_t>(bits) / 8;
+    const std::uint32_t base = card->bus_base();
     std::uint32_t first = ~0u, last = 0;
     for (const RegisterInfo& reg : card->map().registers) {
         if ((reg.access == Access::write) != writing) continue;
-        const std::uint32_t end = reg.offset + static_cast<std::uint32_t>(reg.width) / 8;
-        if (address >= reg.offset && address < end && (address - reg.offset) % bytes == 0) return card;
-        first = std::min(first, reg.offset);
+        const std::uint32_t begin = base + reg.offset, end = begin + static_cast<std::uint32_t>(reg.width) / 8;
+        if (address >= begin && address < end && (address - begin) % bytes == 0) return card;
+        first = std::min(first, begin);
         last = std::max(last, end - bytes);
     }
     return fail(Trouble::refused,

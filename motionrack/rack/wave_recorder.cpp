@@ -86,7 +86,7 @@ class WaveRecorder::LineEar final : public sim::EdgeListener {
 };
 
 std::uint64_t WaveRecorder::Counter::value() const {
-    return static_cast<std::uint64_t>(encoder ? card->encoder_counter(channel) : card->pulse_counter(channel));
+    return static_cast<std::uint64_t>(card->counter({{}, channel, encoder}));
 }
 
 // ---- choosing ---------------------------------------------------------------------------------------------------------

@@ -59,7 +59,7 @@ void WireDesk::add_axes() {
 void WireDesk::add_encoders() {
     const RackConfig& config = rack_.config();
     for (const RackWire& joined : config.wires) {
-        if (!is_link(joined) || joined.to.owner != EndOwner::card) continue;
+        if (!joined.link || joined.to.owner != EndOwner::card) continue;
         const auto& card = config.cards[static_cast<std::size_t>(joined.to.index)];
         int channel = -1;
         for (const Pin& pin : pins_of(*find_card_type(card.type)))
@@ -94,7 +94,8 @@ tl::unexpected<Error> WireDesk::unknown(std::string_view name) const {
 
 void WireDesk::add_ideal_encoders() {
     for (std::size_t i = 0; i < rack_.cards().size(); ++i) {
-        const Card& card = *rack_.cards()[i];
+        if (rack_.cards()[i]->motion() == nullptr) continue;
+        const MotionCard& card = *rack_.cards()[i]->motion();
         const auto pins = card.ideal_encoder();
         if (pins.empty()) continue;
         encoders_.push_back({{no_axis, static_cast<int>(i), 0, false}, 0});
@@ -110,7 +111,7 @@ void WireDesk::add_ideal_encoders() {
 /// The levels that the encoder shows at the channel (bit 0: A).
 unsigned WireDesk::lines_at(const EncoderInput& input) const {
     if (input.link.axis == no_axis)
-        return sim::lines_of(rack_.cards()[static_cast<std::size_t>(input.link.card)]->pulses(0).count(rack_.kernel().now()));
+        return sim::lines_of(rack_.cards()[static_cast<std::size_t>(input.link.card)]->motion()->pulses(0).count(rack_.kernel().now()));
     RunningAxis& axis = rack_.axes()[static_cast<std::size_t>(input.link.axis)];
     const std::int64_t count = axis.machine->encoder().count(rack_.kernel().now());
     return sim::lines_of(input.link.swapped ? -count : count);
@@ -169,7 +170,7 @@ void WireDesk::drive(const Wire& wire, int level) {
         EncoderInput& input = encoders_[static_cast<std::size_t>(wire.index)];
         if (input.driven == 0) {
             // Its lines stay as it left them, so that cutting it off counts nothing.
-            rack_.cards()[static_cast<std::size_t>(input.link.card)]->take_encoder(input.link.channel, true);
+            rack_.cards()[static_cast<std::size_t>(input.link.card)]->motion()->take_encoder(input.link.channel, true);
             kernel.settle();
         }
         input.driven |= 1u << wire.which;
@@ -183,7 +184,7 @@ void WireDesk::release(const Wire& wire) {
     if ((input.driven & 1u << wire.which) == 0) return;
     input.driven &= ~(1u << wire.which);
     if (input.driven != 0) return;
-    rack_.cards()[static_cast<std::size_t>(input.link.card)]->take_encoder(input.link.channel, false);
+    rack_.cards()[static_cast<std::size_t>(input.link.card)]->motion()->take_encoder(input.link.channel, false);
 }
 
 }  // namespace motionrack::rack

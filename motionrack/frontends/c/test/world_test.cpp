@@ -116,7 +116,7 @@ TEST(CWorld, IsTheWorldOfTheCppRack) {
     EXPECT_EQ(session->rack().kernel().trace_hash(), rack.kernel().trace_hash());
     for (std::size_t i = 0; i < 4; ++i) {
         const auto channel = std::string(1, "xyzu"[i]), axis = std::string(1, "XYZA"[i]);
-        EXPECT_EQ(world.peek((channel + ".LP").c_str()), rack.cards()[0]->pulse_counter(static_cast<int>(i)));
+        EXPECT_EQ(world.peek((channel + ".LP").c_str()), rack.cards()[0]->motion()->pulse_counter(static_cast<int>(i)));
         EXPECT_EQ(world.part((axis + (i < 3 ? ".position_mm" : ".position_deg")).c_str()),
                   rack.axes()[i].machine->position(rack.kernel().now()));
     }

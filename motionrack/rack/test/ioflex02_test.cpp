@@ -1,0 +1,149 @@
+// The IOFLEX02 in a rack: on the host's bus, its lines driven by hand and by an axis' encoder.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <motionrack/cards/ioflex02/map.hpp>
+#include <motionrack/rack/job.hpp>
+#include <motionrack/rack/session.hpp>
+#include <motionrack/rack/test/config_helpers.hpp>
+
+namespace motionrack::rack {
+namespace {
+
+namespace io = ioflex02;
+using ::testing::HasSubstr;
+
+/// Drives lines with a test lead and reads over the bus.
+struct Bench {
+    explicit Bench(const std::string& text = "card.p1 = \"ioflex02\"") : session(std::move(*Session::open(text))) {
+        EXPECT_TRUE(session->advance(1'000));  // the first sample counts nothing
+    }
+    void set(const std::string& wire, int level) {
+        ASSERT_TRUE(session->set_wire(wire, level));
+        ASSERT_TRUE(session->advance(1'000));
+    }
+    /// So many counts forward on that channel.
+    void turn(int counts, const std::string& card = "p1", int channel = 0) {
+        for (int i = 0; i < counts; ++i) {
+            const bool a = phase % 4 == 0 || phase % 4 == 2;
+            const int level = phase % 4 < 2;
+            ++phase;
+            set(card + (a ? ".a" : ".b") + std::to_string(channel), level);
+        }
+    }
+    std::uint32_t read(const char* reg, const char* card = "p1", std::uint32_t base = 0x2300) { return *session->read(card, 16, base + offset(reg)); }
+    void write(const char* reg, unsigned value, const char* card = "p1", std::uint32_t base = 0x2300) {
+        ASSERT_TRUE(session->write(card, 16, base + offset(reg), value));
+    }
+    static std::uint32_t offset(std::string_view reg) {
+        for (const RegisterInfo& each : io::card_map().registers)
+            if (each.name == reg) return each.offset;
+        ADD_FAILURE() << reg;
+        return 0;
+    }
+    std::int64_t position(int axis, const char* card = "p1") { return *session->peek(card, std::to_string(axis) + ".POSITION"); }
+
+    std::unique_ptr<Session> session;
+    int phase = 0;
+};
+
+TEST(Ioflex02InARack, CountsWhatItsLinesDoAndAnswersFromItsBaseAddress) {
+    Bench bench;
+    EXPECT_EQ(bench.read("SIGNATURE"), 0x4F49u);
+    bench.turn(10);
+    EXPECT_EQ(bench.position(0), 10);
+    EXPECT_EQ(bench.position(1), 0);
+    EXPECT_EQ(*bench.session->peek("p1", "0.CALIBRATED"), 1);
+    const auto beside = bench.session->read("p1", 16, 0);
+    ASSERT_FALSE(beside);
+    EXPECT_THAT(beside.error().message, HasSubstr("0x2300"));
+    EXPECT_THAT(bench.session->read("p1", 8, 0x2300).error().message, HasSubstr("accesses of 16 bits"));
+    EXPECT_THAT(bench.session->peek("p1", "HEIGHT").error().message, HasSubstr("SIGNATURE"));
+}
+
+TEST(Ioflex02InARack, IsCalibratedAtTheIndexAfterTheCalibrationInput) {
+    Bench bench;
+    bench.turn(7);
+    bench.write("CMD", io::cResNmSig);
+    EXPECT_EQ(*bench.session->peek("p1", "0.CALIBRATED"), 0);
+    bench.set("p1.z0", 1);
+    bench.set("p1.z0", 0);
+    EXPECT_EQ(*bench.session->peek("p1", "0.CALIBRATED"), 0) << "an index before the calibration input does nothing";
+    bench.set("p1.cal0", 1);
+    bench.set("p1.z0", 1);
+    EXPECT_EQ(*bench.session->peek("p1", "0.CALIBRATED"), 1);
+    EXPECT_EQ(bench.position(0), 0);
+}
+
+TEST(Ioflex02InARack, SeveralCardsShareABusAndOneAddressIsAConflict) {
+    Bench bench("[card.p1]\ntype = \"ioflex02\"\n[card.p2]\ntype = \"ioflex02\"\nbase_address = 0x2400\nserial = 2\n");
+    bench.turn(5, "p2", 3);
+    EXPECT_EQ(bench.position(3, "p2"), 5);
+    EXPECT_EQ(bench.position(3, "p1"), 0);
+    EXPECT_EQ(bench.read("SERIAL", "p2", 0x2400), 2u);
+    Bench same("[card.p1]\ntype = \"ioflex02\"\n[card.p2]\ntype = \"ioflex02\"\nserial = 2\n");
+    static_cast<void>(same.read("SERIAL"));
+    const auto conditions = same.session->rack().kernel().conditions();
+    ASSERT_FALSE(conditions.empty());
+    EXPECT_THAT(same.session->rack().describe(conditions.front()), HasSubstr("2300"));
+}
+
+constexpr const char* measured = R"(
+[card.motion]
+type = "mcx314"
+[card.flex]
+type = "ioflex02"
+[axis.X]
+card = "motion"
+channel = "x"
+[axis.X.switches]
+home_mm = 1
+[wires]
+"flex.a2" = "X.enc_a"
+"flex.b2" = "X.enc_b"
+"flex.z2" = "X.enc_z"
+"flex.cal2" = "X.home"
+)";
+
+TEST(Ioflex02InARack, AnAxisEncoderIsReadBesideTheCardThatMovesIt) {
+    Rack rack(good(measured));
+    JobSettings settings;
+    settings.program = "G21 G90\nG1 X20 F3000\nG1 X12.5 F6000\n";
+    Job job(rack, settings);
+    rack.start();
+    const JobOutcome out = job.run();
+    ASSERT_TRUE(out.ended) << out.ended.error().message;
+    EXPECT_EQ(out.axes[0].counts_read, 10'000);
+    EXPECT_EQ(*rack.card("flex")->inspect("2.POSITION"), 10'000) << "every edge, there and back";
+    EXPECT_EQ(*rack.card("flex")->inspect("2.ILLEGAL_TRANSITIONS"), 0);
+}
+
+TEST(Ioflex02InARack, ItsRackFilesAreChecked) {
+    const struct {
+        const char* text;
+        const char* says;
+    } wrong[] = {
+        {"[card.p1]\ntype = \"ioflex02\"\nbase_address = 0x2310\n", "a multiple of 256, such as 8960"},
+        {"[card.p1]\ntype = \"ioflex02\"\n[card.p2]\ntype = \"ioflex02\"\nbase_address = 0x2400\n", "both the serial number 1"},
+        {"[card.p1]\ntype = \"ioflex02\"\n[axis.X]\ncard = \"p1\"\n", "moves no axis"},
+        {"[card.p1]\ntype = \"ioflex02\"\n[wires]\n\"p1.a4\" = \"estop\"\n", "p1.a4"},
+    };
+    for (const auto& each : wrong) {
+        const RackReading reading = read_rack_text(each.text);
+        EXPECT_FALSE(reading.config);
+        EXPECT_THAT(all_texts(reading.errors), HasSubstr(each.says));
+    }
+}
+
+TEST(Ioflex02InARack, ACopyOfTheWorldGoesOnAlike) {
+    Bench bench(measured);
+    bench.turn(3, "flex", 0);
+    const auto copy = bench.session->copy();
+    ASSERT_TRUE(bench.session->advance(1'000'000));
+    ASSERT_TRUE(copy->advance(1'000'000));
+    EXPECT_EQ(bench.session->state_hash(), copy->state_hash());
+    EXPECT_EQ(*copy->peek("flex", "0.POSITION"), 3);
+}
+
+}  // namespace
+}  // namespace motionrack::rack
