@@ -32,6 +32,8 @@ motionrack_c_library(mcx314lib mcx314lib ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/motionrack DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp"
         PATTERN test EXCLUDE PATTERN frontends EXCLUDE PATTERN report EXCLUDE)
 
+install(FILES ${PROJECT_SOURCE_DIR}/motionrack/frontends/pascal/uFlex2Pos.pas DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack/pascal)
+
 # ---- find_package ----
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/motionrack)
 install(EXPORT motionrack-cpp NAMESPACE motionrack:: DESTINATION ${package_dir})

@@ -102,6 +102,8 @@ void is_made_from(const std::string& page, const std::string& header, const std:
 
 TEST(CReference, ThePagesAreMadeFromTheHeaders) {
     is_made_from("c.md", "motionrack/c.h", "# The C interface\n\n`motionrack/c.h`, as a page: this one is made from it.\n\n", "MR_API ");
+    is_made_from("flex2pos.md", "motionrack/flex2pos.h",
+                 "# The IOFLEX02's function library in C\n\n`motionrack/flex2pos.h`, as a page: this one is made from it.\n\n", "MR_API ");
     is_made_from("mcx314lib.md", "motionrack/frontends/mcx314lib/mcx314lib.h",
                  "# The MCX314's function library in C\n\n`mcx314lib.h`, as a page: this one is made from it.\n\n", "MCX314_API ");
 }

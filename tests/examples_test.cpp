@@ -87,6 +87,18 @@ TEST(Examples, TheCarriageInCppPrintsAndDrawsWhatItsPageShows) {
     std::filesystem::remove(picture);
 }
 
+TEST(Examples, ThePascalUnitRunsItsSourcesExampleAndCalibratesFourAxes) {
+    const auto program = [](const char* name) {
+        return std::string("LD_LIBRARY_PATH='" MOTIONRACK_C_LIBRARY_FOLDER "' '" MOTIONRACK_PASCAL_EXAMPLES "/") + name + "/" + name + "'";
+    };
+    const Ran good = run(examples, program("init"));
+    EXPECT_EQ(good.code, 0);
+    EXPECT_EQ(good.out, "Result 0\n");
+    EXPECT_EQ(run(examples, "MOTIONRACK_RACK=racks/single.toml " + program("init")).out, "Chyba inicializace desky: 2Result 2\n") << "a rack without the card";
+    EXPECT_EQ(run(examples, "MOTIONRACK_RACK=no_such.toml " + program("init")).out, "Chyba inicializace desky: 2Result 2\n");
+    EXPECT_EQ(run(examples, program("calibrate")).out, text_of(examples / "12_pascal" / "expected.txt"));
+}
+
 TEST(Examples, TheBuiltInExampleIsThePart) {
     const Ran built_in = run(examples, std::string(MOTIONRACK_PROGRAM) + " run --no-report");
     EXPECT_EQ(built_in.code, 0);

@@ -40,6 +40,7 @@ std::string room_of(const std::string& path) {
     }
     if (path.rfind("sim/parts/", 0) == 0) return "parts";
     if (path.rfind("frontends/mcx314lib/", 0) == 0) return "mcx314lib";
+    if (path.rfind("frontends/c/flex2pos", 0) == 0) return "flex2pos";
     return path.substr(0, path.find('/'));
 }
 
@@ -65,6 +66,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"rack", {"base", "sim", "parts", "control", "trace", "mcx314/map", "mcx314/chip", "mcx314/driver", "mcx314/axes",
               "databoard4002/map", "databoard4002/model", "databoard4002/axes", "ioflex02/map", "ioflex02/model"}},
     {"frontends", {"base", "live", "control", "decode", "trace", "rack", "c.h"}},
+    {"flex2pos", {"base", "rack", "frontends", "flex2pos.h", "ioflex02/map", "ioflex02/driver"}},
     {"mcx314lib", {"base", "rack", "mcx314/map", "mcx314/driver"}},
 };
 

@@ -1,93 +1,19 @@
-// motionrack/c.h over rack::Session: pointers are checked, errors become codes and sentences, nothing is thrown out.
-#include <motionrack/c.h>
+// motionrack/c.h over rack::Session.
+#include <motionrack/frontends/c/calls.hpp>
 
-#include <exception>
-#include <initializer_list>
-#include <memory>
-#include <motionrack/rack/session.hpp>
-#include <new>
-#include <string>
-#include <string_view>
-#include <utility>
-
-struct mr_rack {
-    std::unique_ptr<motionrack::rack::Session> session;
-};
+std::string& motionrack::c::last_error() {
+    thread_local std::string sentence;
+    return sentence;
+}
 
 namespace {
 
+using namespace motionrack::c;
 using motionrack::Error;
 using motionrack::Result;
 using motionrack::Trouble;
 using motionrack::rack::Session;
 
-thread_local std::string last_error;
-
-/// Keeps the sentence, as far as there is memory for it.
-int failed(int code, std::string_view sentence) noexcept {
-    try {
-        last_error = sentence;
-    } catch (...) {
-        last_error.clear();
-    }
-    return code;
-}
-
-int code_of(Trouble trouble) {
-    switch (trouble) {
-        case Trouble::bad_input: return MR_BAD_CALL;
-        case Trouble::refused: return MR_REFUSED;
-        case Trouble::io: return MR_IO;
-        case Trouble::machine:
-        case Trouble::stopped: break;
-    }
-    return MR_INTERNAL;
-}
-
-/// The sentence for the first of these pointers that is null, or nullptr.
-struct Pointer {
-    const void* pointer;
-    const char* sentence;
-};
-const char* first_null(std::initializer_list<Pointer> pointers) noexcept {
-    for (const Pointer& each : pointers)
-        if (each.pointer == nullptr) return each.sentence;
-    return nullptr;
-}
-
-/// Runs `call`, which gives a Result; whatever it throws becomes an error.
-template <class Call>
-int guarded(Call call) noexcept {
-    try {
-        const auto result = call();
-        return result ? static_cast<int>(MR_OK) : failed(code_of(result.error().trouble), result.error().text());
-    } catch (const std::bad_alloc&) {
-        return failed(MR_INTERNAL, "There is not enough memory; nothing was done.");
-    } catch (const std::exception& e) {
-        return failed(MR_INTERNAL, e.what());
-    } catch (...) {
-        return failed(MR_INTERNAL, "Something went wrong in the library that it has no words for.");
-    }
-}
-
-/// The same, after it was made sure that none of these pointers is null.
-template <class Call>
-int guarded(std::initializer_list<Pointer> pointers, Call call) noexcept {
-    if (const char* sentence = first_null(pointers)) return failed(MR_BAD_CALL, sentence);
-    return guarded(call);
-}
-
-/// Where `call` gives a value, it is put there.
-template <class Value, class Call>
-int fetched(std::initializer_list<Pointer> pointers, Value* value, Call call) noexcept {
-    return guarded(pointers, [&]() -> Result<void> {
-        MOTIONRACK_TRY(const auto got, call());
-        *value = static_cast<Value>(got);
-        return {};
-    });
-}
-
-constexpr const char* no_rack = "The rack is a null pointer; open one with mr_rack_open. Nothing was done.";
 constexpr const char* no_card = "The card's name is a null pointer. Nothing was done.";
 constexpr const char* no_name = "A name is a null pointer. Nothing was done.";
 constexpr const char* no_file = "The file's name is a null pointer. Nothing was done.";
@@ -134,7 +60,7 @@ void mr_rack_close(mr_rack* rack) {
 }
 
 const char* mr_last_error(void) {
-    return last_error.c_str();
+    return last_error().c_str();
 }
 
 int mr_advance_ns(mr_rack* rack, uint64_t ns) {

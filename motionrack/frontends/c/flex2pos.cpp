@@ -1,0 +1,140 @@
+// motionrack/flex2pos.h over the function library of the IOFLEX02.
+#include <motionrack/flex2pos.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <motionrack/cards/ioflex02/driver/flex2pos.hpp>
+#include <motionrack/frontends/c/calls.hpp>
+
+namespace io = motionrack::ioflex02;
+using namespace motionrack::c;
+
+static_assert(Flex_Ok == io::Flex_Ok && Flex_ErrCfg == io::Flex_ErrCfg && Flex_ErrDevice == io::Flex_ErrDevice && Flex_ErrProject == io::Flex_ErrProject);
+static_assert(cNop == static_cast<int>(io::cNop) && cRes == static_cast<int>(io::cRes) && cResNm == static_cast<int>(io::cResNm) &&
+              cResNmSig == static_cast<int>(io::cResNmSig));
+
+struct flex2pos {
+    explicit flex2pos(motionrack::sim::VirtualPort& port) : library(port, port) {}
+    io::Flex2Pos library;
+};
+
+namespace {
+
+constexpr const char* no_object = "There is no object; open one with flex2pos_open.";
+
+/// What `call` gives, or 0: for no object, and if there is no memory for a sentence.
+template <class Call>
+auto with(flex2pos* flex, Call call) noexcept -> decltype(call(flex->library)) {
+    using Value = decltype(call(flex->library));
+    if (flex == nullptr) {
+        failed(MR_BAD_CALL, no_object);
+        return Value();
+    }
+    try {
+        return call(flex->library);
+    } catch (...) {
+        failed(MR_INTERNAL, "There is not enough memory; the call was not finished.");
+        return Value();
+    }
+}
+
+}  // namespace
+
+extern "C" {
+
+int flex2pos_open(mr_rack* rack, flex2pos** flex) {
+    if (flex != nullptr) *flex = nullptr;
+    return guarded({{rack, no_rack}, {flex, "There is no place for the object: it is a null pointer. Nothing was done."}},
+                   [&]() -> motionrack::Result<void> {
+                       for (const auto& card : rack->session->rack().cards()) {
+                           if (card->map().name != io::card_map().name) continue;
+                           *flex = new flex2pos(*card->port());
+                           return {};
+                       }
+                       return motionrack::fail(motionrack::Trouble::bad_input, "The rack has no card of type ioflex02. Nothing was done.");
+                   });
+}
+
+void flex2pos_close(flex2pos* flex) { delete flex; }
+
+int flex2pos_Init(flex2pos* flex, uint16_t Addr) {
+    if (flex == nullptr) return failed(MR_BAD_CALL, no_object), Flex_ErrDevice;
+    with(flex, [&](io::Flex2Pos& library) { library.Init(Addr); });
+    return flex->library.Result;
+}
+
+int flex2pos_Result(const flex2pos* flex) { return flex != nullptr ? flex->library.Result : Flex_ErrDevice; }
+const char* flex2pos_why(const flex2pos* flex) { return flex != nullptr ? flex->library.why().c_str() : no_object; }
+
+uint8_t flex2pos_GetIdent(flex2pos* flex) {
+    return with(flex, [](io::Flex2Pos& library) { return library.GetIdent(); });
+}
+
+int32_t flex2pos_ReadTime(flex2pos* flex) {
+    return with(flex, [](io::Flex2Pos& library) { return library.ReadTime(); });
+}
+
+int32_t flex2pos_ReadTimeClr(flex2pos* flex) {
+    return with(flex, [](io::Flex2Pos& library) { return library.ReadTimeClr(); });
+}
+
+int32_t flex2pos_ReadPosition(flex2pos* flex, int axis) {
+    return with(flex, [&](io::Flex2Pos& library) {
+        switch (axis) {
+            case 0: return library.ReadPosition0();
+            case 1: return library.ReadPosition1();
+            case 2: return library.ReadPosition2();
+            case 3: return library.ReadPosition3();
+            default: return failed(MR_BAD_CALL, fmt::format("There is no axis {}; they are 0 to 3. Nothing was done.", axis)), int32_t{0};
+        }
+    });
+}
+
+void flex2pos_ReadTimeClrPosition(flex2pos* flex, int32_t* Time, int32_t Pos[4]) {
+    int32_t time = 0;
+    std::array<int32_t, 4> at{};
+    with(flex, [&](io::Flex2Pos& library) { library.ReadTimeClrPosition(time, at[0], at[1], at[2], at[3]); });
+    if (Time != nullptr) *Time = time;
+    if (Pos != nullptr) std::copy(at.begin(), at.end(), Pos);
+}
+
+void flex2pos_WriteOutL(flex2pos* flex, uint8_t Data) {
+    with(flex, [&](io::Flex2Pos& library) { library.WriteOutL(Data); });
+}
+
+void flex2pos_WriteOutH(flex2pos* flex, uint8_t Data) {
+    with(flex, [&](io::Flex2Pos& library) { library.WriteOutH(Data); });
+}
+
+uint8_t flex2pos_ReadInL(flex2pos* flex) {
+    return with(flex, [](io::Flex2Pos& library) { return library.ReadInL(); });
+}
+
+uint8_t flex2pos_ReadInH(flex2pos* flex) {
+    return with(flex, [](io::Flex2Pos& library) { return library.ReadInH(); });
+}
+
+void flex2pos_WriteCmd(flex2pos* flex, int Cmd0, int Cmd1, int Cmd2, int Cmd3) {
+    with(flex, [&](io::Flex2Pos& library) {
+        for (const int command : {Cmd0, Cmd1, Cmd2, Cmd3})
+            if (command < cNop || command > cResNmSig) {
+                failed(MR_BAD_CALL, fmt::format("{} is no calibration command; they are 0 to 3. Nothing was written.", command));
+                return;
+            }
+        library.WriteCmd(static_cast<io::tIOFlexCmd>(Cmd0), static_cast<io::tIOFlexCmd>(Cmd1), static_cast<io::tIOFlexCmd>(Cmd2),
+                         static_cast<io::tIOFlexCmd>(Cmd3));
+    });
+}
+
+void flex2pos_ReadSts(flex2pos* flex, int Sts[4]) {
+    if (Sts == nullptr) return;
+    std::fill_n(Sts, 4, 0);
+    with(flex, [&](io::Flex2Pos& library) {
+        const auto statuses = library.statuses();
+        for (std::size_t i = 0; i < statuses.size(); ++i) Sts[i] = statuses[i] == io::sCal ? sCal : sNotCal;
+    });
+}
+
+}  // extern "C"
