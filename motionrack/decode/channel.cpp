@@ -72,8 +72,8 @@ void ChannelDecoder::planes(const std::uint64_t* a, const std::uint64_t* b, cons
 /// Whole words, of which `size` samples are new.
 void ChannelDecoder::words(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words, std::size_t size) {
     const Sums sums = kernels_->tally(a, b, words, last_);
-    const bool illegal = sums.illegal != 0 && illegal_samples_.size() < settings_.illegal_kept;
-    if (illegal || (z && index_in(z, words))) keep_events(a, b, z, words);
+    if (sums.illegal != 0) find_illegal(a, b, words);
+    if (z && index_in(z, words)) find_indexes(a, b, z, words);
     sums_ += sums;
     samples_ += size;
     last_ = {a[words - 1] >> 63, b[words - 1] >> 63};
@@ -88,21 +88,27 @@ bool ChannelDecoder::index_in(const std::uint64_t* z, std::size_t words) const {
     return changed != 0;
 }
 
-void ChannelDecoder::keep_events(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words) {
+void ChannelDecoder::find_illegal(const std::uint64_t* a, const std::uint64_t* b, std::size_t words) {
     Levels before = last_;
-    std::uint64_t before_z = last_z_, sample = samples_;
-    std::int64_t count = this->count();
-    for (std::size_t w = 0; w < words; ++w, sample += 64) {
+    for (std::size_t w = 0; w < words && illegal_samples_.size() < settings_.illegal_kept; ++w) {
         const WordMasks masks = masks_of(a[w], b[w], before);
-        if (masks.illegal != 0) keep_illegal(masks.illegal, sample);
-        if (z) {
-            const std::uint64_t earlier = z[w] << 1 | before_z;
-            const std::uint64_t edges = settings_.index_low ? ~z[w] & earlier : z[w] & ~earlier;
-            if (edges != 0) keep_indexes(edges, masks, count, sample);
-            before_z = z[w] >> 63;
-        }
-        count += std::popcount(masks.up) - std::popcount(masks.down);
+        if (masks.illegal != 0) keep_illegal(masks.illegal, samples_ + 64 * w);
         before = {a[w] >> 63, b[w] >> 63};
+    }
+}
+
+/// Between two index events the words are tallied as anywhere else.
+void ChannelDecoder::find_indexes(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words) {
+    const auto before = [&](std::size_t w) { return w == 0 ? last_ : Levels{a[w - 1] >> 63, b[w - 1] >> 63}; };
+    std::int64_t count = this->count();
+    for (std::size_t w = 0, counted = 0; w < words; ++w) {
+        const std::uint64_t earlier = z[w] << 1 | (w == 0 ? last_z_ : z[w - 1] >> 63);
+        const std::uint64_t edges = settings_.index_low ? ~z[w] & earlier : z[w] & ~earlier;
+        if (edges == 0) continue;
+        const Sums sums = kernels_->tally(a + counted, b + counted, w - counted, before(counted));
+        count += static_cast<std::int64_t>(sums.up - sums.down);
+        counted = w;
+        keep_indexes(edges, masks_of(a[w], b[w], before(w)), count, samples_ + 64 * w);
     }
 }
 

@@ -61,7 +61,8 @@ class ChannelDecoder {
     void begin(std::uint64_t a, std::uint64_t b, std::uint64_t z);
     void words(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words, std::size_t size);
     bool index_in(const std::uint64_t* z, std::size_t words) const;
-    void keep_events(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words);
+    void find_illegal(const std::uint64_t* a, const std::uint64_t* b, std::size_t words);
+    void find_indexes(const std::uint64_t* a, const std::uint64_t* b, const std::uint64_t* z, std::size_t words);
     void keep_illegal(std::uint64_t mask, std::uint64_t sample);
     void keep_indexes(std::uint64_t edges, const WordMasks& masks, std::int64_t count, std::uint64_t sample);
 
