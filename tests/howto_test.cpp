@@ -54,6 +54,21 @@ TEST_P(HowTo, ShowsTheProgramItsOutputAndItsPicture) {
 INSTANTIATE_TEST_SUITE_P(Pages, HowTo,
                          testing::Values("trapezoid", "s_curve", "asymmetric", "line", "arc", "contour", "bit_pattern"));
 
+// ---- IOFLEX02 --------------------------------------------------------------------------------------------------------
+
+class Ioflex02HowTo : public testing::TestWithParam<const char*> {};
+
+TEST_P(Ioflex02HowTo, ShowsTheProgramAndItsOutput) {
+    const std::string name = GetParam(), page = text_of(root / "docs/howto/ioflex02" / (name + ".md"));
+    ASSERT_FALSE(page.empty());
+    const std::string printed = printed_by(MOTIONRACK_IOFLEX02_EXAMPLE " " + name);
+    EXPECT_NE(page.find("\nIt prints\n\n" + indented(printed, "    ") + "\n"), std::string::npos) << printed;
+    EXPECT_NE(text_of(root / "examples/ioflex02" / (name + ".cpp")).find(indented(code_of(page), "    ")), std::string::npos)
+        << "the page's program is not that of examples/ioflex02/" << name << ".cpp";
+}
+
+INSTANTIATE_TEST_SUITE_P(Pages, Ioflex02HowTo, testing::Values("calibrate", "speed", "broken_line", "lathe"));
+
 // ---- DataBoard 4002 --------------------------------------------------------------------------------------------------
 
 std::string databoard_page(const std::string& name) { return text_of(root / "docs/howto/databoard4002" / (name + ".md")); }

@@ -134,8 +134,8 @@ std::string describe(const Finding& f, const AxisDetail& now, const std::string&
             return fmt::format("axis {}: line B stood at {} while A changed {} times, from {} to {}: B is broken, or the axis trembles on an "
                                "edge of A", axis, now.b ? 1 : 0, f.number, from, to);
         case EncoderFault::index_missing:
-            return fmt::format("axis {}: {} index pulses did not come between {} and {}: Z is broken, or counts come without motion", axis, f.number,
-                               from, to);
+            return fmt::format("axis {}: {} index {} did not come between {} and {}: Z is broken, or counts come without motion", axis, f.number,
+                               f.number == 1 ? "pulse" : "pulses", from, to);
         case EncoderFault::index_extra:
             return fmt::format("axis {}: an index pulse came at {}, where none should be", axis, to);
         case EncoderFault::counts_lost:

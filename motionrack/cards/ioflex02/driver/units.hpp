@@ -17,8 +17,11 @@ class Units {
     /// A rotary encoder, in degrees. Errors: refused (0 or not finite).
     static Result<Units> degrees(double counts_per_turn) { return of(counts_per_turn / 360, "counts for a degree"); }
 
-    double of_counts(double counts) const { return counts / counts_per_unit_; }
-    double of_counts(std::int64_t counts) const { return of_counts(static_cast<double>(counts)); }
+    /// Of whole counts of any width, or of a mean of them.
+    template <class Counts>
+    double of_counts(Counts counts) const {
+        return static_cast<double>(counts) / counts_per_unit_;
+    }
     double to_counts(double value) const { return value * counts_per_unit_; }
     double counts_per_unit() const { return counts_per_unit_; }
 

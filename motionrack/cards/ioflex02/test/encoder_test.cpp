@@ -140,7 +140,7 @@ TEST(EncoderCheck, TellsWhereIndexPulsesDidNotCome) {
     EXPECT_EQ(missing, 2);
     EXPECT_EQ(m.found[0].from, 400);
     EXPECT_EQ(m.found[0].to, 800);
-    EXPECT_THAT(m.sentence(m.found[0]), HasSubstr("1 index pulses did not come between 400 and 800"));
+    EXPECT_THAT(m.sentence(m.found[0]), HasSubstr("1 index pulse did not come between 400 and 800"));
 }
 
 TEST(EncoderCheck, TellsABrokenIndexTurnByTurn) {
