@@ -1,6 +1,7 @@
 // The wide decoder of sampled encoder lines, beside a loop over a table of 16 transitions and a table of 65,536.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>

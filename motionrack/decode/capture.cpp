@@ -1,6 +1,7 @@
 // Which reader a capture needs.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
