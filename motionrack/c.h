@@ -163,6 +163,13 @@ MR_API int mr_part_set(mr_rack *rack, const char *part_dot_quantity, double valu
  *   home.stuck_open
  *   home.stuck_closed
  *   motor.load               a servo's load becomes VALUE times its own inertia
+ *   encoder.inverted_a       where the tracks are wires (to an ioflex02): track A is upside down; 0 mends it
+ *   encoder.inverted_b       track B
+ *   encoder.noise            VALUE wrong levels of half a microsecond to ten from now on
+ *   encoder.jitter           edges come up to VALUE seconds late
+ *   encoder.dirt             VALUE lines of the disc cannot be seen
+ *   encoder.overspeed        above VALUE edges a second lines are lost; 0: as it was
+ *   encoder.eccentricity     the disc is off its centre by VALUE counts
  * MR_BAD_CALL (null, no such fault or target), MR_REFUSED (the axis has no such part; the value). */
 MR_API int mr_fault(mr_rack *rack, const char *fault, const char *target);
 

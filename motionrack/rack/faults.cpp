@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <motionrack/rack/faults.hpp>
@@ -12,6 +13,12 @@ namespace motionrack::rack {
 namespace {
 
 constexpr double most = greatest_push;
+
+/// Faults of the encoder's tracks where they are wires; what else an encoder can have is the machine's.
+constexpr std::array<std::string_view, 7> line_faults = {"encoder.inverted_a", "encoder.inverted_b", "encoder.noise", "encoder.jitter",
+                                                         "encoder.dirt", "encoder.overspeed", "encoder.eccentricity"};
+
+bool of_lines(std::string_view fault) { return std::find(line_faults.begin(), line_faults.end(), fault) != line_faults.end(); }
 
 /// A part that takes faults: an axis' machine or servo, or a card.
 struct Found {
@@ -26,6 +33,7 @@ struct Found {
 bool has_part(const RunningAxis& axis, std::string_view fault) {
     const parts::AxisMachine& machine = *axis.machine;
     const std::string_view part = fault.substr(0, fault.find('.'));
+    if (of_lines(fault)) return axis.lines != nullptr;
     if (part == "encoder") return machine.has_encoder();
     if (part == "limit_minus") return machine.limit_minus().present();
     if (part == "limit_plus") return machine.limit_plus().present();
@@ -83,6 +91,7 @@ std::vector<std::string_view> fault_names() {
     std::vector<std::string_view> out(machine.begin(), machine.end());
     for (const std::string_view name : parts::DcMotor::fault_names())
         if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+    out.insert(out.end(), line_faults.begin(), line_faults.end());
     return out;
 }
 
@@ -94,13 +103,17 @@ Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view ta
 Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view target) {
     MOTIONRACK_TRY(const Found found, find(rack, fault, target));
     const Instant now = rack.kernel().now();
-    const sim::DeviceId device = found.card != nullptr ? found.card->device() : found.of_servo() ? found.axis->servo->id() : found.axis->machine->id();
+    const sim::DeviceId device = found.card != nullptr         ? found.card->device()
+                                 : found.of_servo()            ? found.axis->servo->id()
+                                 : of_lines(found.name)        ? found.axis->lines->id()
+                                                               : found.axis->machine->id();
     const auto names = names_of(found);
     sim::Input input{now, sim::InputKind::fault, static_cast<std::uint16_t>(device), 0, 0, found.value};
     input.offset = static_cast<std::uint32_t>(std::find(names.begin(), names.end(), found.name) - names.begin());
     rack.input_log().add(input);
     const bool known = found.card != nullptr ? found.card->fault(found.name, found.value, now)
                        : found.of_servo()    ? found.axis->servo->fault(found.name, found.value, now)
+                       : of_lines(found.name) ? found.axis->lines->fault(found.name, found.value, now)
                                              : found.axis->machine->fault(found.name, found.value, now);
     if (!known)
         return fail(Trouble::refused, fmt::format("{} cannot have the fault {} with the value {}. Nothing was done.", target, found.name, found.value));

@@ -148,7 +148,6 @@ sim::WireId Rack::output_wire(const WireEnd& end) {
     if (!axis.lines) {
         parts::LineEncoderSettings settings;
         settings.counts_per_turn = settings.place_per_turn = axis.config.encoder_counts_per_rev;
-        settings.index = false;
         settings.fastest = nanoseconds(200);  // a pulse may be more than a count; its edges keep this distance
         axis.lines = std::make_unique<parts::LineEncoder>(kernel_, name, axis.machine->encoder(), settings);
     }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <motionrack/cards/ioflex02/map.hpp>
+#include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/session.hpp>
 #include <motionrack/rack/test/config_helpers.hpp>
@@ -116,6 +117,25 @@ TEST(Ioflex02InARack, AnAxisEncoderIsReadBesideTheCardThatMovesIt) {
     EXPECT_EQ(out.axes[0].counts_read, 10'000);
     EXPECT_EQ(*rack.card("flex")->inspect("2.POSITION"), 10'000) << "every edge, there and back";
     EXPECT_EQ(*rack.card("flex")->inspect("2.ILLEGAL_TRANSITIONS"), 0);
+}
+
+TEST(Ioflex02InARack, ItsLinesCanHaveFaultsThatOtherCardsDoNotSee) {
+    Rack rack(good(measured));
+    JobSettings settings;
+    settings.program = "G21 G90\nG1 X20 F3000\n";
+    Job job(rack, settings);
+    rack.start();
+    ASSERT_TRUE(inject_fault(rack, "encoder.dirt=3", "X"));
+    const JobOutcome out = job.run();
+    ASSERT_TRUE(out.ended);
+    EXPECT_EQ(out.axes[0].counts_read, 16'000);
+    EXPECT_EQ(*rack.card("flex")->inspect("2.POSITION"), 16'000 - 4 * 12) << "three lines of four counts in each of four turns";
+    ASSERT_TRUE(inject_fault(rack, "encoder.noise=50", "X"));
+    rack.kernel().run_until(rack.kernel().now() + whole_seconds(1));
+    EXPECT_EQ(*rack.card("flex")->inspect("2.POSITION"), 16'000 - 4 * 12) << "what comes and goes counts nothing in the end";
+    EXPECT_THAT(inject_fault(rack, "encoder.noise=-1", "X").error().message, HasSubstr("with the value -1"));
+    Rack plain(good("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n"));
+    EXPECT_THAT(inject_fault(plain, "encoder.noise=5", "X").error().message, HasSubstr("nothing that could have the fault"));
 }
 
 TEST(Ioflex02InARack, ItsRackFilesAreChecked) {

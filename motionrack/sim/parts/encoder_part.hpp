@@ -22,6 +22,7 @@ class EncoderPart : public sim::Device, private sim::MotionListener {
     sim::WireId z() const { return output_.z(); }
     /// What the disc shows: the count that a perfect encoder and counter would have, 0 at place 0.
     std::int64_t count() const { return state_.count; }
+    sim::DeviceId id() const { return id_; }
     /// Counts that were too quick for the electronics, in all.
     std::int64_t lost() const { return output_.lost(); }
 
