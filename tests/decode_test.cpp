@@ -94,7 +94,7 @@ TEST_F(Decode, EndsWithACodeAndASentence) {
     write("cut.csv", "t,a,b\n0,0,0\n2,1,0\n3,");
     write("raw.bin", "abc");
     const std::pair<const char*, int> commands[] = {{"back.csv", 2}, {"cut.csv", 2}, {"raw.bin", 2}, {"none.vcd", 5}, {".", 5}, {"raw.bin --sample-rate fast", 2},
-                                                    {"cut.csv --window-ms 0", 1}, {"cut.csv --window-ms 1e30", 3}, {"cut.csv --channel q", 2}, {"--signals cut.csv", 0}};
+                                                    {"cut.csv --window-ms 0", 1}, {"cut.csv --format xml", 1}, {"cut.csv --window-ms 1e30", 3}, {"cut.csv --channel q", 2}, {"--signals cut.csv", 0}};
     for (const auto& [arguments, code] : commands) {
         const Ran ran = motionrack(std::string("decode ") + arguments);
         EXPECT_EQ(ran.code, code) << arguments << "\n" << ran.out;

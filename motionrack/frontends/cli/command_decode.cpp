@@ -1,10 +1,10 @@
 // decode: counts, speeds and faults of the encoders in a logic analyser's capture.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <map>
 #include <memory>
 #include <motionrack/decode/analysis.hpp>
 #include <motionrack/decode/report.hpp>
@@ -22,7 +22,7 @@ std::atomic<bool> stop_asked{false};
 void on_interrupt(int) { stop_asked.store(true); }
 
 struct DecodeOptions {
-    std::string file, sample_rate;
+    std::string file, format, sample_rate;
     std::vector<std::string> channels;
     decode::CaptureSettings capture;
     decode::AnalysisSettings analysis;
@@ -50,10 +50,24 @@ int print_analysis(const decode::Analysis& analysis, const DecodeOptions& option
 }
 
 int decode_file(DecodeOptions& options) {
+    using decode::Format;
     if (!options.sample_rate.empty()) {
         const Result<double> rate = decode::read_rate(options.sample_rate);
         if (!rate) return report(rate.error());
         options.capture.sample_rate_hz = *rate;
+    }
+    if (!options.format.empty()) {
+        static constexpr std::pair<std::string_view, Format> formats[] = {{"vcd", Format::vcd}, {"csv", Format::csv}, {"raw", Format::raw}};
+        const auto known = std::find_if(std::begin(formats), std::end(formats), [&](const auto& each) { return each.first == options.format; });
+        if (known == std::end(formats)) {
+            print_error(fmt::format("There is no format '{}'; the formats are vcd, csv and raw. Nothing was decoded.", options.format));
+            return exit_usage;
+        }
+        options.capture.format = known->second;
+    }
+    if (!(options.window_ms > 0)) {
+        print_error(fmt::format("The window is {} ms, but must be above 0. Nothing was decoded.", options.window_ms));
+        return exit_usage;
     }
     auto source = decode::open_file(options.file);
     if (!source) return report(source.error());
@@ -79,18 +93,16 @@ int decode_file(DecodeOptions& options) {
 }  // namespace
 
 void add_decode(CLI::App& app, Action& chosen) {
-    using decode::Format;
     auto options = std::make_shared<DecodeOptions>();
     CLI::App* command = app.add_subcommand("decode", "Count the encoders in a logic analyser's capture: counts, speeds, illegal transitions, indexes");
     command->add_option("FILE", options->file, "VCD, CSV or raw binary capture, '-': standard input")->required();
     command->add_option("--channel", options->channels,
                         "an encoder and its lines by name or number: X=A,B or X=A,B,Z; again for more (default: lines named X.enc_a, X.enc_b, X.enc_z)")
         ->allow_extra_args(false);
-    command->add_option("--format", options->capture.format, "vcd, csv or raw (default: by the file's name and what is in it)")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, Format>{{"vcd", Format::vcd}, {"csv", Format::csv}, {"raw", Format::raw}}, CLI::ignore_case));
+    command->add_option("--format", options->format, "vcd, csv or raw (default: by the file's name and what is in it)");
     command->add_option("--sample-rate", options->sample_rate, "samples a second, as 24M or 500k; for raw captures and CSV without times");
-    command->add_option("--sample-bytes", options->capture.sample_bytes, "bytes a sample of a raw capture, the lowest first")->check(CLI::Range(1, 8))->capture_default_str();
-    command->add_option("--window-ms", options->window_ms, "the peak speed is that of a window of so many ms")->check(CLI::PositiveNumber)->capture_default_str();
+    command->add_option("--sample-bytes", options->capture.sample_bytes, "bytes a sample of a raw capture, the lowest first")->check(CLI::Range(1, 8))->option_text("1 .. 8 (1)");
+    command->add_option("--window-ms", options->window_ms, "the peak speed is that of a window of so many ms")->capture_default_str();
     command->add_flag("--index-low", options->analysis.channel.index_low, "the index line is active low: its falling edges count");
     command->add_option("--list", options->list, "how many illegal transitions and indexes are listed for each channel; 0: none")->capture_default_str();
     command->add_flag("--signals", options->signals, "list the capture's lines with their numbers, decode nothing");
