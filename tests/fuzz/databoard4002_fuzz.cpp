@@ -5,30 +5,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <motionrack/cards/databoard4002/test/card_fuzz.hpp>
-#include <span>
-
-namespace {
-
-class Bytes final : public motionrack::databoard4002::fuzz::Feed {
-  public:
-    explicit Bytes(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
-    std::uint32_t word() override { return byte() | byte() << 8; }
-    bool empty() const override { return bytes_.empty(); }
-
-  private:
-    std::uint32_t byte() {
-        if (bytes_.empty()) return 0;
-        const std::uint32_t value = bytes_.front();
-        bytes_ = bytes_.subspan(1);
-        return value;
-    }
-    std::span<const std::uint8_t> bytes_;
-};
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    Bytes bytes({data, size});
+    motionrack::fuzz::Bytes bytes({data, size});
     motionrack::databoard4002::fuzz::Verdict verdict;
     motionrack::databoard4002::fuzz::run(bytes, 2'000, verdict);
     if (verdict.problem.empty()) return 0;

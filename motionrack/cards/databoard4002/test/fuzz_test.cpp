@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <iostream>
 #include <motionrack/cards/databoard4002/test/card_fuzz.hpp>
-#include <random>
 
 namespace motionrack::databoard4002 {
 namespace {
@@ -16,23 +15,13 @@ std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
     return text && *text ? std::strtoull(text, nullptr, 0) : otherwise;
 }
 
-class Random final : public fuzz::Feed {
-  public:
-    explicit Random(std::uint64_t seed) : random_(seed) {}
-    std::uint32_t word() override { return static_cast<std::uint32_t>(random_() & 0xFFFF); }
-    bool empty() const override { return false; }
-
-  private:
-    std::mt19937_64 random_;
-};
-
 TEST(Databoard4002Fuzz, AnyAccessAtAnyTimeLeavesTheCardAlive) {
     const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 1);
     const auto count = static_cast<std::int64_t>(from_environment("MOTIONRACK_ACCESSES", 1'000'000));
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << count << " accesses" << std::endl;
     fuzz::Verdict verdict;
     for (std::uint64_t card = 0; verdict.accesses < count && verdict.problem.empty(); ++card) {
-        Random random(seed * 1'000'003 + card);
+        motionrack::fuzz::Random random(seed * 1'000'003 + card);
         fuzz::run(random, 10'000, verdict);
     }
     EXPECT_EQ(verdict.problem, "");

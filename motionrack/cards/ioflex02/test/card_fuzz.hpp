@@ -9,20 +9,12 @@
 #pragma once
 
 #include <cstdint>
+#include <motionrack/sim/test/fuzz_feed.hpp>
 #include <string>
 
 namespace motionrack::ioflex02::fuzz {
 
-/// Where the numbers come from.
-class Feed {
-  public:
-    virtual ~Feed() = default;
-    /// 16 bits.
-    virtual std::uint32_t word() = 0;
-    virtual bool empty() const = 0;
-    /// 0 .. n - 1.
-    std::uint32_t below(std::uint32_t n) { return word() % n; }
-};
+using motionrack::fuzz::Feed;
 
 /// What a run came to.
 struct Verdict {

@@ -6,20 +6,9 @@
 #include <iostream>
 #include <motionrack/cards/ioflex02/test/card_fuzz.hpp>
 #include <motionrack/cards/ioflex02/test/rig.hpp>
-#include <random>
 
 namespace motionrack::ioflex02 {
 namespace {
-
-class Random final : public fuzz::Feed {
-  public:
-    explicit Random(std::uint64_t seed) : random_(seed) {}
-    std::uint32_t word() override { return static_cast<std::uint32_t>(random_() & 0xFFFF); }
-    bool empty() const override { return false; }
-
-  private:
-    std::mt19937_64 random_;
-};
 
 TEST(Ioflex02Fuzz, AnyAccessAtAnyTimeLeavesTheCardAlive) {
     const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 1);
@@ -27,7 +16,7 @@ TEST(Ioflex02Fuzz, AnyAccessAtAnyTimeLeavesTheCardAlive) {
     std::cout << "MOTIONRACK_SEED=" << seed << ", " << count << " accesses" << std::endl;
     fuzz::Verdict verdict;
     for (std::uint64_t card = 0; verdict.accesses < count && verdict.problem.empty(); ++card) {
-        Random random(seed * 1'000'003 + card);
+        motionrack::fuzz::Random random(seed * 1'000'003 + card);
         fuzz::run(random, 5'000, verdict);
     }
     EXPECT_EQ(verdict.problem, "");

@@ -11,20 +11,12 @@
 #include <array>
 #include <cstdint>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/sim/test/fuzz_feed.hpp>
 #include <string>
 
 namespace motionrack::mcx314::fuzz {
 
-/// Where the numbers come from.
-class Feed {
-  public:
-    virtual ~Feed() = default;
-    /// 16 bits.
-    virtual std::uint32_t word() = 0;
-    virtual bool empty() const = 0;
-    /// 0 .. n - 1.
-    std::uint32_t below(std::uint32_t n) { return word() % n; }
-};
+using motionrack::fuzz::Feed;
 
 /// What a run came to.
 struct Verdict {
