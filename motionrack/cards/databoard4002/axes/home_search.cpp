@@ -96,7 +96,7 @@ std::uint8_t HomeSearch::marks() const {
 Result<void> HomeSearch::drive(bool towards, int rate) {
     forward_ = towards == order_.towards_plus;
     const Status status = driver_.status();
-    if (forward_ ? status.end_stop_right() : status.end_stop_left()) {
+    if (status.end_stop(forward_)) {
         stop_seen_ = host_.now();  // no edge comes of it
         return {};
     }
@@ -174,7 +174,7 @@ Result<void> HomeSearch::look_at_stop(Instant now) {
     stop_seen_ = never;
     const Status status = driver_.status();
     if (status.emergency()) return failed("the emergency stop is active; release it");
-    if (!(marking() || state_ == State::back) || !(forward_ ? status.end_stop_right() : status.end_stop_left())) return {};
+    if (!(marking() || state_ == State::back) || !status.end_stop(forward_)) return {};
     if (state_ == State::search && order_.turn_at_limit && !turned_) {
         turned_ = true;
         outcome_.notes.push_back(fmt::format("the {} end stop was met first; the reference was searched the other way", forward_ ? "right" : "left"));

@@ -60,7 +60,7 @@ Result<void> PositionAxis::check_free(const char* what, bool forward) {
     if (busy()) return refuse(what, "it moves; stop it and wait until it stands");
     const Status status = driver_.status();
     if (status.emergency()) return refuse(what, "the emergency stop is active; release it");
-    if (forward ? status.end_stop_right() : status.end_stop_left())
+    if (status.end_stop(forward))
         return refuse(what, fmt::format("it stands on the {} end stop; move it in {} direction", forward ? "right" : "left", forward ? "-" : "+"));
     return {};
 }
@@ -246,7 +246,7 @@ void PositionAxis::look_at_events(Instant now) {
 void PositionAxis::look_at_stop(Instant) {
     stop_seen_ = never;
     const Status status = driver_.status();
-    std::string why = status.emergency() || (forward_ ? status.end_stop_right() : status.end_stop_left()) ? status.stops() : std::string();
+    std::string why = status.emergency() || status.end_stop(forward_) ? status.stops() : std::string();
     if (why.empty()) {
         const auto rate = driver_.rate();
         if (!rate) return end_with(rate.error());

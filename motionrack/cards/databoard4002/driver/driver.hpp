@@ -30,6 +30,8 @@ struct Status {
     bool interrupt() const { return (word & stat::INT) != 0; }
     bool end_stop_left() const { return (word & stat::ESL) != 0; }
     bool end_stop_right() const { return (word & stat::ESR) != 0; }
+    /// The one in that direction.
+    bool end_stop(bool forward) const { return forward ? end_stop_right() : end_stop_left(); }
     bool emergency() const { return (word & stat::EMS) != 0; }
     bool reference() const { return (word & stat::REF) != 0; }
     bool zero() const { return (word & stat::ZERO) != 0; }

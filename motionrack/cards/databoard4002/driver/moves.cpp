@@ -61,7 +61,7 @@ Result<bool> Driver::held(bool forward) {
     interrupt_.pass(settings_.bounce);
     const Status now = status();
     if (now.event()) return false;  // more has happened; it is looked at first
-    if (now.emergency() || (forward ? now.end_stop_right() : now.end_stop_left())) return true;
+    if (now.emergency() || now.end_stop(forward)) return true;
     MOTIONRACK_TRY(const int present, rate());
     return present == 0 && !status().event();  // the emergency stop was active for a moment
 }
