@@ -88,8 +88,6 @@ class MotionCard : public Card {
     virtual void connect_ideal_machine() {}
     /// The two inputs of the encoder of that machine, which turns with `pulses(0)`; empty: there is none.
     virtual std::span<const std::string_view> ideal_encoder() const { return {}; }
-    /// Whether it can move axes together along a path; else each positions by itself.
-    virtual bool follows_paths() const { return true; }
     /// The card's axes as a group that follows paths, set up at `position`; `channel[i]` moves axis i of the rack.
     virtual Result<control::PathAxes*> path_axes(const RackConfig& config, const control::Point& position) = 0;
     /// One axis of the rack that this card moves, by itself; its position is not trusted at first. Takes the card from path_axes(), and

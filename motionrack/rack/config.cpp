@@ -46,11 +46,13 @@ const RackCard* RackConfig::card(std::string_view card_name) const {
     return found != cards.end() ? &*found : nullptr;
 }
 
+bool RackConfig::positions_alone(const RackAxis& axis) const {
+    const RackCard* its = card(axis.card);
+    return its != nullptr && find_card_type(its->type)->position_loop;
+}
+
 bool RackConfig::point_to_point() const {
-    return !axes.empty() && std::all_of(axes.begin(), axes.end(), [this](const RackAxis& axis) {
-        const RackCard* its = card(axis.card);
-        return its != nullptr && find_card_type(its->type)->position_loop;
-    });
+    return !axes.empty() && std::all_of(axes.begin(), axes.end(), [this](const RackAxis& axis) { return positions_alone(axis); });
 }
 
 control::MachineLimits RackConfig::limits() const {

@@ -110,6 +110,8 @@ struct RackSwitches {
     std::optional<double> cam_to;       ///< to here
     double hysteresis = 0.05;           ///< mm or degrees to go back before a switch is released
     double bounce_ms = 1.0;             ///< ms that contacts bounce at each change; 0: clean edges
+
+    bool has_cam() const { return cam_from && cam_to; }
 };
 
 enum class HomingDirection : std::uint8_t { minus, plus };
@@ -232,6 +234,8 @@ struct RackConfig {
     const RackAxis* axis(char letter) const;
     /// The card of that name, or nullptr.
     const RackCard* card(std::string_view card_name) const;
+    /// Whether the axis is on a card that positions it by itself.
+    bool positions_alone(const RackAxis& axis) const;
     /// Whether every axis is on a card that positions it by itself, so that none can move along a path together.
     bool point_to_point() const;
     /// What each axis may do, for the planner; axes that the rack has not are not present.

@@ -122,7 +122,7 @@ constexpr std::array<AxisEnd, 10> ends = {{
     {"home", PinDirection::output, "home switch", [](const RackAxis& axis) { return axis.switches.home.has_value(); },
      "home_{u} in its switches"},
     {"cam", PinDirection::output, "reference cam: low between its ends",
-     [](const RackAxis& axis) { return axis.switches.cam_from && axis.switches.cam_to; }, "cam_from_{u} and cam_to_{u} in its switches"},
+     [](const RackAxis& axis) { return axis.switches.has_cam(); }, "cam_from_{u} and cam_to_{u} in its switches"},
 }};
 
 }  // namespace

@@ -140,7 +140,6 @@ class Databoard4002Card final : public MotionCard {
     Result<control::PathAxes*> path_axes(const RackConfig&, const control::Point&) override {
         return fail(Trouble::refused, fmt::format("Card {} positions its one axis by itself and follows no paths. Nothing was moved.", name_));
     }
-    bool follows_paths() const override { return false; }
     Result<control::Axis*> axis(const RackConfig& config, char letter) override {
         if (axis_) return axis_.get();
         const RackAxis* found = config.axis(letter);

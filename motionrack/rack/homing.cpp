@@ -25,8 +25,6 @@ int input_of(const RackConfig& config, const RackAxis& axis, std::string_view en
     return -1;
 }
 
-bool has_cam(const RackAxis& axis) { return axis.switches.cam_from && axis.switches.cam_to; }
-
 /// "xin0, xin1" of card motion.
 std::string inputs_text(const RackAxis& axis, std::span<const std::string_view> pins) {
     std::string out;
@@ -85,7 +83,7 @@ class Homing {
         std::string letters = settings_.axes;
         if (letters.empty())
             for (const RunningAxis& axis : rack_.axes())
-                if (axis.config.switches.home || (has_cam(axis.config) && !axis.card->follows_paths())) letters += axis.config.letter;
+                if (axis.config.switches.home || (axis.config.switches.has_cam() && rack_.config().positions_alone(axis.config))) letters += axis.config.letter;
         if (letters.empty())
             return fail(Trouble::refused, "No axis of the rack has a home switch. Nothing was moved; give an axis one (home_mm in its switches).");
         for (const char letter : letters) {
@@ -228,7 +226,7 @@ Result<control::HomeOrder> home_order(const RackConfig& config, const RackAxis& 
     };
     const CardType& type = *find_card_type(config.card(axis.card)->type);
     // A card that positions by itself searches the near edge of a mark; the others see the release of a switch too.
-    const bool cam = type.position_loop && has_cam(axis);
+    const bool cam = type.position_loop && axis.switches.has_cam();
     if (!cam && !axis.switches.home)
         return refuse(fmt::format("it has no home switch; give it one (home_{0} in its switches{1})", axis.unit(),
                                   type.position_loop ? fmt::format(", or a cam: cam_from_{0} and cam_to_{0}", axis.unit()) : ""));

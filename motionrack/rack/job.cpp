@@ -120,8 +120,9 @@ std::vector<AxisOutcome> Job::axis_outcomes(const control::Point& sent_to) {
         const double counts_per_pulse =
             static_cast<double>(axis.config.encoder_counts_per_rev) / static_cast<double>(axis.config.pulses_per_rev());
         one.counts_expected = static_cast<std::int64_t>(std::floor(static_cast<double>(commanded) * counts_per_pulse));
-        one.planned_end = axis.card->follows_paths() ? static_cast<double>(one.pulse_position) / axis.config.pulses_per_unit()
-                                                     : sent_to[static_cast<std::size_t>(one.index)];
+        one.planned_end = rack_.config().positions_alone(axis.config)
+                              ? sent_to[static_cast<std::size_t>(one.index)]
+                              : static_cast<double>(one.pulse_position) / axis.config.pulses_per_unit();
         one.real_end = axis.machine->position(now);
         one.top = monitor_->statistics(one.index);
         out.push_back(std::move(one));

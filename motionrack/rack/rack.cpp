@@ -93,7 +93,7 @@ void Rack::join_links() {
         RunningAxis& axis = axes_[i];
         axis.machine->connect(axis.servo ? *axis.servo : *pulses[i]);
         const RackSwitches& switches = axis.config.switches;
-        if (!switches.cam_from) continue;
+        if (!switches.has_cam()) continue;
         const auto count = [&axis](double position) {
             return static_cast<std::int64_t>(std::floor((position - axis.config.start_position) * axis.config.pulses_per_unit() + 0.5));
         };
@@ -171,8 +171,7 @@ void Rack::start() {
 Result<control::PathAxes*> Rack::path_axes() {
     if (axes_.empty())
         return fail(Trouble::refused, "The rack has no axes, so no program can run on it; add an [axis.X] section to the rack file.");
-    if (std::none_of(axes_.begin(), axes_.end(), [](const RunningAxis& axis) { return axis.card->follows_paths(); }))
-        return positioning_axes();
+    if (config_.point_to_point()) return positioning_axes();
     for (const RunningAxis& axis : axes_)
         if (axis.card != axes_.front().card)
             return fail(Trouble::refused, fmt::format("Axis {} is on card '{}' and axis {} on card '{}', but a path is followed by the axes of "
