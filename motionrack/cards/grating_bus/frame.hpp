@@ -1,0 +1,60 @@
+// The frame: what all cards of a grating bus hold of one instant, and how long it takes to read it.
+//
+//   0          4        12   14
+//   +----------+--------+----+----------+---- - -+----------+
+//   | sequence | time   | N  | count 0  |        | CRC-32   |      low bytes first; the CRC is that of all bytes before it
+//   +----------+--------+----+----------+---- - -+----------+
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <motionrack/base/result.hpp>
+#include <motionrack/base/time.hpp>
+#include <span>
+
+namespace motionrack::grating_bus {
+
+inline constexpr int most_scales = 255;
+
+/// Positions of one instant. Trivially copyable; counts beyond `words` mean nothing.
+struct Frame {
+    std::int64_t time = 0;       ///< of HOLD, ticks of 0.1 ns since the start of the card
+    std::uint32_t sequence = 0;  ///< counts the periods of the bus, wraps
+    std::uint32_t crc = 0;       ///< as the card computed it
+    std::uint32_t words = 0;     ///< N, 1 .. 255
+    std::array<std::uint32_t, most_scales> counts{};
+
+    Instant instant() const { return Instant{time}; }
+    std::span<const std::uint32_t> positions() const { return {counts.data(), words}; }
+};
+
+/// CRC-32 of a frame's content.
+std::uint32_t crc_of(const Frame& frame);
+/// Whether the CRC is that of the content and there are 1 to 255 words.
+bool sound(const Frame& frame);
+/// Same content, sequence and time included.
+bool same(const Frame& a, const Frame& b);
+
+/// `now`, extended to 64 bits: the count next to `before` that has these low 32 bits. Right while a scale moves less than 2^31 counts
+/// between two frames.
+constexpr std::int64_t unwrapped(std::int64_t before, std::uint32_t now) {
+    return before + static_cast<std::int32_t>(now - static_cast<std::uint32_t>(before));
+}
+
+/// The waits of the host's sequence and the logic's clock.
+struct Timing {
+    Duration t1 = nanoseconds(20);  ///< the decoder latches; S1, S7
+    Duration t2 = nanoseconds(30);  ///< address to stable data; S2, S8
+    Duration t3 = nanoseconds(30);  ///< the data is latched; S3, S9
+    Duration clock = nanoseconds(10);
+
+    /// From one word's sample to the next one's.
+    constexpr Duration word_time() const { return t1 + t2 + t3 + 3 * clock; }
+    /// From entering S1 to re-entering S0 with `words` (1 .. 255) scales.
+    constexpr Duration frame_time(int words) const { return words * (t1 + t2 + t3) + (3 * words + 1) * clock; }
+    /// From entering S1 to the sample of word `k`.
+    constexpr Duration sample_at(int k) const { return k * word_time() + t1 + t2; }
+};
+
+}  // namespace motionrack::grating_bus

@@ -1,0 +1,140 @@
+// The grating bus' registers, states and pins as constants; model, driver, documents and tests read them here.
+//
+// The motion card's processor reads its logic through a 16-bit interface (the source's processor has one beside its 64-bit one). The source
+// names no registers; the map is the project's own. Offsets are byte offsets; values of more than 16 bits are several registers, _L the low one.
+//
+//   00h .. 1Fh   the card: role, state, what to do
+//   20h .. 3Fh   counters of what went wrong; each is 16 bits and stays at FFFFh
+//   40h .. 4Fh   the claimed frame: sequence, time, N, CRC
+//  100h .. 4FBh  the claimed frame: count of its word k at 100h + 4k (low) and 102h + 4k (high)
+#pragma once
+
+#include <motionrack/base/card_map.hpp>
+#include <motionrack/base/time.hpp>
+#include <motionrack/cards/grating_bus/frame.hpp>
+
+namespace motionrack::grating_bus {
+
+namespace map {
+
+inline constexpr FieldInfo control_fields[] = {
+    {"CLAIM", 0x0001, "the buffer published last is the processor's until the next CLAIM or RELEASE"},
+    {"RELEASE", 0x0002, "gives the claimed buffer back"},
+    {"CLEAR_ERRORS", 0x0004, "makes the counters 20h to 2Fh 0"},
+    {"RESET", 0x0008, "leaves the frame under way; sequence and counters begin anew"},
+};
+inline constexpr FieldInfo role_fields[] = {
+    {"HOST", 0x0001, "1: the card gives clock and addresses; 0: it only listens"},
+    {"CLOCK_OUT", 0x0002, "the shifter of clk, hold and read_n drives the bus"},
+    {"ADDRESS_OUT", 0x0004, "the shifter of addr drives the bus"},
+    {"CHECKS", 0x0008, "frames whose lines were not as they should be are not published"},
+};
+inline constexpr FieldInfo status_fields[] = {
+    {"FRAME", 0x0001, "a frame was published since the last CLAIM"},
+    {"CLAIMED", 0x0002, "a buffer is claimed"},
+    {"STALE", 0x0004, "no frame yet, or none for two periods"},
+    {"DIRECTION", 0x0008, "a shifter's direction does not fit the role"},
+    {"BUSY", 0x0010, "a frame is being read"},
+    {"OFF", 0x0020, "the card is switched off"},
+};
+inline constexpr FieldInfo state_fields[] = {
+    {"STATE", 0x000F, "number of the state, 0 for S0"},
+    {"WORD", 0xFF00, "number of the word that is read"},
+};
+
+inline constexpr Access r = Access::read, w = Access::write;
+
+inline constexpr RegisterInfo registers[] = {
+    {"CONTROL", 0x00, 16, w, false, "", "what the processor wants; bits act from the lowest to the highest", control_fields},
+    {"SIGNATURE", 0x00, 16, r, false, "", "4742h: a card of a grating bus", {}},
+    {"ROLE", 0x02, 16, r, false, "", "how the card is set", role_fields},
+    {"STATUS", 0x04, 16, r, false, "", "frame and faults", status_fields},
+    {"STATE", 0x06, 16, r, false, "", "where the sequence is", state_fields},
+    {"SCALES", 0x08, 16, r, false, "", "N, scales of a frame", {}},
+    {"FIRST", 0x0A, 16, r, false, "", "address of the first scale", {}},
+    {"T1", 0x0C, 16, r, false, "", "wait for the latch, 0.1 ns", {}},
+    {"T2", 0x0E, 16, r, false, "", "wait for stable data, 0.1 ns", {}},
+    {"T3", 0x10, 16, r, false, "", "wait for the data's latch, 0.1 ns", {}},
+    {"CLOCK", 0x12, 16, r, false, "", "period of the logic's clock, 0.1 ns", {}},
+    {"PERIOD_L", 0x14, 16, r, false, "", "period of the frames, 0.1 ns, low", {}},
+    {"PERIOD_H", 0x16, 16, r, false, "", "the same, high", {}},
+    {"FRAMES_L", 0x18, 16, r, false, "", "frames published since the start, low", {}},
+    {"FRAMES_H", 0x1A, 16, r, false, "", "the same, high", {}},
+    {"BROKEN", 0x20, 16, r, false, "", "bad frames, which were not published", {}},
+    {"MISSED_WORDS", 0x22, 16, r, false, "", "words whose read_n was 1", {}},
+    {"ALIEN", 0x24, 16, r, false, "", "words with another address than the card's own list has", {}},
+    {"LINES", 0x26, 16, r, false, "", "words at which clk, hold or read_n was not as it should be", {}},
+    {"MISSED_EDGES", 0x28, 16, r, false, "", "edges of clk that must have been there and were not seen", {}},
+    {"OVERRUN", 0x2A, 16, r, false, "", "pulses or edges that came while a frame was being read", {}},
+    {"SEQUENCE_L", 0x40, 16, r, false, "", "claimed: sequence, low", {}},
+    {"SEQUENCE_H", 0x42, 16, r, false, "", "claimed: the same, high", {}},
+    {"TIME_0", 0x44, 16, r, false, "", "claimed: time of HOLD, 0.1 ns, bits 0 to 15", {}},
+    {"TIME_1", 0x46, 16, r, false, "", "claimed: bits 16 to 31", {}},
+    {"TIME_2", 0x48, 16, r, false, "", "claimed: bits 32 to 47", {}},
+    {"TIME_3", 0x4A, 16, r, false, "", "claimed: bits 48 to 63", {}},
+    {"WORDS", 0x4C, 16, r, false, "", "claimed: N of the frame; 0: no frame was published yet", {}},
+    {"CRC_L", 0x4E, 16, r, false, "", "claimed: CRC-32 of the frame, low", {}},
+    {"CRC_H", 0x50, 16, r, false, "", "claimed: the same, high", {}},
+    {"COUNT_L", 0x100, 16, r, false, "", "claimed: count of word 0, low; of word k 4k bytes on", {}},
+    {"COUNT_H", 0x102, 16, r, false, "", "claimed: the same, high", {}},
+};
+static_assert(declared<registers_flaw(registers)>());
+
+inline constexpr StateInfo states[] = {
+    {"S0", "idle, waits for the pulse of the period (a slave: for the edge of clk)"},
+    {"S1", "waits T1 until the decoder has latched its counts"},
+    {"S2", "the first address is on the bus, waits T2 for stable data"},
+    {"S3", "latches the data, waits T3"},
+    {"S4", "read_n is high again"},
+    {"S5", "all scales read?"},
+    {"S6", "no, one more"},
+    {"S7", "waits T1"},
+    {"S8", "the next address is on the bus, waits T2"},
+    {"S9", "latches the data, waits T3"},
+    {"S10", "read_n is high again"},
+    {"S11", "all scales are read"},
+    {"S12", "emits the pulse frame_done"},
+};
+inline constexpr TransitionInfo transitions[] = {
+    {"S0", "S1", "pulse or edge"},  {"S1", "S2", "after T1"},         {"S2", "S3", "after T2"},     {"S3", "S4", "after T3"},
+    {"S4", "S5", "next clock"},     {"S5", "S6", "scales are left"},  {"S5", "S11", "all are read"}, {"S6", "S7", "next clock"},
+    {"S7", "S8", "after T1"},       {"S8", "S9", "after T2"},         {"S9", "S10", "after T3"},    {"S10", "S5", "next clock"},
+    {"S11", "S12", "next clock"},   {"S12", "S0", "next clock"},
+};
+inline constexpr MachineInfo machines[] = {
+    {"frame", "how a card reads one frame; a slave walks it with the host", states, transitions},
+};
+static_assert(declared<machines_flaw(machines)>());
+
+inline constexpr PinInfo pins[] = {
+    {"state", PinDirection::output, false, "number of the state, 0 .. 12"},
+    {"frame_done", PinDirection::output, false, "pulse of one clock: a frame is complete; asks for an interrupt"},
+};
+static_assert(declared<pins_flaw(pins)>());
+
+inline constexpr CardMap card = {"grating_bus", "Motion card that reads all scales of one instant over a shared bus, as its host or as a listener",
+                                 registers,     {}, machines, pins};
+
+}  // namespace map
+
+inline constexpr std::uint16_t signature = 0x4742;
+inline constexpr std::uint32_t counts_at = 0x100;  ///< offset of the first count
+
+/// A register's offset by its name; names that are not declared do not compile.
+consteval std::uint32_t offset(std::string_view name) {
+    return register_named(map::registers, name).offset;
+}
+/// A field of a register: field("STATUS", "STALE").
+consteval Field field(std::string_view reg, std::string_view name) {
+    return {mask_of(register_named(map::registers, reg), name)};
+}
+
+/// The states of the sequence by their numbers.
+enum class State : std::uint8_t { S0, S1, S2, S3, S4, S5, S6, S7, S8, S9, S10, S11, S12 };
+
+/// The whole map, for documents, inspectors and traces.
+inline const CardMap& card_map() {
+    return map::card;
+}
+
+}  // namespace motionrack::grating_bus
