@@ -1,0 +1,197 @@
+// The twin itself against the source's numbers and against RULES.md.
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <motionrack/cards/grating_bus/test/twin.hpp>
+#include <random>
+
+namespace motionrack::grating_bus::twin {
+namespace {
+
+constexpr Ticks ns = 10;
+
+/// A scale that moves one count in each 50 ns (20 MHz), scale by scale offset.
+std::uint32_t moving(int scale, Ticks at) {
+    return static_cast<std::uint32_t>(1'000'000 * scale + at / (50 * ns));
+}
+
+CardSettings host(int words) {
+    CardSettings settings;
+    settings.host = settings.clock_out = settings.address_out = true;
+    settings.words = words;
+    return settings;
+}
+CardSettings slave(int words) {
+    CardSettings settings;
+    settings.words = words;
+    return settings;
+}
+DecoderSettings decoder(int scales) {
+    DecoderSettings settings;
+    settings.scales = scales;
+    settings.count = moving;
+    return settings;
+}
+
+/// Instants at which the card entered one of the two states.
+std::vector<Ticks> entered(const Twin& twin, int card, int state, int other) {
+    std::vector<Ticks> out;
+    for (const StateChange& change : twin.states(card))
+        if (change.state == state || change.state == other) out.push_back(change.at);
+    return out;
+}
+
+TEST(GratingTwin, FramesLastAsLongAsTheSourceSays) {
+    for (const auto& [words, lasts] : std::vector<std::pair<int, Ticks>>{{1, 120}, {4, 450}, {8, 890}, {16, 1770}, {255, 28'060}}) {
+        Twin twin({host(words)}, {decoder(255)});
+        twin.run_to(150'000 * ns);
+        EXPECT_EQ(twin.states(0)[1].at, 0);
+        EXPECT_EQ(twin.states(0)[1].state, 1);
+        EXPECT_EQ(twin.states(0).back().at, lasts * ns) << words;
+        EXPECT_EQ(twin.states(0).back().state, 0);
+        const std::vector<Ticks> samples = entered(twin, 0, 3, 9);
+        ASSERT_EQ(samples.size(), static_cast<std::size_t>(words));
+        for (int k = 0; k < words; ++k) EXPECT_EQ(samples[static_cast<std::size_t>(k)], (k * 110 + 50) * ns);
+        ASSERT_EQ(twin.frames(0).size(), 1u);
+        EXPECT_EQ(twin.frames(0)[0].at, (lasts - 10) * ns);
+        EXPECT_TRUE(sound(twin.frames(0)[0].frame));
+        for (int k = 0; k < words; ++k) EXPECT_EQ(twin.frames(0)[0].frame.counts[static_cast<std::size_t>(k)], moving(k, 0));
+    }
+}
+
+TEST(GratingTwin, WalksTheStatesInTheSourcesOrder) {
+    Twin twin({host(2)}, {decoder(2)});
+    twin.run_to(1000 * ns);
+    std::vector<std::pair<Ticks, int>> walked;
+    for (const StateChange& change : twin.states(0)) walked.emplace_back(change.at / ns, change.state);
+    EXPECT_EQ(walked, (std::vector<std::pair<Ticks, int>>{{0, 0}, {0, 1}, {20, 2}, {50, 3}, {80, 4}, {90, 5}, {100, 6}, {110, 7}, {130, 8},
+                                                         {160, 9}, {190, 10}, {200, 5}, {210, 11}, {220, 12}, {230, 0}}));
+}
+
+TEST(GratingTwin, HostAndTenSlavesHoldTheCountsOfHold) {
+    for (int slaves = 0; slaves <= 10; ++slaves) {
+        std::vector<CardSettings> cards(static_cast<std::size_t>(slaves) + 1, slave(8));
+        cards[0] = host(8);
+        Twin twin(cards, {decoder(8)});
+        twin.run_to(1'000'000 * ns);
+        for (int card = 0; card <= slaves; ++card) {
+            ASSERT_EQ(twin.frames(card).size(), 5u);
+            for (std::size_t n = 0; n < 5; ++n) {
+                const Frame& frame = twin.frames(card)[n].frame;
+                EXPECT_EQ(frame.time, static_cast<Ticks>(n) * 200'000 * ns);
+                EXPECT_EQ(frame.sequence, n);
+                EXPECT_EQ(frame.counts[7], moving(7, frame.time));
+                EXPECT_TRUE(same(frame, twin.frames(0)[n].frame));
+            }
+            EXPECT_EQ(twin.counters(card).broken, 0u);
+        }
+        EXPECT_TRUE(twin.conflicts().empty());
+    }
+}
+
+TEST(GratingTwin, SeesTheLinesAsTheyWereJustBeforeTheSample) {
+    DecoderSettings slow = decoder(4);
+    slow.output = 30 * ns;  // put out at the very instant of the sample
+    Twin twin({host(4)}, {slow});
+    twin.run_to(1000 * ns);
+    const Frame& frame = twin.frames(0).at(0).frame;
+    EXPECT_EQ(frame.counts[0], 0u);
+    for (int k = 1; k < 4; ++k) EXPECT_EQ(frame.counts[static_cast<std::size_t>(k)], moving(k - 1, 0));
+}
+
+TEST(GratingTwin, HostsBesideEachOtherConflictAndTheLowLevelWins) {
+    CardSettings second = host(2);
+    second.offset = 35 * ns;
+    Twin twin({host(2), second}, {decoder(4)});
+    twin.run_to(1000 * ns);
+    ASSERT_FALSE(twin.conflicts().empty());
+    const Conflict& conflict = twin.conflicts()[0];
+    EXPECT_EQ(conflict.begin, 0);
+    EXPECT_EQ(conflict.end, 35 * ns);
+    EXPECT_EQ(conflict.line, clk);
+    EXPECT_EQ(conflict.high, std::set<int>{0});
+    EXPECT_EQ(conflict.low, std::set<int>{1});
+    for (const LevelChange& change : twin.changes())
+        if (change.line == clk && change.level == 1) {
+            EXPECT_EQ(change.at, 35 * ns);
+        }
+    EXPECT_EQ(twin.counters(0).broken, 1u);
+}
+
+TEST(GratingTwin, AMissedEdgeCountsAndTheSequenceGoesOn) {
+    Twin twin({host(1), slave(1)}, {decoder(1)});
+    twin.run_to(100'000 * ns);
+    twin.set_miss_edges(1, 3);
+    twin.run_to(900'000 * ns);
+    ASSERT_EQ(twin.frames(1).size(), 2u);
+    EXPECT_EQ(twin.frames(1)[1].frame.sequence, 4u);
+    EXPECT_TRUE(same(twin.frames(1)[1].frame, twin.frames(0)[4].frame));
+    EXPECT_EQ(twin.counters(1).missed_edges, 3u);
+    std::vector<std::pair<Ticks, bool>> stale;
+    for (const StaleChange& change : twin.stale_changes(1)) stale.emplace_back(change.at / ns, change.stale);
+    EXPECT_EQ(stale, (std::vector<std::pair<Ticks, bool>>{{110, false}, {400'000, true}, {800'110, false}}));
+}
+
+TEST(GratingTwin, AClaimedFrameIsNotWrittenOver) {
+    Twin twin({host(1)}, {decoder(1)});
+    twin.claim(0);
+    EXPECT_FALSE(twin.claimed(0));
+    twin.run_to(300'000 * ns);
+    twin.claim(0);
+    EXPECT_EQ(twin.claimed_frame(0).sequence, 1u);
+    twin.run_to(800'050 * ns);
+    EXPECT_EQ(twin.claimed_frame(0).sequence, 1u);
+    twin.claim(0);  // the other one is being filled
+    EXPECT_EQ(twin.claimed_frame(0).sequence, 1u);
+    twin.run_to(900'000 * ns);
+    twin.claim(0);
+    EXPECT_EQ(twin.claimed_frame(0).sequence, 4u);
+}
+
+TEST(GratingTwin, NothingHappensAtTheInstantsThatAreLeftOut) {
+    const std::uint64_t seed = 20'261'121;
+    std::cout << "seed " << seed << std::endl;
+    std::mt19937_64 random(seed);
+    for (int round = 0; round < 12; ++round) {
+        std::vector<CardSettings> cards;
+        const int count = 1 + static_cast<int>(random() % 3);
+        for (int i = 0; i < count; ++i) {
+            cards.push_back(i == 0 || random() % 3 == 0 ? host(1 + static_cast<int>(random() % 3)) : slave(2));
+            for (Ticks* time : {&cards.back().t1, &cards.back().t2, &cards.back().t3, &cards.back().clock})
+                *time = 1 + static_cast<Ticks>(random() % 40);
+            cards.back().period = 700 + static_cast<Ticks>(random() % 100);
+            cards.back().offset = static_cast<Ticks>(random() % 50);
+        }
+        DecoderSettings quick = decoder(2 + static_cast<int>(random() % 3));
+        quick.latch = static_cast<Ticks>(random() % 30);
+        quick.output = static_cast<Ticks>(random() % 30);
+        quick.count = [](int scale, Ticks at) { return static_cast<std::uint32_t>(1000 * scale + at / 7); };
+        Twin twins[2] = {Twin(cards, {quick}, false), Twin(cards, {quick}, true)};
+        for (Twin& twin : twins) {
+            twin.run_to(2000);
+            twin.set_late(count - 1, 33);
+            twin.force(addr, 2, 0);
+            twin.run_to(4000);
+            twin.release(addr, 2);
+            twin.run_to(6000);
+        }
+        for (int card = 0; card < count; ++card) {
+            ASSERT_EQ(twins[0].frames(card).size(), twins[1].frames(card).size());
+            for (std::size_t i = 0; i < twins[0].frames(card).size(); ++i) {
+                EXPECT_EQ(twins[0].frames(card)[i].at, twins[1].frames(card)[i].at);
+                EXPECT_TRUE(same(twins[0].frames(card)[i].frame, twins[1].frames(card)[i].frame));
+            }
+            EXPECT_EQ(twins[0].stale_changes(card).size(), twins[1].stale_changes(card).size());
+            EXPECT_EQ(twins[0].counters(card), twins[1].counters(card));
+        }
+        ASSERT_EQ(twins[0].changes().size(), twins[1].changes().size());
+        for (std::size_t i = 0; i < twins[0].changes().size(); ++i) {
+            EXPECT_EQ(twins[0].changes()[i].at, twins[1].changes()[i].at);
+            EXPECT_EQ(twins[0].changes()[i].level, twins[1].changes()[i].level);
+        }
+        EXPECT_EQ(twins[0].conflicts().size(), twins[1].conflicts().size());
+    }
+}
+
+}  // namespace
+}  // namespace motionrack::grating_bus::twin
