@@ -1,0 +1,124 @@
+// The bus in Verilog (tests/verilog/grating, run by iverilog) against the twin: another writing of the rules, clock by clock.
+//
+// The logic takes a clock from the edge of clk to S1, and its decoder one from a scale's lines to the count; so the offset below, and
+// counts of the clock before HOLD.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <motionrack/cards/grating_bus/test/twin.hpp>
+#include <sstream>
+#include <string>
+
+namespace motionrack::grating_bus::twin {
+namespace {
+
+constexpr Ticks clock_ticks = 100, first_s1 = 2;
+const std::string folder = std::string(MOTIONRACK_SOURCE_DIR) + "/tests/verilog/grating/";
+
+struct System {
+    int words = 4, cards = 3, period = 2000, frames = 4;  ///< period in clocks
+};
+
+/// What both show, as text: "card clock state" and "card sequence time crc counts..".
+struct Course {
+    std::vector<std::vector<std::string>> states, frames;
+    std::string end;
+};
+
+bool installed(const std::string& program) {
+    return std::system(("command -v " + program + " >/dev/null").c_str()) == 0;
+}
+
+Course run_verilog(const System& system) {
+    Course out{std::vector<std::vector<std::string>>(static_cast<std::size_t>(system.cards)),
+               std::vector<std::vector<std::string>>(static_cast<std::size_t>(system.cards)), ""};
+    const std::string program = (std::filesystem::temp_directory_path() / ("grating_" + std::to_string(getpid()))).string();
+    std::string command = "iverilog -g2012 -o " + program;
+    const auto parameter = [&](const char* name, int value) {
+        command += std::string(" -Pgrating_system_tb.") + name + "=" + std::to_string(value);
+    };
+    parameter("N", system.words), parameter("CARDS", system.cards), parameter("PERIOD", system.period), parameter("FRAMES", system.frames);
+    for (const char* file : {"scales", "decoder", "card", "system", "system_tb"}) command += " " + folder + "grating_" + file + ".sv";
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+    std::FILE* pipe = popen(("vvp " + program).c_str(), "r");
+    if (!pipe) return out;
+    std::array<char, 4096> line{};
+    while (std::fgets(line.data(), line.size(), pipe)) {
+        std::istringstream text(line.data());
+        std::string kind, rest;
+        std::size_t card = 0;
+        text >> kind;
+        if (kind != "end") text >> card;
+        std::getline(text >> std::ws, rest);
+        if (kind == "end") out.end = rest;
+        if (kind == "state") out.states.at(card).push_back(rest);
+        if (kind == "frame") out.frames.at(card).push_back(rest);
+    }
+    pclose(pipe);
+    std::filesystem::remove(program);
+    return out;
+}
+
+/// A scale's position after that clock edge, as grating_scales.sv has it.
+std::uint32_t position(int scale, std::int64_t edge) {
+    const std::int64_t rate = 13'107 - 3'001 * (scale % 9), fraction = rate * edge;
+    return static_cast<std::uint32_t>(fraction >= 0 ? fraction / 65'536 : -((-fraction + 65'535) / 65'536));
+}
+
+Course run_twin(const System& system) {
+    CardSettings card;
+    card.words = system.words;
+    card.period = system.period * clock_ticks;
+    card.offset = first_s1 * clock_ticks;
+    std::vector<CardSettings> cards(static_cast<std::size_t>(system.cards), card);
+    cards[0].host = cards[0].clock_out = cards[0].address_out = true;
+    DecoderSettings decoder;
+    decoder.scales = system.words;
+    decoder.count = [](int scale, Ticks at) { return position(scale, at / clock_ticks - 1); };
+    Twin twin(cards, {decoder});
+    twin.run_to(card.period * system.frames);
+    Course out;
+    for (int i = 0; i < system.cards; ++i) {
+        std::vector<std::string>& states = out.states.emplace_back();
+        for (const StateChange& change : twin.states(i))
+            if (change.at > 0) states.push_back(std::to_string(change.at / clock_ticks).append(" ").append(std::to_string(change.state)));
+        std::vector<std::string>& frames = out.frames.emplace_back();
+        for (const Published& published : twin.frames(i)) {
+            const Frame& frame = published.frame;
+            std::string text = std::to_string(frame.sequence) + " " + std::to_string(frame.time) + " " + std::to_string(frame.crc);
+            for (const std::uint32_t count : frame.positions()) text.append(" ").append(std::to_string(count));
+            frames.push_back(text);
+        }
+    }
+    out.end = std::to_string(system.period * system.frames) + " 0 0";
+    EXPECT_TRUE(twin.conflicts().empty());
+    return out;
+}
+
+TEST(GratingVerilog, HoldsTheSameFramesInTheSameStatesAsTheTwin) {
+    if (!installed("iverilog") || !installed("vvp"))
+        GTEST_SKIP() << "iverilog is not installed (Debian package iverilog); the Verilog referee did not run";
+    for (const System& system : std::vector<System>{{4, 3}, {4, 11}, {8, 3}, {8, 11}, {1, 2}, {16, 1}, {40, 2}, {8, 11, 20'000, 2}}) {
+        const Course twin = run_twin(system), verilog = run_verilog(system);
+        EXPECT_EQ(verilog.end, twin.end) << "clocks, clocks with a conflict, a scale's lines jumped";
+        for (std::size_t card = 0; card < twin.frames.size(); ++card) {
+            ASSERT_EQ(twin.frames[card].size(), static_cast<std::size_t>(system.frames));
+            EXPECT_EQ(verilog.frames[card], twin.frames[card]) << "card " << card << " of " << system.cards << ", N " << system.words;
+            EXPECT_EQ(verilog.states[card], twin.states[card]) << "card " << card << " of " << system.cards << ", N " << system.words;
+        }
+    }
+}
+
+TEST(GratingVerilog, IsAcceptedByVerilatorToo) {
+    if (!installed("verilator")) GTEST_SKIP() << "verilator is not installed (Debian package verilator); it did not read the Verilog";
+    std::string command = "verilator --lint-only -Wall -Wno-WIDTH -GN=8 -GCARDS=11 --top-module grating_system";
+    for (const char* file : {"scales", "decoder", "card", "system"}) command += " " + folder + "grating_" + file + ".sv";
+    EXPECT_EQ(std::system(command.c_str()), 0) << command;
+}
+
+}  // namespace
+}  // namespace motionrack::grating_bus::twin

@@ -1,0 +1,64 @@
+// The decoder card: counts N scales from their quadrature lines, freezes all counts at HOLD and answers the address on the bus.
+//
+//   hold   __/~~~~~~~~~~~~~~~~~~      one clock later the counts are frozen
+//   read_n ~~~~~~~~\__________/~      two clocks after read_n fell or addr changed the count is on data
+`timescale 1ns / 1ns
+
+module grating_decoder #(
+    parameter N = 4
+) (
+    input  logic         clock,
+    input  logic [N-1:0] a,
+    input  logic [N-1:0] b,
+    input  logic         hold,
+    input  logic         read_n,
+    input  logic [7:0]   addr,
+    output logic         data_enable,
+    output logic [31:0]  data,
+    output logic         illegal      // a scale's lines changed both in one clock, at some time
+);
+    logic [31:0] count  [0:N-1];
+    logic [31:0] frozen [0:N-1];
+    logic [N-1:0] jumped;
+    logic       hold_before = 0, read_before = 1, put_out = 0;
+    logic [7:0] addr_before = 8'hFF;
+
+    for (genvar k = 0; k < N; k = k + 1) begin : scale
+        logic [1:0] was = 0;
+        wire  [1:0] phase = {a[k], a[k] ^ b[k]};
+        wire  [1:0] step = phase - was;
+
+        initial begin
+            count[k] = 0;
+            frozen[k] = 0;
+            jumped[k] = 0;
+        end
+        always_ff @(posedge clock) begin
+            was <= phase;
+            if (step == 2'd1) count[k] <= count[k] + 32'd1;
+            if (step == 2'd3) count[k] <= count[k] - 32'd1;
+            if (step == 2'd2) jumped[k] <= 1;
+            if (hold && !hold_before) frozen[k] <= count[k];
+        end
+    end
+
+    localparam [7:0] SCALES = N;
+    localparam BITS = N == 1 ? 1 : $clog2(N);
+    wire [BITS-1:0] chosen = addr[BITS-1:0];
+    wire asked = !read_n && (read_before || addr != addr_before);
+
+    initial data = 0;
+    always_ff @(posedge clock) begin
+        hold_before <= hold;
+        read_before <= read_n;
+        addr_before <= addr;
+        if (asked)
+            put_out <= 1;
+        else if (put_out) begin
+            put_out <= 0;
+            if (data_enable) data <= hold ? frozen[chosen] : count[chosen];
+        end
+    end
+    assign data_enable = !read_n && addr < SCALES;
+    assign illegal = |jumped;
+endmodule

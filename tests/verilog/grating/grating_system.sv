@@ -1,0 +1,54 @@
+// A decoder with N moving scales, a host and CARDS - 1 slaves on one bus. Of drivers that differ the low level wins; what nobody drives
+// is at rest.
+`timescale 1ns / 1ns
+
+module grating_system #(
+    parameter N      = 4,
+    parameter CARDS  = 3,
+    parameter PERIOD = 20000
+) (
+    input  logic                clock,
+    input  logic                claim,
+    input  logic                give_back,
+    input  logic [7:0]          word_asked,
+    output logic [CARDS*32-1:0] words_read,
+    output logic [CARDS*32-1:0] sequences_read,
+    output logic [CARDS*64-1:0] times_read,
+    output logic [CARDS*32-1:0] crcs_read,
+    output logic [CARDS-1:0]    claimed,
+    output logic [CARDS-1:0]    frame_done,
+    output logic [CARDS*4-1:0]  states,
+    output logic                illegal,
+    output logic                conflict   // a line's drivers differ
+);
+    logic [CARDS-1:0] drives, clks, holds, reads_n;
+    logic [7:0]       addrs [0:CARDS-1];
+    logic [N-1:0]     a, b;
+    logic             clk, hold, read_n, data_enable;
+    logic [7:0]       addr;
+    logic [31:0]      data, decoder_data;
+
+    assign clk = &(clks | ~drives) && |drives;
+    assign hold = &(holds | ~drives) && |drives;
+    assign read_n = &(reads_n | ~drives);
+    always_comb begin
+        addr = 8'hFF;
+        conflict = (|(clks & drives) && |(~clks & drives)) || (|(holds & drives) && |(~holds & drives))
+                   || (|(reads_n & drives) && |(~reads_n & drives));
+        for (int i = 0; i < CARDS; i = i + 1) if (drives[i]) addr = addr & addrs[i];
+        for (int i = 0; i < CARDS; i = i + 1) if (drives[i] && addrs[i] != addr) conflict = 1;
+    end
+    assign data = data_enable ? decoder_data : 32'hFFFFFFFF;
+
+    grating_scales #(.N(N)) scales (.clock(clock), .a(a), .b(b));
+    grating_decoder #(.N(N)) decoder (.clock(clock), .a(a), .b(b), .hold(hold), .read_n(read_n), .addr(addr),
+                                      .data_enable(data_enable), .data(decoder_data), .illegal(illegal));
+    for (genvar i = 0; i < CARDS; i = i + 1) begin : slot
+        grating_card #(.N(N), .HOST(i == 0), .PERIOD(PERIOD)) card (
+            .clock(clock), .bus_clk(clk), .bus_read_n(read_n), .bus_data(data), .drives(drives[i]), .clk(clks[i]),
+            .hold(holds[i]), .read_n(reads_n[i]), .addr(addrs[i]), .claim(claim), .give_back(give_back),
+            .word_asked(word_asked), .word_read(words_read[32*i+:32]), .sequence_read(sequences_read[32*i+:32]),
+            .time_read(times_read[64*i+:64]), .crc_read(crcs_read[32*i+:32]), .claimed(claimed[i]),
+            .frame_done(frame_done[i]), .state(states[4*i+:4]));
+    end
+endmodule
