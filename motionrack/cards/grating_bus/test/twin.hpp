@@ -40,19 +40,23 @@ struct DecoderSettings {
 struct Published {
     Ticks at = 0;
     Frame frame;
+    friend bool operator==(const Published& a, const Published& b) { return a.at == b.at && a.frame.crc == b.frame.crc && same(a.frame, b.frame); }
 };
 struct StateChange {
     Ticks at = 0;
     int state = 0;
+    friend bool operator==(const StateChange&, const StateChange&) = default;
 };
 struct StaleChange {
     Ticks at = 0;
     bool stale = false;
+    friend bool operator==(const StaleChange&, const StaleChange&) = default;
 };
 struct LevelChange {
     Ticks at = 0;
     Line line = clk;
     std::uint32_t level = 0;
+    friend bool operator==(const LevelChange&, const LevelChange&) = default;
 };
 
 inline constexpr Ticks lasting = -1;
@@ -63,6 +67,7 @@ struct Conflict {
     Line line = clk;
     int bit = 0;
     std::set<int> high, low;
+    friend bool operator==(const Conflict&, const Conflict&) = default;
 };
 
 /// Each stays at FFFFh but `frames`.

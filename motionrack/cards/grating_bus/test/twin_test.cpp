@@ -2,8 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
-#include <motionrack/cards/grating_bus/test/twin.hpp>
-#include <random>
+#include <motionrack/cards/grating_bus/test/random_bus.hpp>
 
 namespace motionrack::grating_bus::twin {
 namespace {
@@ -149,48 +148,39 @@ TEST(GratingTwin, AClaimedFrameIsNotWrittenOver) {
 }
 
 TEST(GratingTwin, NothingHappensAtTheInstantsThatAreLeftOut) {
-    const std::uint64_t seed = 20'261'121;
+    constexpr std::uint64_t seed = 20'261'121;
     std::cout << "seed " << seed << std::endl;
-    std::mt19937_64 random(seed);
-    for (int round = 0; round < 12; ++round) {
-        std::vector<CardSettings> cards;
-        const int count = 1 + static_cast<int>(random() % 3);
-        for (int i = 0; i < count; ++i) {
-            cards.push_back(i == 0 || random() % 3 == 0 ? host(1 + static_cast<int>(random() % 3)) : slave(2));
-            for (Ticks* time : {&cards.back().t1, &cards.back().t2, &cards.back().t3, &cards.back().clock})
-                *time = 1 + static_cast<Ticks>(random() % 40);
-            cards.back().period = 700 + static_cast<Ticks>(random() % 100);
-            cards.back().offset = static_cast<Ticks>(random() % 50);
+    std::size_t published = 0, conflicts = 0, changes = 0, programs = 0;
+    Counters sum;
+    for (std::uint64_t number = 0; programs < 60; ++number) {
+        const Program program = Maker(seed + number).make();
+        if (program.end > 30'000) continue;
+        ++programs;
+        Twin twins[2] = {twin_of(program), twin_of(program, true)};
+        for (Twin& twin : twins)
+            for (const Op& op : program.ops) carry_out(twin, op);
+        SCOPED_TRACE("program " + std::to_string(number) + "\n" + text_of(program));
+        for (int card = 0; card < static_cast<int>(program.cards.size()); ++card) {
+            ASSERT_EQ(twins[0].frames(card), twins[1].frames(card));
+            ASSERT_EQ(twins[0].states(card), twins[1].states(card));
+            ASSERT_EQ(twins[0].stale_changes(card), twins[1].stale_changes(card));
+            ASSERT_EQ(twins[0].counters(card), twins[1].counters(card));
+            published += twins[0].frames(card).size();
+            sum.broken += twins[0].counters(card).broken, sum.missed_words += twins[0].counters(card).missed_words;
+            sum.alien += twins[0].counters(card).alien, sum.lines += twins[0].counters(card).lines;
+            sum.missed_edges += twins[0].counters(card).missed_edges, sum.overrun += twins[0].counters(card).overrun;
         }
-        DecoderSettings quick = decoder(2 + static_cast<int>(random() % 3));
-        quick.latch = static_cast<Ticks>(random() % 30);
-        quick.output = static_cast<Ticks>(random() % 30);
-        quick.count = [](int scale, Ticks at) { return static_cast<std::uint32_t>(1000 * scale + at / 7); };
-        Twin twins[2] = {Twin(cards, {quick}, false), Twin(cards, {quick}, true)};
-        for (Twin& twin : twins) {
-            twin.run_to(2000);
-            twin.set_late(count - 1, 33);
-            twin.force(addr, 2, 0);
-            twin.run_to(4000);
-            twin.release(addr, 2);
-            twin.run_to(6000);
-        }
-        for (int card = 0; card < count; ++card) {
-            ASSERT_EQ(twins[0].frames(card).size(), twins[1].frames(card).size());
-            for (std::size_t i = 0; i < twins[0].frames(card).size(); ++i) {
-                EXPECT_EQ(twins[0].frames(card)[i].at, twins[1].frames(card)[i].at);
-                EXPECT_TRUE(same(twins[0].frames(card)[i].frame, twins[1].frames(card)[i].frame));
-            }
-            EXPECT_EQ(twins[0].stale_changes(card).size(), twins[1].stale_changes(card).size());
-            EXPECT_EQ(twins[0].counters(card), twins[1].counters(card));
-        }
-        ASSERT_EQ(twins[0].changes().size(), twins[1].changes().size());
-        for (std::size_t i = 0; i < twins[0].changes().size(); ++i) {
-            EXPECT_EQ(twins[0].changes()[i].at, twins[1].changes()[i].at);
-            EXPECT_EQ(twins[0].changes()[i].level, twins[1].changes()[i].level);
-        }
-        EXPECT_EQ(twins[0].conflicts().size(), twins[1].conflicts().size());
+        ASSERT_EQ(twins[0].changes(), twins[1].changes());
+        ASSERT_EQ(twins[0].conflicts(), twins[1].conflicts());
+        conflicts += twins[0].conflicts().size();
+        changes += twins[0].changes().size();
     }
+    std::cout << published << " frames, " << conflicts << " conflicts, " << changes << " changes of lines; broken " << sum.broken
+              << ", missed words " << sum.missed_words << ", alien " << sum.alien << ", lines " << sum.lines << ", missed edges "
+              << sum.missed_edges << ", overrun " << sum.overrun << std::endl;
+    EXPECT_GT(published, 100u);
+    EXPECT_GT(conflicts, 100u);
+    EXPECT_TRUE(sum.broken && sum.missed_words && sum.alien && sum.lines && sum.missed_edges && sum.overrun);
 }
 
 }  // namespace

@@ -1,0 +1,183 @@
+// Makes the random programs.
+#include <algorithm>
+#include <motionrack/cards/grating_bus/test/random_bus.hpp>
+
+namespace motionrack::grating_bus::twin {
+
+Program Maker::make() {
+    program_ = {};
+    constexpr Ticks grains[] = {1, 10, 100};
+    grain_ = grains[below(3)];
+    add_cards();
+    add_decoder();
+    const std::int64_t periods = 3 + below(12);
+    program_.end = (periods + 1) * period_;
+    const std::int64_t ops = one_in(4) ? 0 : below(25);
+    for (std::int64_t i = 0; i < ops; ++i) program_.ops.push_back(op());
+    // What is stuck or off is mostly put right again.
+    for (std::size_t i = 0; i < program_.ops.size() && program_.ops.size() < 60; ++i) {
+        Op other = program_.ops[i];
+        if (one_in(4)) continue;
+        if (other.kind == Op::force) other.kind = Op::release;
+        else if ((other.kind == Op::off || other.kind == Op::no_latch) && other.a == 1) other.a = 0;
+        else continue;
+        other.at = std::min(program_.end, other.at + (one_in(2) ? time(0, 40) : below(2 * period_)));
+        program_.ops.push_back(other);
+    }
+    std::stable_sort(program_.ops.begin(), program_.ops.end(), [](const Op& a, const Op& b) { return a.at < b.at; });
+    Op last;
+    last.at = program_.end;
+    program_.ops.push_back(last);
+    return program_;
+}
+
+Timing Maker::timing() {
+    return {Duration{time(1, 30)}, Duration{time(1, 40)}, Duration{time(1, 40)}, Duration{time(1, 12)}};
+}
+
+void Maker::set(CardSettings& card, const Timing& timing) {
+    card.t1 = timing.t1.count(), card.t2 = timing.t2.count(), card.t3 = timing.t3.count(), card.clock = timing.clock.count();
+}
+
+void Maker::add_cards() {
+    const std::int64_t count = 1 + below(one_in(5) ? 11 : 4);
+    const bool alike = !one_in(3);
+    const Timing common = timing();
+    const int words = static_cast<int>(1 + below(one_in(6) ? 20 : 5)), first = one_in(3) ? static_cast<int>(below(6)) : 0;
+    Ticks longest = 0;
+    for (std::int64_t i = 0; i < count; ++i) {
+        CardSettings card;
+        card.host = i == 0 ? !one_in(12) : kinds_.hosts && one_in(8);
+        card.clock_out = card.address_out = card.host;
+        if (kinds_.directions && one_in(15)) card.clock_out = !card.clock_out;
+        if (kinds_.directions && one_in(15)) card.address_out = !card.address_out;
+        card.checks = !one_in(3);
+        const Timing own = alike || one_in(2) ? common : timing();
+        set(card, own);
+        card.words = alike || one_in(2) ? words : static_cast<int>(1 + below(6));
+        card.first = alike || one_in(2) ? first : static_cast<int>(below(4));
+        longest = std::max(longest, own.frame_time(card.words).count());
+        card.jitter = [seed = i](std::int64_t n, Ticks most) { return ((n + seed) * 7919) % (most + 1); };
+        program_.cards.push_back(card);
+        program_.seeds.push_back(random_());
+    }
+    constexpr Ticks margins[] = {1, 3, 50};
+    period_ = longest + time(1, 1 + longest / grain_ / margins[below(3)]);
+    for (CardSettings& card : program_.cards) {
+        card.period = period_ + (alike || one_in(2) ? 0 : time(0, 5));
+        card.offset = one_in(2) ? 0 : one_in(2) ? time(0, 20) : below(period_);
+    }
+}
+
+void Maker::add_decoder() {
+    int scales = 1 + static_cast<int>(below(8));
+    for (const CardSettings& card : program_.cards)
+        if (!one_in(8)) scales = std::max(scales, card.first + card.words);
+    program_.decoder.scales = scales;
+    program_.decoder.latch = one_in(8) ? 0 : time(1, 12);
+    program_.decoder.output = one_in(8) ? 0 : time(1, 25);
+    for (int k = 0; k < scales; ++k)
+        program_.scales.push_back({static_cast<std::uint32_t>(random_()), below(7) - 3, one_in(3) ? 1 + below(20) : 500 + below(3000)});
+    program_.decoder.count = [scales_of = program_.scales](int scale, Ticks at) { return scales_of[static_cast<std::size_t>(scale)].at(at); };
+}
+
+/// Mostly where frames are read, and often at an instant at which something happens.
+Ticks Maker::instant() {
+    const CardSettings& card = program_.cards[static_cast<std::size_t>(below(static_cast<std::int64_t>(program_.cards.size())))];
+    const Timing timing{Duration{card.t1}, Duration{card.t2}, Duration{card.t3}, Duration{card.clock}};
+    const Ticks begin = card.offset + below(program_.end / card.period + 1) * card.period;
+    const Ticks frame = timing.frame_time(card.words).count();
+    Ticks at = 0;
+    switch (below(5)) {
+        case 0: at = below(program_.end + 1); break;
+        case 1: at = begin + below(frame + 1) / grain_ * grain_; break;
+        case 2: at = begin + timing.sample_at(static_cast<int>(below(card.words))).count() + (one_in(2) ? 0 : time(-1, 1)); break;
+        case 3: at = begin + (one_in(2) ? frame : card.period / 2); break;
+        default: at = begin; break;
+    }
+    return std::clamp<Ticks>(at, 0, program_.end);
+}
+
+Op Maker::op() {
+    Op op;
+    op.at = instant();
+    const std::int64_t what = below(100);
+    const std::int64_t cards = static_cast<std::int64_t>(program_.cards.size());
+    op.who = static_cast<int>(below(cards));
+    const bool host = program_.cards[static_cast<std::size_t>(op.who)].host;
+    if (what < 15) {
+        op.kind = Op::look;
+    } else if (what < 23) {
+        op.kind = Op::off, op.a = 1;
+    } else if (what < 30) {
+        op.kind = Op::reset;
+    } else if (what < 42) {
+        op.kind = host ? Op::look : Op::late, op.a = one_in(3) ? 0 : one_in(3) ? below(2 * period_) : time(0, 30);
+    } else if (what < 50) {
+        op.kind = host ? Op::look : Op::miss_edges, op.a = below(4);
+    } else if (what < 55) {
+        op.kind = host && kinds_.jitter ? Op::jitter : Op::look, op.a = one_in(3) ? 0 : below(period_ / 2 + 1);
+    } else if (what < 60) {
+        op.kind = Op::no_latch, op.who = 0, op.a = 1;
+    } else if (what < 78) {
+        op.kind = Op::force;
+        op.line = static_cast<Line>(below(4));
+        op.bit = op.line == addr ? static_cast<int>(below(8)) : -1;
+        op.a = below(2);
+    } else if (what < 92) {
+        op.kind = Op::claim;
+    } else if (what < 97) {
+        op.kind = Op::give_back;
+    } else {
+        op.kind = Op::clear;
+    }
+    return op;
+}
+
+Twin twin_of(const Program& program, bool every_tick) {
+    Twin twin(program.cards, {program.decoder}, every_tick);
+    return twin;
+}
+
+void carry_out(Twin& twin, const Op& op) {
+    const std::uint32_t mask = op.bit >= 0 ? 1u << op.bit : rest[data];
+    twin.run_to(op.at);
+    switch (op.kind) {
+        case Op::look: break;
+        case Op::off: twin.set_off(op.who, op.a != 0); break;
+        case Op::reset: twin.reset(op.who); break;
+        case Op::late: twin.set_late(op.who, op.a); break;
+        case Op::miss_edges: twin.set_miss_edges(op.who, static_cast<int>(op.a)); break;
+        case Op::jitter: twin.set_jitter(op.who, op.a); break;
+        case Op::no_latch: twin.set_no_latch(op.who, op.a != 0); break;
+        case Op::force: twin.force(op.line, mask, op.a != 0 ? mask : 0); break;
+        case Op::release: twin.release(op.line, mask); break;
+        case Op::claim: twin.claim(op.who); break;
+        case Op::give_back: twin.give_back(op.who); break;
+        case Op::clear: twin.clear_errors(op.who); break;
+    }
+}
+
+std::string text_of(const Program& program) {
+    constexpr const char* kinds[] = {"look", "off", "reset", "late", "miss_edges", "jitter", "no_latch", "force", "release", "claim", "give_back", "clear"};
+    std::string out;
+    const auto add = [&out](const char* name, std::int64_t value) { out.append(" ").append(name).append(" ").append(std::to_string(value)); };
+    for (const CardSettings& card : program.cards) {
+        out += card.host ? "host " : "slave";
+        add("clock_out", card.clock_out), add("address_out", card.address_out), add("checks", card.checks), add("first", card.first);
+        add("words", card.words), add("t1", card.t1), add("t2", card.t2), add("t3", card.t3), add("t", card.clock);
+        add("period", card.period), add("offset", card.offset);
+        out += "\n";
+    }
+    out += "decoder";
+    add("scales", program.decoder.scales), add("latch", program.decoder.latch), add("output", program.decoder.output);
+    out += "\n";
+    for (const Op& op : program.ops) {
+        out += std::to_string(op.at) + " " + kinds[op.kind];
+        add("who", op.who), add("a", op.a), add("line", op.line), add("bit", op.bit);
+        out += "\n";
+    }
+    return out;
+}
+
+}  // namespace motionrack::grating_bus::twin

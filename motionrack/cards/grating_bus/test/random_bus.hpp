@@ -1,0 +1,76 @@
+// Random programs for the bus: cards, decoders, timings, and what is done to them from outside.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/cards/grating_bus/test/twin.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace motionrack::grating_bus::twin {
+
+/// One thing done from outside; `who` a card or decoder, `a` and `b` as the kind has them.
+struct Op {
+    enum Kind { look, off, reset, late, miss_edges, jitter, no_latch, force, release, claim, give_back, clear };
+    Ticks at = 0;
+    Kind kind = look;
+    int who = 0;
+    std::int64_t a = 0;  ///< off, no_latch: 0 or 1; late, jitter: ticks; miss_edges: how many; force: the level
+    Line line = clk;
+    int bit = -1;  ///< of addr, or the whole line
+};
+
+/// A scale that starts at `start` and moves by `step` counts in each `every` ticks.
+struct Motion {
+    std::uint32_t start = 0;
+    std::int64_t step = 1, every = 500;
+    std::uint32_t at(Ticks t) const { return start + static_cast<std::uint32_t>(step * (t / every)); }
+};
+
+struct Program {
+    std::vector<CardSettings> cards;
+    std::vector<std::uint64_t> seeds;  ///< of the cards' jitter
+    DecoderSettings decoder;           ///< without its `count`, which is that of `scales`
+    std::vector<Motion> scales;
+    std::vector<Op> ops;
+    Ticks end = 0;
+};
+
+/// What a program may contain.
+struct Kinds {
+    bool hosts = true;       ///< more than one
+    bool directions = true;  ///< wrong shifters
+    bool jitter = true;
+};
+
+class Maker {
+  public:
+    explicit Maker(std::uint64_t seed, Kinds kinds = {}) : random_(seed), kinds_(kinds) {}
+    Program make();
+
+  private:
+    std::int64_t below(std::int64_t n) { return static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(n)); }
+    bool one_in(std::int64_t n) { return below(n) == 0; }
+    Ticks time(Ticks least, Ticks most) { return (least + below(most - least + 1)) * grain_; }
+    Timing timing();
+    void set(CardSettings& card, const Timing& timing);
+    void add_cards();
+    void add_decoder();
+    Ticks instant();
+    Op op();
+
+    std::mt19937_64 random_;
+    Kinds kinds_;
+    Program program_;
+    Ticks grain_ = 1, period_ = 0;
+};
+
+/// The program's twin, before its first instant.
+Twin twin_of(const Program& program, bool every_tick = false);
+/// Runs the twin to the operation's instant and does it.
+void carry_out(Twin& twin, const Op& op);
+
+/// For messages of failed tests.
+std::string text_of(const Program& program);
+
+}  // namespace motionrack::grating_bus::twin
