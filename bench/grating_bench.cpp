@@ -33,7 +33,7 @@ class Clocked {
         }
     }
     std::int64_t frames() const { return frames_; }
-    bool conflict() const { return system_->conflict; }
+    bool conflict() const { return system_->conflict != 0; }
     /// Claims the last frame; whether it is the same on all cards, of that time in clocks, and scale 0 where it must be.
     bool holds_frame_of(std::int64_t clock) {
         system_->claim = 1;

@@ -12,6 +12,7 @@ module grating_card #(
     parameter FIRST  = 0,        // address of the first one
     parameter HOST   = 0,
     parameter PERIOD = 20000,
+    parameter OFFSET = 0,        // how much later a host's periods begin, at most half a period
     parameter T1     = 2,
     parameter T2     = 3,
     parameter T3     = 3,
@@ -54,7 +55,7 @@ module grating_card #(
     endfunction
 
     // ---- the host's clock, edges of the bus' one ------------------------------------------------------------------------------
-    logic [31:0] phase = 0;
+    logic [31:0] phase = OFFSET == 0 ? 0 : PERIOD - OFFSET;
     logic        own_clk = 0, clk_before = 0;
     logic [63:0] now = 0;
     wire         clk_heard = HOST != 0 ? own_clk : bus_clk;

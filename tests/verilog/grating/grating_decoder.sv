@@ -20,8 +20,8 @@ module grating_decoder #(
     logic [31:0] count  [0:N-1];
     logic [31:0] frozen [0:N-1];
     logic [N-1:0] jumped;
-    logic       hold_before = 0, read_before = 1, put_out = 0;
-    logic [7:0] addr_before = 8'hFF;
+    logic         hold_before = 0, read_before = 1;
+    logic [7:0]   addr_before = 8'hFF;
 
     for (genvar k = 0; k < N; k = k + 1) begin : scale
         logic [1:0] was = 0;
@@ -42,23 +42,30 @@ module grating_decoder #(
         end
     end
 
+    // ---- the answer: two clocks after the last of read_n's fall and addr's change, and three after hold's edge -----------------
     localparam [7:0] SCALES = N;
     localparam BITS = N == 1 ? 1 : $clog2(N);
     wire [BITS-1:0] chosen = addr[BITS-1:0];
-    wire asked = !read_n && (read_before || addr != addr_before);
+    wire        asked = !read_n && (read_before || addr != addr_before);
+    wire        held = hold && !hold_before;
+    logic       waits = 0;
+    logic [1:0] since_asked = 0, since_held = 0;      // clocks, at most 2 and 3
+    logic [31:0] data_before = 0;
+    wire  [1:0] asked_for = asked ? 2'd0 : since_asked;
+    wire  [1:0] held_for = held ? 2'd0 : since_held;
+    wire        owes = asked || held || waits;
+    wire        puts_out = data_enable && owes && asked_for == 2'd2 && (!hold || held_for == 2'd3);
 
-    initial data = 0;
+    assign data_enable = !read_n && addr < SCALES;
+    assign data = !puts_out ? data_before : hold ? frozen[chosen] : count[chosen];
     always_ff @(posedge clock) begin
         hold_before <= hold;
         read_before <= read_n;
         addr_before <= addr;
-        if (asked)
-            put_out <= 1;
-        else if (put_out) begin
-            put_out <= 0;
-            if (data_enable) data <= hold ? frozen[chosen] : count[chosen];
-        end
+        since_asked <= asked_for == 2'd2 ? 2'd2 : asked_for + 2'd1;
+        since_held <= held_for == 2'd3 ? 2'd3 : held_for + 2'd1;
+        waits <= owes && !puts_out;
+        data_before <= data;
     end
-    assign data_enable = !read_n && addr < SCALES;
     assign illegal = |jumped;
 endmodule

@@ -1,11 +1,13 @@
-// A decoder with N moving scales, a host and CARDS - 1 slaves on one bus. Of drivers that differ the low level wins; what nobody drives
+// A decoder with N moving scales and CARDS cards on one bus: HOSTS hosts, each APART clocks later than the one before, and slaves. Of drivers that differ the low level wins; what nobody drives
 // is at rest.
 `timescale 1ns / 1ns
 
 module grating_system #(
     parameter N      = 4,
     parameter CARDS  = 3,
-    parameter PERIOD = 20000
+    parameter PERIOD = 20000,
+    parameter HOSTS  = 1,
+    parameter APART  = 0
 ) (
     input  logic                clock,
     input  logic                claim,
@@ -19,7 +21,8 @@ module grating_system #(
     output logic [CARDS-1:0]    frame_done,
     output logic [CARDS*4-1:0]  states,
     output logic                illegal,
-    output logic                conflict   // a line's drivers differ
+    output logic                clk_conflict,   // its drivers differ
+    output logic                conflict        // those of hold, read_n or addr
 );
     logic [CARDS-1:0] drives, clks, holds, reads_n;
     logic [7:0]       addrs [0:CARDS-1];
@@ -33,8 +36,8 @@ module grating_system #(
     assign read_n = &(reads_n | ~drives);
     always_comb begin
         addr = 8'hFF;
-        conflict = (|(clks & drives) && |(~clks & drives)) || (|(holds & drives) && |(~holds & drives))
-                   || (|(reads_n & drives) && |(~reads_n & drives));
+        clk_conflict = |(clks & drives) && |(~clks & drives);
+        conflict = (|(holds & drives) && |(~holds & drives)) || (|(reads_n & drives) && |(~reads_n & drives));
         for (int i = 0; i < CARDS; i = i + 1) if (drives[i]) addr = addr & addrs[i];
         for (int i = 0; i < CARDS; i = i + 1) if (drives[i] && addrs[i] != addr) conflict = 1;
     end
@@ -44,7 +47,7 @@ module grating_system #(
     grating_decoder #(.N(N)) decoder (.clock(clock), .a(a), .b(b), .hold(hold), .read_n(read_n), .addr(addr),
                                       .data_enable(data_enable), .data(decoder_data), .illegal(illegal));
     for (genvar i = 0; i < CARDS; i = i + 1) begin : slot
-        grating_card #(.N(N), .HOST(i == 0), .PERIOD(PERIOD)) card (
+        grating_card #(.N(N), .HOST(i < HOSTS), .PERIOD(PERIOD), .OFFSET(i < HOSTS ? i * APART : 0)) card (
             .clock(clock), .bus_clk(clk), .bus_read_n(read_n), .bus_data(data), .drives(drives[i]), .clk(clks[i]),
             .hold(holds[i]), .read_n(reads_n[i]), .addr(addrs[i]), .claim(claim), .give_back(give_back),
             .word_asked(word_asked), .word_read(words_read[32*i+:32]), .sequence_read(sequences_read[32*i+:32]),

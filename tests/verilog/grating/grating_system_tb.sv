@@ -1,31 +1,35 @@
 // Runs grating_system for FRAMES periods and prints what each card does:
 //   state CARD CLOCK STATE                          a state was entered
-//   frame CARD SEQUENCE TIME CRC COUNT ..           the claimed frame, after it was complete
-//   end CLOCK CONFLICTS ILLEGAL                     clocks with a conflict on a line; whether a scale was too fast
+//   frame CARD SEQUENCE TIME CRC COUNT ..           the claimed frame, after those of all cards were complete
+//   end CLOCK CONFLICTS CONFLICTS ILLEGAL           clocks with a conflict on clk, on the others; whether a scale was too fast
 `timescale 1ns / 1ns
 
 module grating_system_tb #(
     parameter N      = 4,
     parameter CARDS  = 3,
     parameter PERIOD = 20000,
-    parameter FRAMES = 3
+    parameter FRAMES = 3,
+    parameter HOSTS  = 1,
+    parameter APART  = 0
 );
-    logic                clock = 0, claim = 0, illegal, conflict;
+    logic                clock = 0, claim = 0, illegal, clk_conflict, conflict;
     logic [7:0]          word_asked = 0;
     logic [CARDS*32-1:0] words, sequences, crcs;
     logic [CARDS*64-1:0] times;
-    logic [CARDS-1:0]    claimed, frame_done;
+    logic [CARDS-1:0]    claimed, frame_done, done;
     logic [CARDS*4-1:0]  states, was;
     logic [31:0]         frame [0:CARDS*N-1];
-    integer              cycle, conflicts, i, w, reading;
+    integer              cycle, clk_conflicts, conflicts, i, w, reading;
 
-    grating_system #(.N(N), .CARDS(CARDS), .PERIOD(PERIOD)) system (
+    grating_system #(.N(N), .CARDS(CARDS), .PERIOD(PERIOD), .HOSTS(HOSTS), .APART(APART)) system (
         .clock(clock), .claim(claim), .give_back(1'b0), .word_asked(word_asked), .words_read(words),
         .sequences_read(sequences), .times_read(times), .crcs_read(crcs), .claimed(claimed), .frame_done(frame_done),
-        .states(states), .illegal(illegal), .conflict(conflict));
+        .states(states), .illegal(illegal), .clk_conflict(clk_conflict), .conflict(conflict));
 
     initial begin
         was = 0;
+        done = 0;
+        clk_conflicts = 0;
         conflicts = 0;
         reading = -1;
         for (cycle = 1; cycle <= FRAMES * PERIOD; cycle = cycle + 1) begin
@@ -34,8 +38,10 @@ module grating_system_tb #(
             for (i = 0; i < CARDS; i = i + 1)
                 if (states[4*i+:4] != was[4*i+:4]) $display("state %0d %0d %0d", i, cycle, states[4*i+:4]);
             was = states;
+            if (clk_conflict) clk_conflicts = clk_conflicts + 1;
             if (conflict) conflicts = conflicts + 1;
-            claim = &frame_done;
+            done = done | frame_done;
+            claim = &done;
             if (reading >= 0) begin
                 for (i = 0; i < CARDS; i = i + 1) frame[i*N+reading] = words[32*i+:32];
                 reading = reading + 1;
@@ -49,14 +55,17 @@ module grating_system_tb #(
                 end
                 word_asked = reading < 0 ? 8'd0 : reading;
             end
-            if (claim) reading = -2;
+            if (claim) begin
+                reading = -2;
+                done = 0;
+            end
             else if (reading == -2) begin
                 reading = 0;
                 word_asked = 0;
             end
             #1 clock = 0;
         end
-        $display("end %0d %0d %0d", FRAMES * PERIOD, conflicts, illegal);
+        $display("end %0d %0d %0d %0d", FRAMES * PERIOD, clk_conflicts, conflicts, illegal);
         $finish;
     end
 endmodule
