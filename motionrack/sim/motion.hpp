@@ -59,6 +59,9 @@ class Motion {
     virtual void watch(int slot, std::int64_t below, std::int64_t above) = 0;
     /// Adds a listener before the kernel starts; returns its slot (at most max_listeners).
     virtual int listen(MotionListener& listener) = 0;
+    /// Before the start: listeners are also to hear rate_changed when |rate| passes `rate` (counts a second, >= 0) along a curve; at most
+    /// max_listeners marks. A motion whose rate changes in steps has nothing to do for it.
+    virtual void mark_rate(double rate) { (void)rate; }
     /// From now on (the owner's present instant) edges are made and handed over; nullptr: nobody listens.
     virtual void listen_edges(EdgeListener* listener) = 0;
     /// Hands over the edges up to the kernel's present instant now, if somebody listens.

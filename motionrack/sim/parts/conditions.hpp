@@ -12,7 +12,10 @@ enum class AxisCondition : std::uint16_t {
     fell_out_of_step = 1,  ///< a: the pulse rate before, b: after, Hz to the nearest whole, signed
     lost_steps = 2,        ///< a: pulses lost this time (signed: pulses - rotor), b: lost in all
     end_of_travel = 3,     ///< a: +1 or -1, b: rotor in microsteps
-    axle_held = 4          ///< fault: a: rotor in microsteps
+    axle_held = 4,         ///< fault: a: rotor in microsteps
+    stage_end = 5,         ///< a: +1 or -1, b: nm
+    scale_too_fast = 6,    ///< a: counts a second, b: the greatest rate that is counted
+    scale_lost = 7         ///< a: counts lost this time, b: in all
 };
 
 /// What happened, for a person: "axis X lost 64 pulses (64 in all) ...". `axis`: the machine's name.

@@ -1,0 +1,348 @@
+// Parabolas in whole numbers, and when they end.
+#include <cmath>
+#include <motionrack/base/result.hpp>
+#include <motionrack/sim/parts/conditions.hpp>
+#include <motionrack/sim/parts/linear_stage.hpp>
+#include <type_traits>
+
+namespace motionrack::parts {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> all_faults = {"motor.stall", "motor.push", "motor.friction", "motor.load"};
+constexpr int fine_bits = 68;
+constexpr double fine = 0x1p68;                             // of a count
+constexpr double counts_per_m = 1e9 * places_per_nm;
+constexpr double ticks_per_s = 1e10;
+constexpr std::int64_t endless = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t longest = std::int64_t{1} << 40;     // ticks of one parabola: place and speed stay within 128 bits
+constexpr std::int64_t viscous_piece = 1'000'000;           // 100 us
+constexpr double viscous_piece_s = 1e-4;
+constexpr std::int64_t farthest = std::int64_t{1} << 50;    // counts, beyond every end of travel
+
+template <class T>
+int sign(T x) {
+    return (x > 0) - (x < 0);
+}
+
+Wide fine_place(std::int64_t count) {
+    return Wide{count} << fine_bits;
+}
+
+/// m/s as 2^-68 counts a tick.
+Wide fine_speed(double m_s) {
+    return static_cast<Wide>(m_s * (counts_per_m / ticks_per_s) * fine);
+}
+
+double in_m_s(Wide speed) {
+    return static_cast<double>(speed) / fine * (ticks_per_s / counts_per_m);
+}
+
+std::int64_t count_of_nm(double nm) {
+    return static_cast<std::int64_t>(std::floor(nm * static_cast<double>(places_per_nm) + 0.5));
+}
+
+/// a / b, rounded up; both > 0.
+std::int64_t steps_up(Wide a, Wide b) {
+    const Wide steps = (a + b - 1) / b;
+    return steps > longest ? longest : static_cast<std::int64_t>(steps);
+}
+
+}  // namespace
+
+LinearStage::LinearStage(sim::Kernel& kernel, const std::string& name, const LinearStageSettings& s, const std::string& wire)
+    : kernel_(kernel),
+      settings_(s),
+      top_speed_(fine_speed(s.top_speed)),
+      end_minus_(count_of_nm(s.end_minus_nm)),
+      end_plus_(count_of_nm(s.end_plus_nm)),
+      id_(kernel.add(*this, sim::Phase::parts, name)),
+      drive_(kernel.add_wire(wire.empty() ? name + ".drive" : wire, 0)) {
+    static_assert(sizeof(State) == 2 * sizeof(Wide) + 7 * 8 + slots * sizeof(Range) + 6 * 4, "padding would get into the state's hash");
+    MOTIONRACK_ASSERT(s.accel_per_volt > 0 && s.accel_per_volt <= 1'000 && s.top_accel > 0 && s.top_accel <= 1'000);
+    MOTIONRACK_ASSERT(s.top_speed > 0 && s.top_speed <= 10 && s.viscous >= 0 && s.viscous <= 100);
+    MOTIONRACK_ASSERT(s.coulomb >= 0 && s.coulomb <= 1'000 && s.load >= 0 && s.load <= 1'000);
+    MOTIONRACK_ASSERT(s.end_minus_nm >= -1e10 && s.end_minus_nm <= s.start_nm && s.start_nm <= s.end_plus_nm && s.end_plus_nm <= 1e10);
+    kernel.listen(drive_, id_, 0);
+    state_.place = fine_place(count_of_nm(s.start_nm));
+    state_.load = s.load;
+    begin_law();
+}
+
+std::span<const std::string_view> LinearStage::fault_names() {
+    return all_faults;
+}
+
+// ---- where it is ----------------------------------------------------------------------------------------------------
+
+std::int64_t LinearStage::count(Instant t) const {
+    return static_cast<std::int64_t>(place_at(t) >> fine_bits);
+}
+
+double LinearStage::rate(Instant t) const {
+    return static_cast<double>(speed_at(t)) / fine * ticks_per_s;
+}
+
+double LinearStage::position_nm(Instant t) const {
+    return static_cast<double>(place_at(t)) / (fine * static_cast<double>(places_per_nm));
+}
+
+double LinearStage::speed(Instant t) const {
+    return in_m_s(speed_at(t));
+}
+
+double LinearStage::accel() const {
+    return static_cast<double>(state_.half_accel) * 2 / fine * (ticks_per_s * ticks_per_s / counts_per_m);
+}
+
+/// Where the first tick of the parabola leads, and so all of it.
+int LinearStage::direction() const {
+    return sign(state_.speed + state_.half_accel);
+}
+
+// ---- one parabola ---------------------------------------------------------------------------------------------------
+
+/// Half the acceleration while it moves in `direction` and is pushed with `push` m/s2.
+std::int64_t LinearStage::accel_law(double push, int direction) const {
+    const double mass = 1 + state_.load, viscous = settings_.viscous / mass;
+    const double rubbing = (settings_.coulomb + state_.rubbing) / mass;
+    const double accel = (push - direction * rubbing - viscous * in_m_s(state_.speed)) / (1 + viscous * viscous_piece_s / 2);
+    return static_cast<std::int64_t>(std::floor(accel * (counts_per_m / (ticks_per_s * ticks_per_s)) * (fine / 2) + 0.5));
+}
+
+/// How it goes on from the present place and speed.
+void LinearStage::begin_law() {
+    State& s = state_;
+    const double mass = 1 + s.load;
+    const double push = std::clamp(volts() * settings_.accel_per_volt, -settings_.top_accel, settings_.top_accel) / mass;
+    s.half_accel = 0;
+    s.length = endless;
+    if (s.held) s.speed = 0;
+    if (s.speed > top_speed_) s.speed = top_speed_;
+    if (s.speed < -top_speed_) s.speed = -top_speed_;
+    if (s.speed != 0) {
+        s.half_accel = accel_law(push, sign(s.speed));
+        const Wide change = 2 * Wide{s.half_accel} * sign(s.speed);
+        if (change < 0 && s.speed * sign(s.speed) < -change) {  // it turns within a tick
+            s.length = 1;
+            if (settings_.coulomb + s.rubbing == 0) return;
+            s.speed = 0;
+        }
+    }
+    if (s.speed == 0) {
+        const bool stands = s.held || s.blocked == sign(push) || std::fabs(push) * mass <= settings_.coulomb + s.rubbing;
+        s.half_accel = stands ? 0 : accel_law(push, sign(push));
+        s.length = endless;
+        if (s.half_accel == 0) return;
+    }
+    s.blocked = 0;
+    if (s.speed * sign(s.half_accel) >= top_speed_) s.half_accel = 0;
+    s.length = law_length();
+}
+
+/// Ticks until the parabola turns, meets the top speed or a marked one, or is long enough.
+std::int64_t LinearStage::law_length() const {
+    std::int64_t length = settings_.viscous > 0 ? viscous_piece : longest;
+    if (state_.half_accel == 0) return length;
+    const Wide speed = state_.speed * direction(), change = 2 * Wide{state_.half_accel} * direction();
+    const auto ends = [&](std::int64_t at) { length = std::min(length, std::max<std::int64_t>(at, 1)); };
+    if (change < 0) ends(steps_up(speed + change + 1, -change));  // the last tick at which it does not go back yet
+    if (change > 0) ends(steps_up(top_speed_ - speed, change));
+    for (int i = 0; i < mark_count_; ++i) {
+        const Wide mark = marks_[static_cast<std::size_t>(i)];
+        if (change > 0 && speed <= mark) ends(steps_up(mark + 1 - speed, change));
+        if (change < 0 && speed > mark) ends(steps_up(speed - mark, -change));
+    }
+    return length;
+}
+
+void LinearStage::move_to(Instant now) {
+    hand_over(now);
+    state_.place = place_at(now);
+    state_.speed = speed_at(now);
+    state_.since = now;
+}
+
+/// Voltage, load or a hand have changed something.
+void LinearStage::change(Instant now) {
+    const double before = rate(now);
+    move_to(now);
+    begin_law();
+    tell(before, now);
+    reschedule();
+}
+
+void LinearStage::tell(double before, Instant now) {
+    const double after = rate(now);
+    if (after == state_.told && before == after) return;
+    state_.told = after;
+    for (int i = 0; i < listener_count_; ++i) listeners_[static_cast<std::size_t>(i)]->rate_changed(before, after, now);
+}
+
+// ---- when something happens -----------------------------------------------------------------------------------------
+
+Instant LinearStage::law_end() const {
+    return state_.length == endless ? never : state_.since + Duration{state_.length};
+}
+
+/// About how many ticks it takes for `way` (>= 0, in the direction of motion).
+std::int64_t LinearStage::guess(Wide way, std::int64_t last) const {
+    const double d = static_cast<double>(way), v = std::fabs(static_cast<double>(state_.speed));
+    const double a = static_cast<double>(state_.half_accel) * direction(), under = v * v + 4 * a * d;
+    const double whole = v + (under > 0 ? std::sqrt(under) : 0);
+    const double ticks = whole > 0 ? 2 * d / whole : static_cast<double>(last);
+    return ticks < static_cast<double>(last) ? static_cast<std::int64_t>(ticks) : last;
+}
+
+/// The first instant of the present law at which the count is there; never if it does not come there.
+Instant LinearStage::reaches(std::int64_t there) const {
+    const int way = direction();
+    if (way == 0 || there > farthest || there < -farthest) return never;
+    const Wide edge = fine_place(way > 0 ? there : there + 1);
+    const auto passed = [&](std::int64_t ticks) { return way > 0 ? place_after(ticks) >= edge : place_after(ticks) < edge; };
+    const std::int64_t last = state_.length;
+    if (passed(0)) return state_.since;
+    if (!passed(last)) return never;
+    std::int64_t high = std::max<std::int64_t>(guess((edge - state_.place) * way, last), 1), low = 0, step = 1;
+    if (passed(high)) {
+        while (high - step > 0 && passed(high - step)) high -= step, step *= 2;
+        low = std::max<std::int64_t>(high - step, 0);
+    } else {
+        low = high;
+        while (low + step < last && !passed(low + step)) low += step, step *= 2;
+        high = std::min(low + step, last);
+    }
+    while (high - low > 1) {
+        const std::int64_t middle = low + (high - low) / 2;
+        (passed(middle) ? high : low) = middle;
+    }
+    return state_.since + Duration{high};
+}
+
+Instant LinearStage::next(Instant now) const {
+    const std::int64_t here = count(now);
+    std::int64_t low = end_minus_, high = end_plus_;
+    for (int i = 0; i < listener_count_; ++i) {
+        const Range& watch = state_.watches[static_cast<std::size_t>(i)];
+        if (watch.left(here)) return now;
+        low = std::max(low, watch.below);
+        high = std::min(high, watch.above);
+    }
+    Instant next = law_end();
+    if (direction() > 0) next = std::min(next, reaches(high));
+    if (direction() < 0) next = std::min(next, reaches(low));
+    return std::max(next, now);
+}
+
+/// At an end of travel it stands at once.
+bool LinearStage::meet_ends(Instant now) {
+    const std::int64_t here = count(now);
+    const int way = direction();
+    const bool plus = way > 0 && here >= end_plus_, minus = way < 0 && here <= end_minus_;
+    if (!plus && !minus) return false;
+    const double before = rate(now);
+    move_to(now);
+    state_.place = fine_place(plus ? end_plus_ : end_minus_);
+    state_.speed = 0;
+    state_.blocked = way;
+    begin_law();
+    kernel_.report(id_, static_cast<std::uint16_t>(AxisCondition::stage_end), way, (plus ? end_plus_ : end_minus_) / places_per_nm);
+    tell(before, now);
+    return true;
+}
+
+void LinearStage::tell_watches(Instant now) {
+    for (int i = 0; i < listener_count_; ++i) {
+        Range& watch = state_.watches[static_cast<std::size_t>(i)];
+        if (!watch.left(count(now))) continue;
+        watch = {};
+        listeners_[static_cast<std::size_t>(i)]->crossed(now);
+    }
+}
+
+void LinearStage::act(Instant now) {
+    if (!meet_ends(now) && now >= law_end()) {
+        const double before = rate(now);
+        move_to(now);
+        begin_law();
+        tell(before, now);
+    }
+    tell_watches(now);
+    reschedule();
+}
+
+void LinearStage::on_wire(int, int level, Instant now) {
+    state_.microvolts = level;
+    change(now);
+}
+
+bool LinearStage::fault(std::string_view name, double value, Instant now) {
+    if (!(std::fabs(value) <= 1e10)) return false;
+    const bool factor = value >= 0 && value <= 1'000;
+    if (name == "motor.stall") {
+        state_.held = value != 0;
+    } else if (name == "motor.push") {
+        move_to(now);
+        const std::int64_t there = std::clamp(count(now) + count_of_nm(value), end_minus_, end_plus_);
+        state_.place += fine_place(there - count(now));
+        state_.blocked = 0;
+    } else if (name == "motor.friction" && factor) {
+        state_.rubbing = value;
+    } else if (name == "motor.load" && factor) {
+        state_.load = value;
+    } else {
+        return false;
+    }
+    change(now);
+    return true;
+}
+
+// ---- listeners ------------------------------------------------------------------------------------------------------
+
+void LinearStage::watch(int slot, std::int64_t below, std::int64_t above) {
+    state_.watches[static_cast<std::size_t>(slot)] = {below, above};
+    reschedule();
+}
+
+int LinearStage::listen(sim::MotionListener& listener) {
+    MOTIONRACK_ASSERT(listener_count_ < slots);
+    listeners_[static_cast<std::size_t>(listener_count_)] = &listener;
+    return listener_count_++;
+}
+
+void LinearStage::mark_rate(double rate) {
+    MOTIONRACK_ASSERT(mark_count_ < slots && rate >= 0);
+    const double limit = static_cast<double>(top_speed_);
+    marks_[static_cast<std::size_t>(mark_count_++)] = static_cast<Wide>(std::min(rate / ticks_per_s * fine, limit));
+}
+
+void LinearStage::listen_edges(sim::EdgeListener* listener) {
+    state_.handed = kernel_.now();
+    edges_ = listener;
+}
+
+/// The edges since they were handed over last, each found by itself.
+void LinearStage::hand_over(Instant now) {
+    const Instant from = std::max(state_.handed, state_.since);
+    state_.handed = now;
+    const int way = direction();
+    if (!edges_ || way == 0) return;
+    std::int64_t at = count(from);
+    const std::int64_t last = count(now);
+    while (at != last) {
+        batch_.size = 0;
+        batch_.origin = std::max(reaches(at + way), from);
+        batch_.tick = Duration{1};
+        batch_.step = way;
+        batch_.first_count = at + way;
+        while (at != last && batch_.size < sim::EdgeBatch::capacity) {
+            const std::int64_t ticks = (std::max(reaches(at + way), from) - batch_.origin).count();
+            if (ticks > 0xFFFF'FFFF) break;
+            batch_.at[batch_.size++] = static_cast<std::uint32_t>(ticks);
+            at += way;
+        }
+        edges_->edges(batch_);
+    }
+}
+
+}  // namespace motionrack::parts

@@ -1,0 +1,348 @@
+// The linear stage's parabolas against small steps of its differential equation; instants, ends, faults, rewinding.
+#include <motionrack/sim/parts/linear_stage.hpp>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/sim/parts/conditions.hpp>
+#include <vector>
+
+#include "allocation_count.hpp"
+
+namespace motionrack::parts {
+namespace {
+
+struct Rig {
+    explicit Rig(const LinearStageSettings& settings = {}) : stage(kernel, "x", settings) {}
+    void volts(double v) {
+        kernel.set_wire(stage.drive_wire(), static_cast<int>(std::lround(v * 1e6)));
+        kernel.settle();
+    }
+    void run(double seconds) { kernel.run_until(kernel.now() + from_seconds(seconds)); }
+    double speed() { return stage.speed(kernel.now()); }
+    double nm() { return stage.position_nm(kernel.now()); }
+    std::int64_t count() { return stage.count(kernel.now()); }
+
+    sim::Kernel kernel;
+    LinearStage stage;
+};
+
+/// The same stage in steps of a quarter of a microsecond, in metres.
+struct Stepped {
+    LinearStageSettings s;
+    double volts = 0;
+    long double speed = 0, place = 0, fastest = 0;
+    void run(double seconds) {
+        const long double h = 0.25e-6L, mass = 1 + s.load;
+        for (auto steps = std::llround(seconds / 0.25e-6); steps > 0; --steps) {
+            const long double push = std::clamp(volts * s.accel_per_volt, -s.top_accel, s.top_accel);
+            if (speed == 0 && std::fabs(push) <= s.coulomb) continue;
+            const long double brake = speed > 0 || (speed == 0 && push > 0) ? s.coulomb : -s.coulomb;
+            const long double before = speed;
+            long double accel = (push - brake - s.viscous * speed) / mass;
+            accel = (push - brake - s.viscous * (speed + accel * h / 2)) / mass;
+            speed = std::clamp<long double>(speed + h * accel, -s.top_speed, s.top_speed);
+            if (before * speed < 0 && s.coulomb > 0) speed = 0;
+            fastest = std::max(fastest, std::fabs(speed));
+            place += h * (before + speed) / 2;
+        }
+    }
+};
+
+RC_GTEST_PROP(LinearStage, MovesAsTheDifferentialEquationSays, ()) {
+    LinearStageSettings s;
+    s.viscous = *rc::gen::element(0.0, 2.0, 50.0);
+    s.coulomb = *rc::gen::element(0.0, 0.3);
+    s.load = *rc::gen::element(0.0, 2.0);
+    s.top_speed = *rc::gen::element(0.2, 2.0);
+    Rig rig(s);
+    rig.kernel.start();
+    Stepped stepped{s};
+    for (int i = 0; i < 6; ++i) {
+        const double volts = *rc::gen::inRange(-12'000, 12'001) * 1e-3 * *rc::gen::element(1.0, 0.01);
+        rig.volts(volts);
+        stepped.volts = volts;
+        const double time = 1e-4 * *rc::gen::inRange(1, 300);
+        rig.run(time);
+        stepped.run(time);
+        // Where it turns or meets the top speed, the steps are off by a step's way: 0.25 us of 50 m/s2 last for the rest of the run.
+        RC_ASSERT(std::fabs(rig.speed() - static_cast<double>(stepped.speed)) < 5e-5);
+        RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.place * 1e9L)) < 5e-5 * 0.15 * 1e9);
+        if (s.coulomb == 0 && s.viscous == 0 && stepped.fastest < s.top_speed)
+            RC_ASSERT(std::fabs(rig.nm() - static_cast<double>(stepped.place * 1e9L)) < 0.01);
+    }
+}
+
+RC_GTEST_PROP(LinearStage, IsWhereItIsHoweverOftenItIsAsked, ()) {
+    LinearStageSettings s;
+    s.viscous = *rc::gen::element(0.0, 7.0);
+    s.coulomb = *rc::gen::element(0.0, 0.1);
+    Rig seldom(s), often(s);
+    seldom.kernel.start();
+    often.kernel.start();
+    for (int i = 0; i < 5; ++i) {
+        const double volts = *rc::gen::inRange(-10'000, 10'001) * 1e-4;
+        const std::int64_t ticks = *rc::gen::inRange<std::int64_t>(1, 300'000'000);
+        seldom.volts(volts);
+        often.volts(volts);
+        const Instant until = seldom.kernel.now() + Duration{ticks};
+        seldom.kernel.run_until(until);
+        while (often.kernel.now() < until) {
+            const Instant from = often.kernel.now();
+            often.kernel.run_until(std::min(until, from + Duration{*rc::gen::inRange<std::int64_t>(1, 100'000'000)}));
+            std::int64_t before = often.count();
+            if (often.speed() == 0) continue;
+            for (int k = 0; k < 3; ++k) RC_ASSERT(often.count() == before);
+        }
+        RC_ASSERT(seldom.count() == often.count());
+        RC_ASSERT(seldom.kernel.state_hash() == often.kernel.state_hash());
+    }
+}
+
+TEST(LinearStage, GainsTheEnergyThatTheForceGivesLessThatOfTheBrakes) {
+    LinearStageSettings s;
+    s.coulomb = 0.5;
+    Rig rig(s);
+    rig.kernel.start();
+    rig.volts(2);
+    rig.run(0.1);
+    const double way = rig.nm() * 1e-9;
+    EXPECT_NEAR(rig.speed() * rig.speed() / 2, (10 - 0.5) * way, 1e-12);
+    EXPECT_NEAR(rig.speed(), 0.95, 1e-9);
+    EXPECT_NEAR(rig.stage.accel(), 9.5, 1e-9);
+    rig.volts(0);
+    rig.run(3);
+    EXPECT_EQ(rig.speed(), 0);
+    // All of it has gone into rubbing.
+    EXPECT_NEAR(rig.nm() * 1e-9 * 0.5, 10 * way, 1e-8);
+    const std::uint64_t events = rig.kernel.events();
+    rig.run(1'000);
+    EXPECT_EQ(rig.kernel.events(), events) << "a stage that stands costs nothing";
+}
+
+TEST(LinearStage, ViscousFrictionEndsInTheSpeedAtWhichItBrakesAsMuch) {
+    LinearStageSettings s;
+    s.viscous = 20;
+    Rig rig(s);
+    rig.kernel.start();
+    rig.volts(1);
+    rig.run(1);
+    EXPECT_NEAR(rig.speed(), 0.25, 1e-8);
+    rig.volts(0);
+    rig.run(0.1);
+    EXPECT_NEAR(rig.speed(), 0.25 * std::exp(-2.0), 1e-6);
+}
+
+TEST(LinearStage, TopSpeedAndCurrentLimitAreKept) {
+    Rig rig;
+    rig.kernel.start();
+    rig.volts(100);
+    rig.run(0.02);
+    EXPECT_NEAR(rig.speed(), 1, 1e-9) << "50 m/s2 at the current limit";
+    rig.run(0.2);
+    EXPECT_NEAR(rig.speed(), 2, 1e-12);
+    const std::int64_t there = rig.count();
+    rig.run(0.1);
+    EXPECT_NEAR(static_cast<double>(rig.count() - there), 2e8 * 1024, 1);
+}
+
+struct Ear final : sim::MotionListener, sim::EdgeListener {
+    void crossed(Instant now) override { at.push_back(now); }
+    void rate_changed(double before, double, Instant now) override {
+        if (!rates.empty() && rates.back() == before) return;
+        rates.push_back(before);
+        told.push_back(now);
+    }
+    void edges(const sim::EdgeBatch& batch) override {
+        for (std::uint32_t i = 0; i < batch.size; ++i) {
+            edge_at.push_back(batch.origin + batch.tick * batch.at[i]);
+            counts.push_back(batch.first_count + batch.step * static_cast<std::int64_t>(i));
+        }
+    }
+    std::vector<Instant> at, told, edge_at;
+    std::vector<double> rates;
+    std::vector<std::int64_t> counts;
+};
+
+RC_GTEST_PROP(LinearStage, TellsAWatchAtTheVeryTick, ()) {
+    LinearStageSettings s;
+    s.viscous = *rc::gen::element(0.0, 30.0);
+    Rig rig(s);
+    Ear ear;
+    const int slot = rig.stage.listen(ear);
+    rig.kernel.start();
+    const int way = *rc::gen::element(1, -1);
+    rig.volts(way * *rc::gen::element(10.0, 0.1, 0.001));
+    std::int64_t there = 0;
+    for (int i = 0; i < 4; ++i) {
+        there += *rc::gen::element<std::int64_t>(1, 3, 1'000'003, 2'000'000'011);
+        const std::int64_t count = way * there;
+        rig.stage.watch(slot, way > 0 ? sim::unwatched_below : count, way > 0 ? count : sim::unwatched_above);
+        ear.at.clear();
+        for (int k = 0; k < 100'000 && ear.at.empty(); ++k) rig.run(1e-3);
+        RC_ASSERT(ear.at.size() == 1u);
+        // The rig has run on; a second one is stopped a tick before and at the instant.
+        Rig again(s);
+        again.kernel.start();
+        again.volts(rig.stage.volts());
+        again.kernel.run_until(ear.at[0] - Duration{1});
+        const std::int64_t before = again.count();
+        again.kernel.run_until(ear.at[0]);
+        RC_ASSERT(before * way < there);
+        RC_ASSERT(again.count() * way >= there);
+        there = std::max(there, way * rig.count());
+    }
+}
+
+TEST(LinearStage, HandsOverEveryEdgeInItsOrderAndAtItsTick) {
+    Rig rig;
+    Ear ear;
+    rig.kernel.start();
+    rig.stage.listen_edges(&ear);
+    for (const double volts : {0.001, -0.002, 0.003}) {
+        rig.volts(volts);
+        rig.run(2e-4);
+    }
+    std::int64_t count = 0;
+    for (std::size_t i = 0; i < ear.counts.size(); ++i) {
+        EXPECT_EQ(std::abs(ear.counts[i] - count), 1);
+        count = ear.counts[i];
+        if (i > 0) {
+            EXPECT_LE(ear.edge_at[i - 1], ear.edge_at[i]);
+        }
+    }
+    EXPECT_EQ(count, rig.count());
+    EXPECT_GT(ear.counts.size(), 100u);
+    Rig again;
+    again.kernel.start();
+    again.volts(0.001);
+    again.kernel.run_until(ear.edge_at[20] - Duration{1});
+    EXPECT_EQ(again.count(), ear.counts[20] - 1);
+    again.kernel.run_until(ear.edge_at[20]);
+    EXPECT_EQ(again.count(), ear.counts[20]);
+}
+
+TEST(LinearStage, IsExactAfterAnHourOnAMetre) {
+    Rig rig;
+    rig.kernel.start();
+    rig.volts(0.002);  // 0.01 m/s2
+    rig.run(0.02);
+    rig.volts(0);
+    const double speed = rig.speed();
+    EXPECT_NEAR(speed, 2e-4, 1e-13);
+    const std::int64_t from = rig.count();
+    const Instant at = rig.kernel.now();
+    std::int64_t last = from;
+    for (int i = 1; i <= 3'600; ++i) {
+        rig.kernel.run_until(at + whole_seconds(i));
+        const auto expected = from + static_cast<std::int64_t>(static_cast<long double>(rig.stage.rate(at)) * i);
+        EXPECT_NEAR(static_cast<double>(rig.count() - expected), 0, 2);
+        EXPECT_GT(rig.count(), last);
+        last = rig.count();
+    }
+    EXPECT_NEAR(rig.nm(), 0.72e9, 3e3);
+}
+
+TEST(LinearStage, MarkedRatesAreToldAtTheirTick) {
+    Rig rig;
+    Ear ear;
+    rig.stage.listen(ear);
+    rig.stage.mark_rate(0.1e9 * 1024);
+    rig.kernel.start();
+    rig.volts(1);
+    rig.run(0.1);
+    rig.volts(-1);
+    rig.run(0.1);
+    ASSERT_GE(ear.told.size(), 3u);
+    EXPECT_NEAR(to_seconds(ear.told[0]), 0.02, 2e-10) << "0.1 m/s at 5 m/s2";
+    EXPECT_NEAR(to_seconds(ear.told[2]), 0.18, 2e-10);
+}
+
+TEST(LinearStage, RunsIntoItsEndsOfTravelAndComesBack) {
+    LinearStageSettings s;
+    s.end_plus_nm = 1'000'000;
+    s.end_minus_nm = -200'000;
+    Rig rig(s);
+    rig.kernel.start();
+    rig.volts(1);
+    rig.run(1);
+    EXPECT_EQ(rig.count(), 1'000'000 * 1024);
+    EXPECT_EQ(rig.stage.blocked(), 1);
+    EXPECT_EQ(rig.speed(), 0);
+    ASSERT_EQ(rig.kernel.conditions().size(), 1u);
+    EXPECT_NE(describe(rig.kernel.conditions()[0], "x").find("stage x: at 0.020000 s it ran into its plus end of travel at 1000000 nm"), std::string::npos);
+    rig.volts(2);
+    rig.run(1);
+    EXPECT_EQ(rig.kernel.conditions().size(), 1u);
+    rig.volts(-1);
+    rig.run(1e-3);
+    EXPECT_EQ(rig.stage.blocked(), 0);
+    EXPECT_LT(rig.count(), 1'000'000 * 1024);
+    rig.run(1);
+    EXPECT_EQ(rig.count(), -200'000 * 1024);
+    EXPECT_EQ(rig.kernel.conditions().size(), 2u);
+}
+
+TEST(LinearStage, FaultsHoldPushBrakeAndLoadIt) {
+    Rig rig;
+    rig.kernel.start();
+    const auto fault = [&](std::string_view name, double value) { return rig.stage.fault(name, value, rig.kernel.now()); };
+    rig.volts(1);
+    rig.run(0.01);
+    EXPECT_TRUE(fault("motor.stall", 1));
+    const std::int64_t there = rig.count();
+    rig.run(1);
+    EXPECT_EQ(rig.count(), there);
+    EXPECT_TRUE(fault("motor.push", -1'000));
+    EXPECT_EQ(rig.count(), there - 1'024'000);
+    EXPECT_TRUE(fault("motor.stall", 0));
+    EXPECT_TRUE(fault("motor.friction", 6));
+    rig.run(1);
+    EXPECT_EQ(rig.count(), there - 1'024'000) << "5 m/s2 do not overcome 6";
+    EXPECT_TRUE(fault("motor.friction", 1));
+    EXPECT_TRUE(fault("motor.load", 3));
+    rig.run(0.01);
+    EXPECT_NEAR(rig.speed(), 0.01 * (5 - 1) / 4, 1e-9);
+    EXPECT_FALSE(fault("motor.load", -1));
+    EXPECT_FALSE(fault("motor.friction", std::nan("")));
+    EXPECT_FALSE(fault("motor.push", 1e300));
+    EXPECT_FALSE(fault("motor.fly", 1));
+    for (const std::string_view name : LinearStage::fault_names()) EXPECT_TRUE(fault(name, 0)) << name;
+}
+
+TEST(LinearStage, ASnapshotContinuesAsTheFirstTimeAndNothingIsAllocated) {
+    LinearStageSettings s;
+    s.viscous = 3;
+    s.coulomb = 0.1;
+    Rig rig(s);
+    Ear ear;
+    ear.at.reserve(100);
+    const int slot = rig.stage.listen(ear);
+    rig.kernel.start();
+    rig.volts(0.5);
+    rig.run(0.0123);
+    rig.stage.watch(slot, -5, 9'000'000'000);
+    const sim::Snapshot snapshot = rig.kernel.snapshot();
+    std::int64_t counts[2] = {};
+    std::uint64_t hashes[2] = {};
+    for (int i = 0; i < 2; ++i) {
+        rig.kernel.restore(snapshot);
+        ear.rates.clear();
+        ear.rates.reserve(100'000);
+        ear.told.reserve(100'000);
+        const std::uint64_t before = sim::allocations();
+        rig.run(0.1);
+        rig.volts(-0.7);
+        rig.run(0.2);
+        EXPECT_EQ(sim::allocations(), before);
+        counts[i] = rig.count();
+        hashes[i] = rig.kernel.state_hash();
+    }
+    EXPECT_EQ(counts[0], counts[1]);
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+}  // namespace
+}  // namespace motionrack::parts
