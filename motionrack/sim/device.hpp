@@ -26,6 +26,8 @@ class Device {
     virtual int level_at(int pin, Instant now) const { return (void)pin, (void)now, 0; }
     /// Someone began or ceased to want the changes of a lazily driven wire; schedule accordingly.
     virtual void wanted_changed(int pin, bool wanted, Instant now) { (void)pin, (void)wanted, (void)now; }
+    /// A lazily driven wire is held at `level` from outside (Kernel::force), or no longer.
+    virtual void forced_changed(int pin, bool forced, int level, Instant now) { (void)pin, (void)forced, (void)level, (void)now; }
     /// Hand over whatever has been put off (edges to listeners) up to and including `now`.
     virtual void sync(Instant now) { (void)now; }
     /// Everything that a snapshot must hold, as bytes of trivially copyable state.

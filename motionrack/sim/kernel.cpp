@@ -162,12 +162,14 @@ void Kernel::force(WireId wire, int level) {
     w.level = this->level(wire);  // of a lazily driven wire
     w.forced = 1;
     change(wire, level);
+    if (lazy(wire)) owner_of(wire).forced_changed(wires_[index(wire)].lazy_pin, true, level, state_.now);
 }
 
 void Kernel::release(WireId wire) {
     WireState& w = wire_state_[index(wire)];
     if (!w.forced) return;
     w.forced = 0;
+    if (lazy(wire)) owner_of(wire).forced_changed(wires_[index(wire)].lazy_pin, false, 0, state_.now);
     change(wire, lazy(wire) && !w.wants ? level(wire) : w.driven);
 }
 

@@ -161,6 +161,7 @@ class Kernel {
         std::uint64_t condition_count = 0;
     };
 
+    Device& owner_of(WireId wire) { return *devices_[index(wires_[index(wire)].lazy_owner)].device; }
     std::size_t earliest() const;
     void deliver();
     void sync_all();

@@ -55,6 +55,7 @@ struct Timing {
     constexpr Duration frame_time(int words) const { return words * (t1 + t2 + t3) + (3 * words + 1) * clock; }
     /// From entering S1 to the sample of word `k`.
     constexpr Duration sample_at(int k) const { return k * word_time() + t1 + t2; }
+    friend constexpr bool operator==(const Timing&, const Timing&) = default;
 };
 
 }  // namespace motionrack::grating_bus

@@ -108,7 +108,8 @@ static_assert(declared<machines_flaw(machines)>());
 
 inline constexpr PinInfo pins[] = {
     {"state", PinDirection::output, false, "number of the state, 0 .. 12"},
-    {"frame_done", PinDirection::output, false, "pulse of one clock: a frame is complete; asks for an interrupt"},
+    {"frame_done", PinDirection::output, false, "pulse of one clock: a frame is complete"},
+    {"int_n", PinDirection::output, true, "low while STATUS.FRAME"},
 };
 static_assert(declared<pins_flaw(pins)>());
 

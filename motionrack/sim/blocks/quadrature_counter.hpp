@@ -61,8 +61,9 @@ class ClosedFormCounter {
 /// State only; trivially copyable.
 class QuadratureDecoder {
   public:
+    QuadratureDecoder() = default;
     /// `first`: as for ClosedFormCounter.
-    explicit QuadratureDecoder(Edges edges = Edges::all, std::uint8_t lines = 0, int first = 0)
+    explicit QuadratureDecoder(Edges edges, std::uint8_t lines = 0, int first = 0)
         : edges_(edges), lines_(lines), first_(static_cast<std::uint8_t>(first)) {}
 
     /// The lines are now `lines` (bit 0: A, bit 1: B). Returns what that counted: -1, 0 or +1.

@@ -1,0 +1,184 @@
+// State by state: the order of an instant.
+#include <algorithm>
+#include <bit>
+#include <motionrack/cards/grating_bus/model/bus.hpp>
+
+namespace motionrack::grating_bus {
+
+namespace {
+
+/// The line of a wire of one or more bits, and the bits of it that the wire shows.
+struct Part {
+    Line line;
+    std::uint32_t mask;
+    int shift;
+};
+
+constexpr Part part_of(int pin) {
+    if (pin < 5) return {static_cast<Line>(pin), bits_of(static_cast<Line>(pin)), 0};
+    const Line line = pin < 14 ? Line::addr : Line::data;
+    const int bit = pin < 14 ? pin - 6 : pin - 14;
+    return {line, 1u << bit, bit};
+}
+
+}  // namespace
+
+Bus::Bus(sim::Kernel& kernel, const std::string& name) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::cards, name)) {
+    for (int pin = 0; pin < pin_count; ++pin) {
+        const Part part = part_of(pin);
+        const auto at = static_cast<std::size_t>(pin);
+        const std::string line(line_types[static_cast<std::size_t>(part.line)].name);
+        const std::string wire = pin == conflict_pin ? "conflict" : pin < vector_pins ? line : line + std::to_string(part.shift);
+        wires_[at] = kernel.add_wire(name + "." + wire, static_cast<int>(wire_level(pin, Instant{0})));
+        kernel.drive_lazily(wires_[at], id_, pin);
+    }
+    kernel.schedule(id_, Instant{0});
+}
+
+void Bus::plug(Card& card) {
+    card_driver_.push_back(static_cast<int>(drivers_.size()));
+    drivers_.push_back(card.id());
+    cards_.push_back(&card);
+    MOTIONRACK_ASSERT(drivers_.size() <= most_drivers);
+}
+
+void Bus::plug(Decoder& decoder) {
+    decoder_driver_.push_back(static_cast<int>(drivers_.size()));
+    drivers_.push_back(decoder.id());
+    decoders_.push_back(&decoder);
+    MOTIONRACK_ASSERT(drivers_.size() <= most_drivers);
+}
+
+const std::string& Bus::driver_name(int n) const {
+    return kernel_.device_name(drivers_[static_cast<std::size_t>(n)]);
+}
+
+void Bus::begin() {
+    state_.begun = 1;
+    int hosts = 0;
+    for (std::size_t i = 0; i < cards_.size(); ++i)
+        if (cards_[i]->is_host()) host_ = ++hosts == 1 ? static_cast<int>(i) : -1;
+    alike_ = host_ >= 0 && decoders_.size() == 1;
+    for (Card* card : cards_) {
+        const CardSettings& s = card->settings();
+        if (s.wrong_direction())
+            card->report(BusCondition::wrong_direction, card->is_host(), (s.clock_out() ? 1 : 0) | (s.address_out() ? 2 : 0));
+        if (!alike_) continue;
+        alike_ = !s.wrong_direction() && s.scales == host().scales && s.first == host().first && s.timing == host().timing &&
+                 check(s, decoders_[0]->settings()).has_value();
+    }
+}
+
+// ---- one instant ------------------------------------------------------------------------------------------------------------
+
+void Bus::act(Instant now) {
+    if (state_.begun == 0) begin();
+    if (state_.span != 0 && state_.published == 0 && state_.done == now)
+        publish_span(now);
+    else
+        step(now);
+    schedule();
+}
+
+// 1. samples, 2. drives, 3. edges: what follows from each within the same instant.
+void Bus::step(Instant now) {
+    if (host_ >= 0 && cards_[static_cast<std::size_t>(host_)]->state_.pulse_at == now && regular()) return begin_span(now);
+    if (state_.span != 0) interrupt_span(now);
+    for (Card* card : cards_) card->sample(state_.lines, now);
+    for (Card* card : cards_) card->advance(now);
+    settle(now);
+}
+
+void Bus::settle(Instant now) {
+    unsigned begun = drive(now);
+    if (state_.lines.level(Line::clk) != 0 && state_.clk_was == 0) {
+        for (Card* card : cards_) card->clock_rose(now);
+        begun |= drive(now);  // what was in reset may drive again
+    }
+    state_.clk_was = state_.lines.level(Line::clk);
+    for (std::size_t i = 0; i < decoders_.size(); ++i) decoders_[i]->follow(state_.lines, decoder_driver_[i], now);
+    begun |= state_.lines.settle(now);
+    for (std::size_t i = 0; i < line_count; ++i) {
+        if ((begun >> i & 1) == 0 || (state_.told >> i & 1) != 0) continue;
+        state_.told |= 1u << i;
+        const Conflict& conflict = state_.lines.conflict(state_.lines.all_conflicts() - 1);
+        kernel_.report(id_, static_cast<std::uint16_t>(BusCondition::conflict), static_cast<std::int64_t>(i),
+                       std::countr_zero(conflict.high) * 64 + std::countr_zero(conflict.low));
+    }
+    show();
+}
+
+unsigned Bus::drive(Instant now) {
+    for (std::size_t i = 0; i < cards_.size(); ++i) cards_[i]->drive(state_.lines, card_driver_[i]);
+    return state_.lines.settle(now);
+}
+
+void Bus::look_again(Instant now) {
+    if (state_.begun == 0) begin();
+    if (state_.span == 0) settle(now);
+    schedule();
+}
+
+void Bus::schedule() {
+    Instant next = state_.span != 0 && state_.published == 0 ? state_.done : never;
+    if (state_.span != 0) {
+        for (const Card* card : cards_) next = std::min(next, std::min(card->state_.pulse_at, card->state_.stale_at));
+    } else {
+        for (const Card* card : cards_) next = std::min(next, card->next());
+        for (const Decoder* decoder : decoders_) next = std::min(next, decoder->state_.output);
+    }
+    kernel_.schedule(id_, next);
+}
+
+// ---- wires ------------------------------------------------------------------------------------------------------------------
+
+std::uint32_t Bus::level(Line line) const {
+    return in_span() ? span_level(line, kernel_.now()) : state_.lines.level(line);
+}
+
+std::uint32_t Bus::wire_level(int pin, Instant now) const {
+    if (pin == conflict_pin) return state_.lines.conflict() ? 1 : 0;
+    const Part part = part_of(pin);
+    const std::uint32_t level = in_span() ? span_level(part.line, now) : state_.lines.level(part.line);
+    return (level & part.mask) >> part.shift;
+}
+
+int Bus::level_at(int pin, Instant now) const {
+    return static_cast<int>(wire_level(pin, now));
+}
+
+void Bus::show() {
+    if (state_.wanted == 0) return;
+    for (int pin = 0; pin < pin_count; ++pin) {
+        const sim::WireId wire = wires_[static_cast<std::size_t>(pin)];
+        if (kernel_.wanted(wire)) kernel_.set_wire(wire, static_cast<int>(wire_level(pin, kernel_.now())));
+    }
+}
+
+void Bus::wanted_changed(int, bool is_wanted, Instant now) {
+    wanted(is_wanted, now);
+}
+
+void Bus::wanted(bool is_wanted, Instant now) {
+    if (is_wanted) interrupt_span(now);
+    state_.wanted = is_wanted ? state_.wanted + 1 : state_.wanted - 1;
+}
+
+// A bit that is held wins over its whole line.
+void Bus::forced_changed(int changed, bool, int, Instant now) {
+    if (changed == conflict_pin) return;
+    interrupt_span(now);
+    const Line line = part_of(changed).line;
+    std::uint32_t mask = 0, value = 0;
+    for (int pin = 0; pin < pin_count; ++pin) {
+        const sim::WireId wire = wires_[static_cast<std::size_t>(pin)];
+        const Part part = part_of(pin);
+        if (pin == conflict_pin || part.line != line || !kernel_.forced(wire)) continue;
+        mask |= part.mask;
+        value = (value & ~part.mask) | (static_cast<std::uint32_t>(kernel_.level(wire)) << part.shift & part.mask);
+    }
+    state_.lines.force(line, mask, value);
+    look_again(now);
+}
+
+}  // namespace motionrack::grating_bus

@@ -1,0 +1,104 @@
+// Building, wires, faults.
+#include <algorithm>
+#include <motionrack/cards/grating_bus/model/bus.hpp>
+#include <motionrack/cards/grating_bus/model/card.hpp>
+
+namespace motionrack::grating_bus {
+
+Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSettings& settings)
+    : kernel_(kernel), settings_(settings), bus_(bus), id_(kernel.add(*this, sim::Phase::cards, name)) {
+    MOTIONRACK_ASSERT(check(settings).has_value());
+    state_wire_ = kernel.add_wire(name + ".state", 0);
+    done_wire_ = kernel.add_wire(name + ".frame_done", 0);
+    int_wire_ = kernel.add_wire(name + ".int_n", 1);
+    kernel.drive_lazily(state_wire_, id_, state_pin);
+    kernel.drive_lazily(done_wire_, id_, done_pin);
+    state_.stale_at = 2 * settings.period;
+    if (is_host()) state_.pulse_at = settings.offset;
+    bus.plug(*this);
+}
+
+// ---- wires ------------------------------------------------------------------------------------------------------------------
+
+int Card::level_at(int pin, Instant) const {
+    const State state = moment().state;
+    return pin == state_pin ? static_cast<int>(state) : state == State::S12;
+}
+
+void Card::wanted_changed(int, bool wanted, Instant now) {
+    bus_.wanted(wanted, now);
+}
+
+void Card::show() {
+    if (kernel_.wanted(state_wire_)) kernel_.set_wire(state_wire_, static_cast<int>(state_.fsm));
+    if (kernel_.wanted(done_wire_)) kernel_.set_wire(done_wire_, state_.fsm == State::S12);
+}
+
+void Card::set_fresh(bool fresh) {
+    if (fresh == (state_.fresh != 0)) return;
+    state_.fresh = fresh;
+    kernel_.set_wire(int_wire_, fresh ? 0 : 1);
+    if (fresh) kernel_.break_run();
+}
+
+void Card::report(BusCondition code, std::int64_t a, std::int64_t b) {
+    kernel_.report(id_, static_cast<std::uint16_t>(code), a, b);
+}
+
+void Card::count(Counter which, std::uint32_t by) {
+    std::uint16_t& counter = state_.counters[which];
+    counter = static_cast<std::uint16_t>(std::min<std::uint32_t>(0xFFFF, counter + by));
+}
+
+// ---- reset and faults -------------------------------------------------------------------------------------------------------
+
+void Card::find_pulse(Instant now) {
+    if (!is_host()) return;
+    state_.pulse = std::max<std::int64_t>(0, (now - settings_.offset) / settings_.period) - 1;
+    do next_pulse();
+    while (state_.pulse_at <= now);
+}
+
+// Buffers, what is claimed, and how old it is outlive it.
+void Card::reset() {
+    if (state_.buffers.begun()) state_.buffers.abandon();
+    Data begun;
+    begun.buffers = state_.buffers;
+    begun.fresh = state_.fresh;
+    begun.stale = state_.stale, begun.stale_at = state_.stale_at;
+    begun.published_time = state_.published_time, begun.published_sequence = state_.published_sequence;
+    begun.pulse = state_.pulse, begun.pulse_at = state_.pulse_at;
+    begun.miss = state_.miss, begun.late = state_.late, begun.jitter = state_.jitter;
+    begun.off = state_.off;
+    begun.quiet = 1;
+    state_ = begun;
+    show();
+}
+
+bool Card::fault(std::string_view name, double value, Instant now) {
+    const bool whole_tick = value >= 0 && value <= 1e9;
+    const auto ns = [&] { return Duration{static_cast<std::int64_t>(value * 10 + 0.5)}; };
+    const bool host_only = name == "jitter", slave_only = name == "late" || name == "miss_edge";
+    if (!whole_tick || (host_only && !is_host()) || (slave_only && is_host())) return false;
+    if (host_only && ns() >= settings_.period / 2) return false;
+    if (name != "off" && name != "reset" && !host_only && !slave_only) return false;
+    bus_.interrupt_span(now);
+    if (name == "off" && (value != 0) != (state_.off != 0)) {
+        state_.off = value != 0 ? 1 : 0;
+        reset();
+        if (state_.off == 0) find_pulse(now);
+    } else if (name == "reset" && value != 0 && state_.off == 0) {
+        reset();
+    } else if (name == "late") {
+        state_.late = ns();
+    } else if (name == "miss_edge") {
+        state_.miss = static_cast<std::uint32_t>(value);
+    } else if (name == "jitter") {
+        state_.jitter = ns();
+        if (now < grid()) --state_.pulse, next_pulse();
+    }
+    bus_.look_again(now);
+    return true;
+}
+
+}  // namespace motionrack::grating_bus

@@ -1,0 +1,151 @@
+// The motion card: the logic that reads frames, two buffers, and the registers through which the processor reads them.
+//
+//   bus ◄── shifters ──► [ sequence S0 .. S12 ] ──► [ A | B ] ──claim──► registers ──► processor
+//
+// A card does nothing by itself: the bus steps it, or, while the bus runs as it should, tells it of whole frames.
+#pragma once
+
+#include <array>
+#include <motionrack/cards/grating_bus/model/conditions.hpp>
+#include <motionrack/cards/grating_bus/model/lines.hpp>
+#include <motionrack/cards/grating_bus/model/moment.hpp>
+#include <motionrack/cards/grating_bus/model/settings.hpp>
+#include <motionrack/sim/blocks/ping_pong.hpp>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/register_device.hpp>
+#include <string>
+
+namespace motionrack::grating_bus {
+
+class Bus;
+class Card;
+
+/// How much later pulse `n` of a host comes, 0 .. most, that has this seed: the same on every machine.
+std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t most);
+
+/// Hears of every frame that a card publishes, at that instant; what it does there runs in virtual time.
+class FrameListener {
+  public:
+    virtual ~FrameListener() = default;
+    virtual void published(const Card& card, const Frame& frame, Instant now) = 0;
+};
+
+class Card final : public sim::Device, public sim::RegisterDevice {
+  public:
+    /// Adds the card, its wires "<name>.<pin>" and itself to the bus, before the kernel starts. `settings` must pass check().
+    Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSettings& settings = {});
+
+    // ---- the processor's interface: offsets of the map
+    std::uint16_t read(std::uint32_t offset) override;
+    void write(std::uint32_t offset, std::uint16_t value) override;
+    std::uint16_t peek(std::uint32_t offset) const override;
+
+    // ---- looking inside
+    const CardSettings& settings() const { return settings_; }
+    sim::DeviceId id() const { return id_; }
+    sim::WireId interrupt_wire() const { return int_wire_; }
+    bool is_host() const { return settings_.role == Role::host; }
+    /// What was published last; nullptr: nothing yet, or it is being overwritten.
+    const Frame* last() const { return state_.buffers.last(); }
+    bool stale() const { return state_.stale != 0; }
+    bool off() const { return state_.off != 0; }
+    Moment moment() const;
+    /// Frames published, bad frames, and what else was counted.
+    std::uint32_t frames() const { return state_.frames; }
+    enum Counter { broken, missed_words, alien, line_faults, missed_edges, overrun, counter_count };
+    std::uint16_t counter(Counter which) const { return state_.counters[which]; }
+
+    void add_listener(FrameListener& listener) { listeners_.push_back(&listener); }
+
+    void act(Instant) override {}
+    int level_at(int pin, Instant now) const override;
+    void wanted_changed(int pin, bool wanted, Instant now) override;
+    std::span<std::byte> state() override { return sim::bytes_of(state_); }
+    bool fault(std::string_view name, double value, Instant now) override;
+
+  private:
+    friend class Bus;
+    enum Pin { state_pin, done_pin };
+
+    struct Data {
+        sim::PingPong<Frame> buffers;
+        // the sequence
+        State fsm = State::S0;
+        std::uint8_t bad = 0;           // of the frame under way: bits of BusCondition::bad_frame
+        std::uint8_t was_bad = 0;       // the last frame was, and was told of
+        std::uint8_t stale = 1;
+        std::int32_t word = 0;
+        Instant state_ends = never;
+        Instant starts = never;         // a late slave
+        Instant frame_time{};
+        std::uint32_t frame_sequence = 0;
+        // pulses and edges
+        std::uint32_t sequence = 0;     // of the last one
+        Instant last_edge{-1};          // -1: none yet
+        std::int64_t pulse = 0;         // host: number of the next one
+        Instant pulse_at = never;
+        Instant fall_at = never;        // of its clk
+        // what it drives through its shifters
+        std::uint32_t clk = 0, hold = 0, read_n = 1, addr = 0xFF;
+        std::uint32_t quiet = 0;        // in reset: drives nothing
+        std::uint32_t off = 0;
+        Instant stale_at = never;
+        Instant published_time{};       // of the frame published last
+        std::uint32_t published_sequence = 0;
+        std::uint32_t bad_word = 0;     // the word under way was counted as bad
+        // counters
+        std::uint32_t frames = 0;
+        std::array<std::uint16_t, counter_count> counters{};
+        std::uint32_t told_overrun = 0;
+        std::uint32_t fresh = 0;        // STATUS.FRAME
+        // faults
+        std::uint32_t miss = 0;         // edges that are not seen
+        Duration late{};
+        Duration jitter{};
+    };
+
+    bool idle() const { return state_.fsm == State::S0 && state_.starts == never; }
+    /// The next instant at which anything of this card is due.
+    Instant next() const;
+
+    // sequence.cpp: called by the bus, in this order at one instant
+    void sample(const Lines& lines, Instant now);
+    void advance(Instant now);
+    void clock_rose(Instant now);
+    void begin(Instant now);
+    void drive(Lines& lines, int driver) const;
+
+    /// A pulse or an edge: sequence and what was missed.
+    void note_edge(Instant now);
+    void begin_frame(Instant now);
+    void put_words(const std::uint32_t* counts, int words);
+    void publish(Instant now, const Frame* like);
+    /// Takes up a frame that began at `start` where it is at `now`.
+    void take_up(Instant start, const std::uint32_t* counts, Instant now);
+
+    void enter(State state, Instant now);
+    void pulse(Instant now);
+    void next_pulse();
+    /// Where the next pulse is without jitter.
+    Instant grid() const { return settings_.offset + state_.pulse * settings_.period; }
+    void spoil(Counter why, std::uint8_t bad);
+    void overrun_edge();
+    void count(Counter which, std::uint32_t by = 1);
+    void check_stale(Instant now);
+    void set_fresh(bool fresh);
+    void reset();
+    /// The first pulse after `now`.
+    void find_pulse(Instant now);
+    void report(BusCondition code, std::int64_t a = 0, std::int64_t b = 0);
+    void show();
+
+    sim::Kernel& kernel_;
+    CardSettings settings_;
+    Bus& bus_;
+    sim::DeviceId id_{};
+    sim::WireId state_wire_{}, done_wire_{}, int_wire_{};
+    std::vector<FrameListener*> listeners_;
+    Data state_{};
+};
+
+}  // namespace motionrack::grating_bus

@@ -1,0 +1,89 @@
+// The lines of the bus: who drives what, which level comes of it, and where drivers contradict each other.
+//
+//   host  ──1──┐
+//   slave ──z──┼── line: the level of all who drive; who differ are a conflict, bit by bit the low level wins
+//   host 2 ─0──┘
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/base/time.hpp>
+#include <string_view>
+
+namespace motionrack::grating_bus {
+
+enum class Line : std::uint8_t { clk, hold, read_n, addr, data };
+inline constexpr std::size_t line_count = 5;
+inline constexpr int most_drivers = 64;  ///< cards and decoders of a bus
+
+struct LineType {
+    std::string_view name;
+    std::uint32_t rest;  ///< its level when nobody drives it
+    int bits;
+};
+inline constexpr std::array<LineType, line_count> line_types = {{
+    {"clk", 0, 1}, {"hold", 0, 1}, {"read_n", 1, 1}, {"addr", 0xFF, 8}, {"data", 0xFFFFFFFF, 32},
+}};
+constexpr std::uint32_t rest_of(Line line) {
+    return line_types[static_cast<std::size_t>(line)].rest;
+}
+/// All bits of a line.
+constexpr std::uint32_t bits_of(Line line) {
+    return 0xFFFFFFFFu >> (32 - line_types[static_cast<std::size_t>(line)].bits);
+}
+
+/// Drivers that differed on a line, from `begin` to `end`.
+struct Conflict {
+    Instant begin{};
+    Instant end = never;     ///< never: it lasts
+    std::uint64_t high = 0;  ///< bit n: driver n drove a bit high that another drove low, at some time of it
+    std::uint64_t low = 0;   ///< bit n: driver n drove such a bit low
+    std::uint64_t line = 0;  ///< Line
+};
+
+/// State only; trivially copyable.
+class Lines {
+  public:
+    static constexpr std::size_t kept = 256;  ///< conflicts that are remembered one by one
+
+    std::uint32_t level(Line line) const { return level_[at(line)]; }
+    void drive(Line line, int driver, std::uint32_t value) {
+        driving_[at(line)] |= std::uint64_t{1} << driver;
+        value_[at(line)][static_cast<std::size_t>(driver)] = value;
+    }
+    void leave(Line line, int driver) { driving_[at(line)] &= ~(std::uint64_t{1} << driver); }
+    /// From now on the bits `mask` of the line have the levels `value`, whatever is driven.
+    void force(Line line, std::uint32_t mask, std::uint32_t value) { forced_[at(line)] = mask, stuck_[at(line)] = value & mask; }
+    std::uint32_t forced(Line line) const { return forced_[at(line)]; }
+    std::uint32_t stuck(Line line) const { return stuck_[at(line)]; }
+    bool any_forced() const { return (forced_[0] | forced_[1] | forced_[2] | forced_[3] | forced_[4]) != 0; }
+
+    /// Makes the levels of what is driven. Returns the lines (a bit each) on which a conflict began.
+    unsigned settle(Instant now);
+    bool conflict() const { return in_conflict_ != 0; }
+    /// On this line since the start.
+    std::uint64_t conflicts(Line line) const { return told_[at(line)]; }
+    std::uint64_t all_conflicts() const { return count_; }
+    /// Conflict number `n` (all_conflicts() - kept .. all_conflicts() - 1).
+    const Conflict& conflict(std::uint64_t n) const { return list_[n % kept]; }
+
+  private:
+    static constexpr std::size_t at(Line line) { return static_cast<std::size_t>(line); }
+    unsigned settle(Line line, Instant now);
+    void end_conflict(std::size_t i, Instant now);
+    /// Whether later conflicts have not yet pushed number `n` out of the list.
+    bool listed(std::uint64_t n) const { return count_ <= n + kept; }
+
+    std::array<std::uint32_t, line_count> level_ = {0, 0, 1, 0xFF, 0xFFFFFFFF};
+    std::array<std::uint32_t, line_count> forced_{};
+    std::array<std::uint32_t, line_count> stuck_{};
+    std::uint32_t in_conflict_ = 0;  // a bit a line
+    std::array<std::uint64_t, line_count> driving_{};
+    std::array<std::array<std::uint32_t, most_drivers>, line_count> value_{};
+    std::array<std::uint64_t, line_count> told_{};
+    std::array<std::uint64_t, line_count> open_{};  // number of the conflict that lasts
+    std::uint64_t count_ = 0;
+    std::array<Conflict, kept> list_{};
+};
+
+}  // namespace motionrack::grating_bus

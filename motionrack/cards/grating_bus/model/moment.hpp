@@ -1,0 +1,77 @@
+// Where the sequence of a card is so long after it entered S1: what nobody needs to step through can be told from the time alone.
+#pragma once
+
+#include <motionrack/cards/grating_bus/map.hpp>
+
+namespace motionrack::grating_bus {
+
+struct Moment {
+    State state = State::S0;
+    int word = 0;
+    Duration until{};  ///< since S1 was entered: when the state ends; nothing in S0
+};
+
+/// How long a card stays in a state; S0 has no end.
+constexpr Duration time_in(const Timing& timing, State state) {
+    switch (state) {
+        case State::S1:
+        case State::S7:
+            return timing.t1;
+        case State::S2:
+        case State::S8:
+            return timing.t2;
+        case State::S3:
+        case State::S9:
+            return timing.t3;
+        default:
+            return timing.clock;
+    }
+}
+
+/// The state after `state` with `left` words not read yet; the state machine of the map.
+constexpr State after(State state, bool words_left) {
+    switch (state) {
+        case State::S4:
+            return State::S5;
+        case State::S5:
+            return words_left ? State::S6 : State::S11;
+        case State::S10:
+            return State::S5;
+        case State::S12:
+            return State::S0;
+        default:
+            return static_cast<State>(static_cast<int>(state) + 1);
+    }
+}
+
+/// `elapsed` >= 0 since S1 was entered, in a frame of `words`.
+constexpr Moment moment_of(const Timing& timing, int words, Duration elapsed) {
+    const Duration word_time = timing.word_time();
+    const auto word = static_cast<int>(elapsed / word_time);
+    const Duration begin = word * word_time;
+    if (word >= words) return elapsed < timing.frame_time(words) ? Moment{State::S12, words - 1, timing.frame_time(words)} : Moment{};
+    State state = word == 0 ? State::S1 : State::S7;
+    Duration until = begin + time_in(timing, state);
+    while (elapsed >= until) {
+        state = after(state, word + 1 < words);
+        until += time_in(timing, state);
+    }
+    return {state, word, until};
+}
+
+/// What a host has on its lines in a state.
+struct Outputs {
+    std::uint32_t hold, read_n, addr;
+};
+constexpr Outputs outputs_of(const Moment& moment, int first) {
+    const State s = moment.state;
+    if (s == State::S0) return {0, 1, 0xFF};
+    if (s == State::S1) return {1, 1, 0xFF};
+    const bool reads = s == State::S2 || s == State::S3 || s == State::S8 || s == State::S9;
+    return {1, reads ? 0u : 1u, static_cast<std::uint32_t>(first + (s == State::S7 ? moment.word - 1 : moment.word))};
+}
+
+static_assert(moment_of({}, 4, nanoseconds(50)).state == State::S3 && moment_of({}, 4, nanoseconds(440)).state == State::S12);
+static_assert(moment_of({}, 4, nanoseconds(449)).state == State::S12 && moment_of({}, 4, nanoseconds(450)).state == State::S0);
+
+}  // namespace motionrack::grating_bus

@@ -1,0 +1,98 @@
+// The processor's interface.
+#include <motionrack/cards/grating_bus/model/bus.hpp>
+#include <motionrack/cards/grating_bus/model/card.hpp>
+
+namespace motionrack::grating_bus {
+
+namespace {
+
+constexpr Field CLAIM = field("CONTROL", "CLAIM"), RELEASE = field("CONTROL", "RELEASE"), CLEAR = field("CONTROL", "CLEAR_ERRORS"),
+                RESET = field("CONTROL", "RESET");
+
+constexpr std::uint16_t low(std::uint64_t value, int word = 0) {
+    return static_cast<std::uint16_t>(value >> (16 * word));
+}
+
+constexpr std::uint16_t ticks(Duration d) {
+    return static_cast<std::uint16_t>(d.count());
+}
+
+constexpr bool is_count(std::uint32_t at) {
+    return at >= counts_at && at < counts_at + 4 * most_scales && at % 2 == 0;
+}
+
+std::uint16_t frame_word(const Frame& frame, std::uint32_t at) {
+    if (is_count(at)) {
+        const std::uint32_t k = (at - counts_at) / 4;
+        return k < frame.words ? low(frame.counts[k], at % 4 / 2) : std::uint16_t{0};
+    }
+    switch (at) {
+        case offset("SEQUENCE_L"): return low(frame.sequence);
+        case offset("SEQUENCE_H"): return low(frame.sequence, 1);
+        case offset("TIME_0"): return low(static_cast<std::uint64_t>(frame.time));
+        case offset("TIME_1"): return low(static_cast<std::uint64_t>(frame.time), 1);
+        case offset("TIME_2"): return low(static_cast<std::uint64_t>(frame.time), 2);
+        case offset("TIME_3"): return low(static_cast<std::uint64_t>(frame.time), 3);
+        case offset("WORDS"): return low(frame.words);
+        case offset("CRC_L"): return low(frame.crc);
+        case offset("CRC_H"): return low(frame.crc, 1);
+        default: return 0;
+    }
+}
+
+}  // namespace
+
+std::uint16_t Card::peek(std::uint32_t at) const {
+    static constexpr Frame nothing{};
+    if (is_count(at) || (at >= offset("SEQUENCE_L") && at <= offset("CRC_H") && at % 2 == 0)) {
+        const Frame* held = state_.buffers.held();
+        return frame_word(held ? *held : nothing, at);
+    }
+    if (at >= offset("BROKEN") && at <= offset("OVERRUN") && at % 2 == 0) return state_.counters[(at - offset("BROKEN")) / 2];
+    const CardSettings& s = settings_;
+    const Moment m = moment();
+    switch (at) {
+        case offset("SIGNATURE"): return signature;
+        case offset("ROLE"):
+            return static_cast<std::uint16_t>((is_host() ? 1 : 0) | (s.clock_out() ? 2 : 0) | (s.address_out() ? 4 : 0) | (s.checks ? 8 : 0));
+        case offset("STATUS"):
+            return static_cast<std::uint16_t>((state_.fresh != 0 ? 1 : 0) | (state_.buffers.held() ? 2 : 0) | (stale() ? 4 : 0) |
+                                              (s.wrong_direction() ? 8 : 0) | (m.state != State::S0 ? 16 : 0) | (off() ? 32 : 0));
+        case offset("STATE"): return static_cast<std::uint16_t>(static_cast<int>(m.state) | m.word << 8);
+        case offset("SCALES"): return static_cast<std::uint16_t>(s.scales);
+        case offset("FIRST"): return static_cast<std::uint16_t>(s.first);
+        case offset("T1"): return ticks(s.timing.t1);
+        case offset("T2"): return ticks(s.timing.t2);
+        case offset("T3"): return ticks(s.timing.t3);
+        case offset("CLOCK"): return ticks(s.timing.clock);
+        case offset("PERIOD_L"): return low(static_cast<std::uint64_t>(s.period.count()));
+        case offset("PERIOD_H"): return low(static_cast<std::uint64_t>(s.period.count()), 1);
+        case offset("FRAMES_L"): return low(state_.frames);
+        case offset("FRAMES_H"): return low(state_.frames, 1);
+        default: return 0xFFFF;
+    }
+}
+
+std::uint16_t Card::read(std::uint32_t at) {
+    bool known = is_count(at);
+    for (const RegisterInfo& reg : map::registers) known = known || (reg.access == Access::read && reg.offset == at);
+    if (!known) report(BusCondition::no_register, at, -1);
+    return peek(at);
+}
+
+void Card::write(std::uint32_t at, std::uint16_t value) {
+    if (at != offset("CONTROL")) return report(BusCondition::no_register, at, value);
+    if (CLAIM.test(value) || RELEASE.test(value)) bus_.leave_frame(kernel_.now());
+    if (CLAIM.test(value)) {
+        state_.buffers.claim();
+        set_fresh(false);
+    }
+    if (RELEASE.test(value)) state_.buffers.release();
+    if (CLEAR.test(value)) state_.counters = {}, state_.told_overrun = 0;
+    if (!RESET.test(value) || off()) return;
+    bus_.interrupt_span(kernel_.now());
+    reset();
+    bus_.look_again(kernel_.now());
+}
+
+}  // namespace motionrack::grating_bus

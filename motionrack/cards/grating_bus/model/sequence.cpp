@@ -1,0 +1,237 @@
+// The sequence S0 .. S12 of a card, step by step, and what comes of a frame.
+#include <algorithm>
+#include <motionrack/cards/grating_bus/model/bus.hpp>
+#include <motionrack/cards/grating_bus/model/card.hpp>
+
+namespace motionrack::grating_bus {
+
+namespace {
+
+enum Bad : std::uint8_t { bad_missed = 1, bad_alien = 2, bad_lines = 4 };
+
+}  // namespace
+
+std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t most) {
+    std::uint64_t h = seed * 0x9E3779B97F4A7C15ull + static_cast<std::uint64_t>(n);
+    h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9ull;
+    h = (h ^ (h >> 27)) * 0x94D049BB133111EBull;
+    return static_cast<std::int64_t>((h ^ (h >> 31)) % static_cast<std::uint64_t>(most + 1));
+}
+
+Instant Card::next() const {
+    if (state_.off != 0) return state_.stale_at;
+    return std::min(std::min(std::min(state_.state_ends, state_.starts), std::min(state_.pulse_at, state_.fall_at)), state_.stale_at);
+}
+
+// ---- the order of an instant: sample, advance, clock_rose ------------------------------------------------------------------
+
+void Card::sample(const Lines& lines, Instant now) {
+    if (state_.state_ends != now) return;
+    const bool takes = state_.fsm == State::S2 || state_.fsm == State::S8;
+    if (!takes && state_.fsm != State::S4 && state_.fsm != State::S10) return;
+    const bool read_off = lines.level(Line::read_n) != 0;
+    if (takes && !read_off) state_.buffers.current().counts[static_cast<std::size_t>(state_.word)] = lines.level(Line::data);
+    if (!settings_.checks) return;
+    if (takes) state_.bad_word = 0;
+    const bool clock_wrong = is_host() && lines.level(Line::clk) != state_.clk;
+    if (takes && read_off)
+        spoil(missed_words, bad_missed);
+    else if (takes && lines.level(Line::addr) != static_cast<std::uint32_t>(settings_.first + state_.word))
+        spoil(alien, bad_alien);
+    else if (takes ? lines.level(Line::hold) == 0 || clock_wrong : !read_off || clock_wrong)
+        spoil(line_faults, bad_lines);
+}
+
+/// The word that is being read is no good; it is counted once.
+void Card::spoil(Counter why, std::uint8_t bad) {
+    if (state_.bad_word == 0) count(why);
+    state_.bad_word = 1;
+    state_.bad |= bad;
+}
+
+void Card::advance(Instant now) {
+    if (state_.off != 0) return check_stale(now);
+    if (state_.state_ends == now) enter(after(state_.fsm, state_.word + 1 < settings_.scales), now);
+    if (state_.starts == now) begin(now);
+    if (state_.fall_at == now) state_.clk = 0, state_.fall_at = never;
+    if (state_.pulse_at == now) pulse(now);
+    check_stale(now);
+}
+
+void Card::clock_rose(Instant now) {
+    if (is_host() || state_.off != 0) return;
+    if (state_.miss != 0) {
+        --state_.miss;
+        return;
+    }
+    state_.quiet = 0;
+    note_edge(now);
+    if (!idle()) return overrun_edge();
+    if (state_.late == Duration{0}) return begin(now);
+    state_.starts = now + state_.late;
+}
+
+void Card::pulse(Instant now) {
+    state_.quiet = 0;
+    state_.clk = 1;
+    state_.fall_at = now + settings_.period / 2;
+    note_edge(now);
+    next_pulse();
+    if (!idle()) return overrun_edge();
+    begin(now);
+}
+
+/// The instant of pulse number `pulse`.
+void Card::next_pulse() {
+    ++state_.pulse;
+    state_.pulse_at = grid() + Duration{scatter(settings_.seed, state_.pulse, state_.jitter.count())};
+}
+
+void Card::note_edge(Instant now) {
+    if (state_.last_edge < Instant{0}) {
+        state_.sequence = 0;
+    } else if (is_host() || now - state_.last_edge < settings_.period + settings_.period / 2) {
+        ++state_.sequence;
+    } else {
+        const auto periods = static_cast<std::uint32_t>((now - state_.last_edge + settings_.period / 2) / settings_.period);
+        state_.sequence += periods;
+        if (periods > 1) {
+            count(missed_edges, periods - 1);
+            report(BusCondition::missed_edges, periods - 1, state_.sequence);
+        }
+    }
+    state_.last_edge = now;
+}
+
+void Card::overrun_edge() {
+    count(overrun);
+    if (state_.told_overrun == 0) report(BusCondition::overrun, state_.sequence);
+    state_.told_overrun = 1;
+}
+
+void Card::begin(Instant now) {
+    state_.starts = never;
+    begin_frame(now);
+    enter(State::S1, now);
+}
+
+void Card::begin_frame(Instant now) {
+    state_.frame_time = now;
+    state_.frame_sequence = state_.sequence;
+    state_.word = 0;
+    state_.bad = 0;
+    state_.buffers.begin();
+}
+
+void Card::enter(State state, Instant now) {
+    const State before = state_.fsm;
+    state_.fsm = state;
+    state_.state_ends = state == State::S0 ? never : now + time_in(settings_.timing, state);
+    switch (state) {
+        case State::S0:
+            state_.hold = 0;
+            state_.addr = rest_of(Line::addr);
+            state_.word = 0;
+            break;
+        case State::S1:
+            state_.hold = 1;
+            break;
+        case State::S7:
+            ++state_.word;
+            break;
+        case State::S2:
+        case State::S8:
+            state_.addr = static_cast<std::uint32_t>(settings_.first + state_.word);
+            state_.read_n = 0;
+            break;
+        case State::S4:
+        case State::S10:
+            state_.read_n = 1;
+            break;
+        case State::S12:
+            publish(now, nullptr);
+            break;
+        default:
+            break;
+    }
+    if (before != state) show();
+}
+
+void Card::drive(Lines& lines, int driver) const {
+    const bool silent = state_.off != 0 || state_.quiet != 0;
+    const auto put = [&](Line line, bool out, std::uint32_t value) {
+        if (out && !silent)
+            lines.drive(line, driver, value);
+        else
+            lines.leave(line, driver);
+    };
+    const bool host = is_host();  // a slave's logic leaves these pins open
+    put(Line::clk, settings_.clock_out(), host ? state_.clk : 0);
+    put(Line::hold, settings_.clock_out(), host ? state_.hold : 0);
+    put(Line::read_n, settings_.clock_out(), host ? state_.read_n : 1);
+    put(Line::addr, settings_.address_out(), host ? state_.addr : rest_of(Line::addr));
+}
+
+// ---- frames -----------------------------------------------------------------------------------------------------------------
+
+void Card::put_words(const std::uint32_t* counts, int words) {
+    std::copy_n(counts, words, state_.buffers.current().counts.begin());
+}
+
+/// `like`: a frame with the same counts whose CRC is known; may be nullptr.
+void Card::publish(Instant now, const Frame* like) {
+    if (state_.bad != 0) {
+        state_.buffers.abandon();
+        count(broken);
+        if (state_.was_bad == 0) report(BusCondition::bad_frame, state_.frame_sequence, state_.bad);
+        state_.was_bad = 1;
+        return;
+    }
+    state_.was_bad = 0;
+    Frame& frame = state_.buffers.current();
+    frame.time = state_.frame_time.count();
+    frame.sequence = state_.frame_sequence;
+    frame.words = static_cast<std::uint32_t>(settings_.scales);
+    const bool known = like && like->sequence == frame.sequence && like->time == frame.time && like->words == frame.words;
+    frame.crc = known ? like->crc : crc_of(frame);
+    state_.buffers.publish();
+    ++state_.frames;
+    state_.published_sequence = state_.frame_sequence;
+    state_.published_time = state_.frame_time;
+    state_.stale = 0;
+    state_.stale_at = state_.frame_time + 2 * settings_.period;
+    set_fresh(true);
+    for (FrameListener* listener : listeners_) listener->published(*this, frame, now);
+}
+
+void Card::check_stale(Instant now) {
+    if (state_.stale_at > now) return;
+    state_.stale_at = never;
+    state_.stale = 1;
+    const bool any = state_.frames != 0;
+    report(BusCondition::stale, any ? std::int64_t{state_.published_sequence} : -1, any ? state_.published_time.count() : 0);
+}
+
+// ---- whole frames -----------------------------------------------------------------------------------------------------------
+
+void Card::take_up(Instant start, const std::uint32_t* counts, Instant now) {
+    const Moment m = moment_of(settings_.timing, settings_.scales, now - start);
+    if (m.state == State::S0) return;
+    if (m.state != State::S12) {
+        begin_frame(start);
+        const bool sampled = m.state != State::S1 && m.state != State::S2 && m.state != State::S7 && m.state != State::S8;
+        put_words(counts, m.word + (sampled ? 1 : 0));
+    }
+    state_.fsm = m.state;
+    state_.word = m.word;
+    state_.state_ends = start + m.until;
+    const Outputs out = outputs_of(m, settings_.first);
+    state_.hold = out.hold, state_.read_n = out.read_n, state_.addr = out.addr;
+}
+
+Moment Card::moment() const {
+    if (bus_.in_span() && state_.fsm == State::S0 && state_.off == 0) return moment_of(settings_.timing, settings_.scales, kernel_.now() - bus_.span_start());
+    return {state_.fsm, state_.word, state_.state_ends - state_.frame_time};
+}
+
+}  // namespace motionrack::grating_bus

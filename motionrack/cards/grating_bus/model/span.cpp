@@ -1,0 +1,95 @@
+// A whole frame as one step.
+#include <algorithm>
+#include <motionrack/cards/grating_bus/model/bus.hpp>
+
+namespace motionrack::grating_bus {
+
+/// Whether a frame that begins now would go as it should, and nobody watches it go.
+bool Bus::regular() const {
+    if (!alike_ || state_.wanted != 0 || state_.lines.any_forced() || decoders_[0]->state_.no_latch != 0) return false;
+    for (const Card* card : cards_) {
+        const Card::Data& s = card->state_;
+        if (s.off != 0 || s.late != Duration{0} || s.miss != 0) return false;
+        if (state_.span == 0 && !card->idle()) return false;
+    }
+    const Card::Data& first = cards_[static_cast<std::size_t>(host_)]->state_;
+    if (first.jitter + host().timing.frame_time(host().scales) >= host().period) return false;  // the next pulse may come too soon
+    return state_.span != 0 || (state_.lines.level(Line::clk) == 0 && first.quiet == 0);
+}
+
+void Bus::begin_span(Instant now) {
+    decoders_[0]->latch(now);
+    state_.span = 1;
+    state_.published = 0;
+    state_.start = now;
+    state_.done = now + host().timing.frame_time(host().scales) - host().timing.clock;
+    for (Card* card : cards_) {
+        card->state_.quiet = 0;
+        card->note_edge(now);
+        if (card->is_host()) card->next_pulse();
+        card->check_stale(now);
+    }
+}
+
+void Bus::publish_span(Instant now) {
+    const Frame* like = nullptr;
+    Decoder::State& decoder = decoders_[0]->state_;
+    for (Card* card : cards_) {
+        card->begin_frame(state_.start);
+        card->put_words(&decoder.latched[static_cast<std::size_t>(host().first)], host().scales);
+        card->publish(now, like);
+        like = card->last();
+    }
+    decoder.out = decoder.latched[static_cast<std::size_t>(host().first + host().scales - 1)];
+    state_.published = 1;
+}
+
+Bus::Output Bus::span_output(Instant now) const {
+    const Decoder& decoder = *decoders_[0];
+    const Timing& timing = host().timing;
+    const Instant first = state_.start + timing.t1 + decoder.settings().output;  // of word 0
+    if (now < first) return {decoder.state_.out, first};
+    const auto words = std::min<std::int64_t>(host().scales, (now - first) / timing.word_time() + 1);
+    const std::uint32_t out = decoder.state_.latched[static_cast<std::size_t>(host().first + words - 1)];
+    return {out, words < host().scales ? first + words * timing.word_time() : never};
+}
+
+std::uint32_t Bus::span_level(Line line, Instant now) const {
+    const Duration elapsed = now - state_.start;
+    if (line == Line::clk) return elapsed < host().period / 2;
+    const Outputs outputs = outputs_of(moment_of(host().timing, host().scales, elapsed), host().first);
+    if (line == Line::hold) return outputs.hold;
+    if (line == Line::read_n) return outputs.read_n;
+    if (line == Line::addr) return outputs.addr;
+    return outputs.read_n == 0 ? span_output(now).out : rest_of(Line::data);
+}
+
+void Bus::interrupt_span(Instant now) {
+    if (state_.span == 0) return;
+    if (state_.published == 0 && now >= state_.done) publish_span(now);
+    Decoder& decoder = *decoders_[0];
+    const Output output = span_output(now);
+    const Outputs lines = outputs_of(moment_of(host().timing, host().scales, now - state_.start), host().first);
+    decoder.state_.out = output.out;
+    decoder.state_.valid = state_.start + decoder.settings().latch;
+    decoder.state_.asked = output.next == never ? now : output.next - decoder.settings().output;
+    decoder.state_.output = lines.read_n == 0 && decoder.state_.asked <= now ? output.next : never;
+    decoder.state_.hold = decoder.state_.frozen = lines.hold;
+    decoder.state_.read_n = lines.read_n, decoder.state_.addr = lines.addr;
+    state_.clk_was = span_level(Line::clk, now);
+    state_.span = 0;
+    Card::Data& first = cards_[static_cast<std::size_t>(host_)]->state_;
+    first.clk = state_.clk_was;
+    first.fall_at = state_.clk_was != 0 ? state_.start + host().period / 2 : never;
+    for (std::size_t i = 0; i < cards_.size(); ++i) {
+        cards_[i]->take_up(state_.start, &decoder.state_.latched[static_cast<std::size_t>(host().first)], now);
+        cards_[i]->drive(state_.lines, card_driver_[i]);
+    }
+    if (lines.read_n == 0)
+        state_.lines.drive(Line::data, decoder_driver_[0], output.out);
+    else
+        state_.lines.leave(Line::data, decoder_driver_[0]);
+    state_.lines.settle(now);
+}
+
+}  // namespace motionrack::grating_bus
