@@ -34,7 +34,7 @@ std::string room_of(const std::string& path) {
     if (path.rfind("cards/", 0) == 0) {
         const std::size_t card = path.find('/', 6);
         const std::string name = path.substr(6, card - 6), rest = path.substr(card + 1);
-        for (const char* part : {"chip", "model", "driver", "axes"})
+        for (const char* part : {"chip", "model", "driver", "axes", "processor"})
             if (rest.rfind(std::string(part) + "/", 0) == 0) return name + "/" + part;
         return name + "/map";
     }
@@ -65,6 +65,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"grating_bus/map", {"base"}},
     {"grating_bus/model", {"base", "sim", "grating_bus/map"}},
     {"grating_bus/driver", {"base", "grating_bus/map"}},
+    {"grating_bus/processor", {"base", "grating_bus/map", "grating_bus/driver"}},
     {"databoard4002/axes", {"base", "control", "databoard4002/map", "databoard4002/driver"}},
     {"rack", {"base", "sim", "parts", "control", "trace", "mcx314/map", "mcx314/chip", "mcx314/driver", "mcx314/axes",
               "databoard4002/map", "databoard4002/model", "databoard4002/axes", "ioflex02/map", "ioflex02/model"}},

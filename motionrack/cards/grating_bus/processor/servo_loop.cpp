@@ -1,0 +1,76 @@
+// The loop's arithmetic.
+#include <algorithm>
+#include <cmath>
+#include <motionrack/base/result.hpp>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/cards/grating_bus/processor/servo_loop.hpp>
+
+namespace motionrack::grating_bus {
+
+ServoGains tuned(double bandwidth_hz, double accel_per_volt, double viscous) {
+    MOTIONRACK_ASSERT(bandwidth_hz > 0 && accel_per_volt > 0 && viscous >= 0);
+    const double crossing = 2 * pi * bandwidth_hz, nm_s2 = accel_per_volt * 1e9;
+    ServoGains out;
+    out.d = crossing / nm_s2;
+    out.p = out.d * crossing / 3;
+    out.i = out.p * crossing / 15;
+    out.speed_ff = viscous / nm_s2;
+    out.accel_ff = 1 / nm_s2;
+    return out;
+}
+
+double FollowingError::rms_nm() const {
+    return frames == 0 ? 0 : std::sqrt(squares / static_cast<double>(frames));
+}
+
+ServoLoop::ServoLoop(const ServoSettings& settings) : settings_(settings) {
+    MOTIONRACK_ASSERT(settings.word < most_scales && settings.nm_per_count != 0);
+    MOTIONRACK_ASSERT(settings.limit_v > 0 && settings.limit_i_v >= 0);
+}
+
+void ServoLoop::close(std::int64_t count) {
+    count_ = count;
+    integral_ = volts_ = 0;
+    closed_ = true;
+    begun_ = false;
+}
+
+bool ServoLoop::usable(const Frame& frame) const {
+    return sound(frame) && settings_.word < frame.words && (!begun_ || frame.instant() > last_);
+}
+
+double ServoLoop::on_frame(const Frame& frame, const Setpoint& wanted) {
+    if (!closed_) return volts_;
+    if (!usable(frame)) {
+        ++unused_;
+        return volts_;
+    }
+    count_ = unwrapped(count_, frame.counts[settings_.word]);
+    const double error = wanted.position_nm - position_nm();
+    const double seconds = begun_ ? to_seconds(frame.instant() - last_) : 0;
+    const double slope = begun_ ? (error - before_) / seconds : 0;
+    const ServoGains& g = settings_.gains;
+    const double rest = g.p * error + g.d * slope + g.speed_ff * wanted.speed_nm_s + g.accel_ff * wanted.accel_nm_s2;
+    // At the output's limit the integral part would only wind up.
+    if (std::fabs(rest + integral_) < settings_.limit_v)
+        integral_ = std::clamp(integral_ + g.i * error * seconds, -settings_.limit_i_v, settings_.limit_i_v);
+    const double volts = rest + integral_;
+    volts_ = std::clamp(volts, -settings_.limit_v, settings_.limit_v);
+    last_ = frame.instant();
+    begun_ = true;
+    before_ = error;
+    error_.last_nm = error;
+    error_.peak_nm = std::max(error_.peak_nm, std::fabs(error));
+    error_.squares += error * error;
+    ++error_.frames;
+    return volts_;
+}
+
+double ServoLoop::on_stale() {
+    if (closed_) ++opened_;
+    closed_ = false;
+    integral_ = 0;
+    return volts_ = 0;
+}
+
+}  // namespace motionrack::grating_bus

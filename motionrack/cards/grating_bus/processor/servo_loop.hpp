@@ -1,0 +1,87 @@
+// A position loop closed through the bus' frames: every frame gives a position, and the position a voltage for the period that follows.
+//
+//   frame ──► count, unwrapped ──► nm ──┐
+//                                       ▼
+//   profile ──► wanted ───────────────(-)──► error ──► P + I + D ──┐
+//         └──► speed, acceleration ──► feed-forward ──────────────(+)──► limit ──► volts
+//
+// A frame that is not sound, not newer or stale is not used. Stale data open the loop: 0 V, and the position is not trusted until close().
+#pragma once
+
+#include <cstdint>
+#include <motionrack/base/time.hpp>
+#include <motionrack/cards/grating_bus/frame.hpp>
+#include <motionrack/cards/grating_bus/processor/profile.hpp>
+
+namespace motionrack::grating_bus {
+
+struct ServoGains {
+    double p = 0;         ///< V for a nm
+    double i = 0;         ///< V for a nm s
+    double d = 0;         ///< V for a nm/s
+    double speed_ff = 0;  ///< V for a nm/s
+    double accel_ff = 0;  ///< V for a nm/s2
+};
+
+/// Gains that make the open loop cross 1 at `bandwidth_hz` (about a twentieth of the frames' rate leaves room for the frames' own delay), for a
+/// stage that is accelerated by `accel_per_volt` m/s2 for a volt and braked by `viscous` m/s2 for a m/s.
+ServoGains tuned(double bandwidth_hz, double accel_per_volt, double viscous = 0);
+
+struct ServoSettings {
+    std::uint32_t word = 0;     ///< of the frame, 0 .. 254
+    double nm_per_count = 1;    ///< not 0; negative: the scale counts the other way
+    ServoGains gains;
+    double limit_v = 10;        ///< > 0: of the output
+    double limit_i_v = 5;       ///< >= 0: of the integral part
+};
+
+/// What the loop has missed since it was last reset.
+struct FollowingError {
+    double last_nm = 0;   ///< wanted - measured, at the last frame
+    double peak_nm = 0;   ///< the greatest without its sign
+    double squares = 0;
+    std::uint64_t frames = 0;
+    double rms_nm() const;
+};
+
+class ServoLoop {
+  public:
+    explicit ServoLoop(const ServoSettings& settings);
+
+    /// The position is trusted from now on: the next frame's count is the one next to `count` (64 bits, of the scale). Closes the loop.
+    void close(std::int64_t count = 0);
+    /// Takes the frame's position; the volts from now on. A frame that cannot be used changes nothing and is counted.
+    double on_frame(const Frame& frame, const Setpoint& wanted);
+    /// No frame came in time: opens the loop; 0 V.
+    double on_stale();
+
+    bool closed() const { return closed_; }
+    double volts() const { return volts_; }
+    /// As measured by the last frame.
+    double position_nm() const { return static_cast<double>(count_) * settings_.nm_per_count; }
+    std::int64_t count() const { return count_; }
+    const FollowingError& error() const { return error_; }
+    void reset_error() { error_ = {}; }
+    /// Frames that were not used: damaged, without this word, not newer than the last one.
+    std::uint64_t unused() const { return unused_; }
+    /// Times that the loop was opened by stale data.
+    std::uint64_t opened() const { return opened_; }
+    const ServoSettings& settings() const { return settings_; }
+
+  private:
+    bool usable(const Frame& frame) const;
+
+    ServoSettings settings_;
+    FollowingError error_;
+    std::int64_t count_ = 0;
+    double integral_ = 0;  // V
+    double before_ = 0;    // error at the last frame, nm
+    double volts_ = 0;
+    Instant last_{};       // of the last frame used
+    bool closed_ = false;
+    bool begun_ = false;   // a frame was used since close()
+    std::uint64_t unused_ = 0;
+    std::uint64_t opened_ = 0;
+};
+
+}  // namespace motionrack::grating_bus
