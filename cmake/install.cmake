@@ -30,13 +30,15 @@ motionrack_c_library(mcx314lib mcx314lib ${CMAKE_INSTALL_INCLUDEDIR})
 
 # ---- headers: those of the rooms; the program and the C library have none but c.h ----
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/motionrack DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp"
-        PATTERN test EXCLUDE PATTERN frontends EXCLUDE PATTERN report EXCLUDE)
+        PATTERN test EXCLUDE PATTERN frontends EXCLUDE PATTERN report EXCLUDE
+        PATTERN wire.hpp EXCLUDE)
 
 install(FILES ${PROJECT_SOURCE_DIR}/motionrack/frontends/pascal/uFlex2Pos.pas DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack/pascal)
 
 # ---- find_package ----
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/motionrack)
 install(EXPORT motionrack-cpp NAMESPACE motionrack:: DESTINATION ${package_dir})
+install(EXPORT motionrack-dds NAMESPACE motionrack:: DESTINATION ${package_dir})
 install(EXPORT motionrack-c NAMESPACE motionrack:: DESTINATION ${package_dir})
 set(motionrack_find_dependencies "")
 foreach(package IN LISTS motionrack_public_packages)
@@ -88,5 +90,6 @@ add_custom_target(motionrack_pages ALL DEPENDS ${pages}/motionrack ${pages}/moti
 install(FILES ${pages}/motionrack DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES ${pages}/motionrack.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 
-# ---- examples and rack files ----
+# ---- examples and rack files, and how frames use the network ----
+install(FILES ${PROJECT_SOURCE_DIR}/motionrack/dds/cyclonedds.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack)

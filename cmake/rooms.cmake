@@ -13,8 +13,9 @@ set_target_properties(motionrack_flags PROPERTIES EXPORT_NAME flags)
 
 # motionrack_room(NAME [SOURCES ...] [DEPS ...] [LIBRARIES ...] [HEADERS_OF ...]): the library motionrack_NAME, for others
 # motionrack::NAME; without sources it is headers only. Only its sources use LIBRARIES and HEADERS_OF; the latter have no library.
+# COMPONENT: what strangers ask find_package for to have it, where it needs packages that the other rooms do not.
 function(motionrack_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;DEPS;LIBRARIES;HEADERS_OF" ${ARGN})
+  cmake_parse_arguments(ROOM "" "COMPONENT" "SOURCES;DEPS;LIBRARIES;HEADERS_OF" ${ARGN})
   if(ROOM_SOURCES)
     add_library(motionrack_${name} STATIC ${ROOM_SOURCES})
     target_link_libraries(motionrack_${name} PUBLIC motionrack_flags ${ROOM_DEPS} PRIVATE ${ROOM_LIBRARIES})
@@ -27,7 +28,11 @@ function(motionrack_room name)
   endif()
   add_library(motionrack::${name} ALIAS motionrack_${name})
   set_target_properties(motionrack_${name} PROPERTIES EXPORT_NAME ${name})
-  set_property(GLOBAL APPEND PROPERTY motionrack_rooms motionrack_${name})
+  if(ROOM_COMPONENT)
+    install(TARGETS motionrack_${name} EXPORT motionrack-${ROOM_COMPONENT} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  else()
+    set_property(GLOBAL APPEND PROPERTY motionrack_rooms motionrack_${name})
+  endif()
 endfunction()
 
 # motionrack_test(NAME [SOURCES ...] [DEPS ...]): one test program; each of its tests is a ctest test.

@@ -66,10 +66,11 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"grating_bus/model", {"base", "sim", "grating_bus/map"}},
     {"grating_bus/driver", {"base", "grating_bus/map"}},
     {"grating_bus/processor", {"base", "grating_bus/map", "grating_bus/driver"}},
+    {"dds", {"base", "grating_bus/map"}},
     {"databoard4002/axes", {"base", "control", "databoard4002/map", "databoard4002/driver"}},
     {"rack", {"base", "sim", "parts", "control", "trace", "mcx314/map", "mcx314/chip", "mcx314/driver", "mcx314/axes",
               "databoard4002/map", "databoard4002/model", "databoard4002/axes", "ioflex02/map", "ioflex02/model"}},
-    {"frontends", {"base", "live", "control", "decode", "trace", "rack", "c.h"}},
+    {"frontends", {"base", "live", "control", "decode", "trace", "rack", "dds", "c.h"}},
     {"flex2pos", {"base", "rack", "frontends", "flex2pos.h", "ioflex02/map", "ioflex02/driver"}},
     {"mcx314lib", {"base", "rack", "mcx314/map", "mcx314/driver"}},
 };

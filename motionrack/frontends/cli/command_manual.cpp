@@ -30,8 +30,20 @@ std::string plain(const std::string& text) {
     return out;
 }
 
+/// Every command, and each one of a group after it.
 std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-    return app.get_subcommands([](const CLI::App*) { return true; });
+    std::vector<const CLI::App*> out;
+    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        out.push_back(command);
+        const std::vector<const CLI::App*> inner = commands_of(*command);
+        out.insert(out.end(), inner.begin(), inner.end());
+    }
+    return out;
+}
+
+/// "frames publish" of a group's command.
+std::string name_of(const CLI::App& command, const CLI::App& app) {
+    return (command.get_parent() == &app ? "" : name_of(*command.get_parent(), app) + " ") + command.get_name();
 }
 
 /// "--rack FILE": the names of an option, bold, and what follows it.
@@ -71,7 +83,7 @@ std::string page(const CLI::App& app) {
     out += ".SH OPTIONS\n" + options_of(app);
     out += ".SH COMMANDS\n";
     for (const CLI::App* command : commands_of(app))
-        out += ".SS " + plain(command->get_name()) + "\n" + plain(command->get_description()) + ".\n" +
+        out += ".SS " + plain(name_of(*command, app)) + "\n" + plain(command->get_description()) + ".\n" +
                options_of(*command) + verbatim(command->get_footer());
     out += ".SH EXAMPLES AND EXIT CODES\n" + verbatim(app.get_footer());
     return out;

@@ -18,6 +18,7 @@ void add_decode(CLI::App& app, Action& chosen);
 void add_describe(CLI::App& app, Action& chosen);
 void add_registers(CLI::App& app, Action& chosen);
 void add_new(CLI::App& app, Action& chosen);
+void add_frames(CLI::App& app, Action& chosen);
 void add_bench(CLI::App& app, Action& chosen);
 void add_completion(CLI::App& app, Action& chosen);
 void add_manual(CLI::App& app, Action& chosen);

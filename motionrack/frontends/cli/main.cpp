@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
     add_trace(app, chosen);
     add_canon(app, chosen);
     add_decode(app, chosen);
+    add_frames(app, chosen);
     add_bench(app, chosen);
     add_completion(app, chosen);
     add_manual(app, chosen);

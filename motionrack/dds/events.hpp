@@ -1,0 +1,46 @@
+// What a judge reports, and the sentences that people read.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <motionrack/dds/sample.hpp>
+#include <string>
+
+namespace motionrack::dds {
+
+enum class EventKind : std::uint8_t {
+    joined, stale, fresh, lost, late, duplicate, jump, anew, wrong_crc, foreign, malformed, wrong_words, conflict, conflict_over, restart, takeover,
+};
+inline constexpr std::size_t event_kinds = 16;
+const char* name_of(EventKind kind);
+
+struct Event {
+    EventKind kind = EventKind::joined;
+    Instant when{};
+    Source source, other;      ///< who has the bus, and the other one of a conflict, restart or takeover
+    std::uint64_t number = 0;  ///< what the sentence tells: frames lost, N seen, sequence
+    std::uint64_t limit = 0;   ///< N expected, sequence before
+    std::uint64_t total = 0;   ///< of this kind so far
+};
+
+/// What happened, what was done with it, what to do.
+std::string sentence(const Event& event);
+
+/// Holds events until someone reads them; one a second of each kind, for a thousand bad frames are one report.
+class EventQueue {
+  public:
+    static constexpr Duration least_distance = whole_seconds(1);
+
+    /// Whether an event of this kind may be put.
+    bool open(EventKind kind, Instant now) const;
+    void put(const Event& event);
+    bool take(Event& event);
+
+  private:
+    std::array<Event, 32> ring_;
+    std::size_t first_ = 0, count_ = 0;
+    std::array<Instant, event_kinds> last_{};
+    std::array<bool, event_kinds> told_{};
+};
+
+}  // namespace motionrack::dds

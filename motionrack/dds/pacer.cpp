@@ -1,0 +1,28 @@
+// Due times.
+#include <algorithm>
+#include <motionrack/dds/pacer.hpp>
+
+namespace motionrack::dds {
+
+Instant Pacer::due(Instant frame, Instant now) {
+    const bool begin = !begun_ || frame < first_frame_;
+    if (begin) {
+        begun_ = true;
+        first_frame_ = frame;
+        first_due_ = now;
+    }
+    // Speed 1 stays whole ticks; otherwise 53 bits hold a tick of a day's run.
+    const Duration elapsed = frame - first_frame_;
+    const Duration real = speed_ == 1 ? elapsed : Duration{static_cast<std::int64_t>(static_cast<double>(elapsed.count()) / speed_)};
+    const Instant due = first_due_ + real;
+    const Duration behind = now - due;
+    worst_ = std::max(worst_, behind);
+    if (behind > pace_) ++late_;
+    if (behind <= most_behind) return due;
+    ++slips_;
+    first_frame_ = frame;
+    first_due_ = now;
+    return now;
+}
+
+}  // namespace motionrack::dds

@@ -1,0 +1,42 @@
+// Frames of a bus on another computer for a virtual card here: every judged frame once, in order, between two instants of the rack.
+#pragma once
+
+#include <memory>
+#include <motionrack/dds/subscriber.hpp>
+#include <utility>
+
+namespace motionrack::dds {
+
+class RemoteFeed {
+  public:
+    /// `subscriber` may not be null.
+    explicit RemoteFeed(std::unique_ptr<Subscriber> subscriber) : subscriber_(std::move(subscriber)) {}
+
+    /// Is given a frame and the rack's time at which it enters.
+    using Take = std::function<void(const Frame&, Instant now)>;
+
+    /// Hands over what came since the last call and may be used as position; the number of frames. Call it between two runs of the
+    /// rack's kernel, with the rack's time. A card that marks its data stale two periods after its last frame is right where the rack runs
+    /// in real time; stale() tells it by this computer's clock.
+    int give(Instant now, const Take& take) {
+        struct Call {
+            const Take& take;
+            Instant now;
+            int given;
+        } call{take, now, 0};
+        subscriber_->poll([&call](const Sample& sample, Verdict verdict, Instant) {
+            if (verdict != Verdict::used) return;
+            call.take(sample.frame, call.now);
+            ++call.given;
+        });
+        return call.given;
+    }
+
+    bool stale() const { return subscriber_->judge().stale(); }
+    Subscriber& subscriber() { return *subscriber_; }
+
+  private:
+    std::unique_ptr<Subscriber> subscriber_;
+};
+
+}  // namespace motionrack::dds

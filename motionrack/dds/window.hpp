@@ -1,0 +1,39 @@
+// Which of the last 64 sequence numbers were there: tells a frame that comes late from one that comes twice.
+#pragma once
+
+#include <cstdint>
+
+namespace motionrack::dds {
+
+class SequenceWindow {
+  public:
+    void begin(std::uint32_t sequence) {
+        newest_ = sequence;
+        seen_ = 1;
+        span_ = 1;
+    }
+    /// `sequence` is `ahead` (1 .. 2^31 - 1) after the newest one.
+    void advance(std::uint32_t ahead) {
+        newest_ += ahead;
+        seen_ = ahead < 64 ? seen_ << ahead | 1 : 1;
+        span_ = ahead < 64 && span_ + ahead < 64 ? span_ + ahead : 64;
+    }
+    /// Marks a number that is `behind` (0 .. 2^31) the newest; true if it was missing, and known to be.
+    bool fill(std::uint32_t behind) {
+        if (behind >= span_) return false;
+        const std::uint64_t bit = std::uint64_t{1} << behind;
+        const bool missing = (seen_ & bit) == 0;
+        seen_ |= bit;
+        return missing;
+    }
+    /// Whether a number so far behind is still in the window.
+    bool knows(std::uint32_t behind) const { return behind < span_; }
+    std::uint32_t newest() const { return newest_; }
+
+  private:
+    std::uint32_t newest_ = 0;
+    std::uint64_t seen_ = 0;
+    std::uint32_t span_ = 0;  ///< numbers since the beginning, at most 64
+};
+
+}  // namespace motionrack::dds

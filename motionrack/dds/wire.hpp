@@ -1,0 +1,62 @@
+// Between a sample and the struct that the network engine takes; only the sources of this room include it.
+#pragma once
+
+#include <dds/dds.h>
+#include <sample.h>
+
+#include <memory>
+#include <motionrack/dds/sample.hpp>
+
+namespace motionrack::dds {
+
+inline constexpr const char* topic_name = "motionrack_grating_frames";
+
+/// A WireSample with room for the longest frame, so that nothing is allocated when one is taken or written.
+class WireBuffer {
+  public:
+    WireBuffer() {
+        wire_.counts._maximum = grating_bus::most_scales;
+        wire_.counts._buffer = counts_.data();
+        wire_.counts._release = false;
+    }
+    WireBuffer(const WireBuffer&) = delete;
+    WireBuffer& operator=(const WireBuffer&) = delete;
+
+    motionrack_dds_WireSample& wire() { return wire_; }
+    void put(const Sample& sample);
+    void get(Sample& sample) const;
+
+  private:
+    motionrack_dds_WireSample wire_{};
+    std::array<std::uint32_t, grating_bus::most_scales> counts_{};
+};
+
+/// An engine's handle, given back when it goes.
+class Entity {
+  public:
+    explicit Entity(dds_entity_t handle = 0) : handle_(handle) {}
+    ~Entity() {
+        if (handle_ > 0) dds_delete(handle_);
+    }
+    Entity(const Entity&) = delete;
+    Entity& operator=(const Entity&) = delete;
+    Entity(Entity&& other) noexcept : handle_(other.handle_) { other.handle_ = 0; }
+    Entity& operator=(Entity&& other) noexcept {
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    dds_entity_t get() const { return handle_; }
+
+  private:
+    dds_entity_t handle_;
+};
+
+/// A participant in a domain; what else is made belongs to it and goes with it. Errors: bad_input, io.
+Result<Entity> join(const std::string& bus, int domain);
+/// Best effort, keep last 1, volatile, in the bus' partition; `ignore_own`: a reader does not hear this participant's writers.
+using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
+Qos qos_of(const std::string& bus, bool ignore_own);
+/// `code` as an error. What: "The frames' topic cannot be made".
+tl::unexpected<Error> engine_error(const char* what, dds_return_t code);
+
+}  // namespace motionrack::dds

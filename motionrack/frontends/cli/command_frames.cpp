@@ -1,0 +1,13 @@
+// frames: the group of commands about frames of a grating bus.
+#include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/frames.hpp>
+
+namespace motionrack::cli {
+
+void add_frames(CLI::App& app, Action& chosen) {
+    CLI::App* group = app.add_subcommand("frames", "Frames of a grating bus: over the network to other computers, and from them");
+    group->require_subcommand(1);
+    add_frames_subscribe(*group, chosen);
+}
+
+}  // namespace motionrack::cli

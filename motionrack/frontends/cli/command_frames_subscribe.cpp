@@ -1,0 +1,206 @@
+// frames subscribe: shows what comes over the network from a grating bus, live, as lines, as JSON, and every frame as CSV.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <iterator>
+#include <memory>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/frames.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+
+namespace motionrack::cli {
+
+namespace {
+
+std::atomic<bool> stop_asked{false};
+
+void on_interrupt(int) { stop_asked.store(true); }
+
+struct SubscribeOptions {
+    BusOptions bus;
+    int scales = 0;
+    std::uint64_t count = 0;
+    double seconds = 0, every = 0;
+    std::string csv;
+    bool json = false, quiet = false;
+};
+
+/// Every used frame as a row.
+class CsvFile {
+  public:
+    ~CsvFile() {
+        if (file_) std::fclose(file_);
+    }
+    Result<void> open(const std::string& path) {
+        if (path.empty()) return {};
+        file_ = std::fopen(path.c_str(), "wb");
+        path_ = path;
+        return file_ ? Result<void>{} : broken();
+    }
+    void add(const dds::Frame& frame, Instant since_start) {
+        if (!file_) return;
+        row_.clear();
+        auto end = std::back_inserter(row_);
+        if (!begun_) {
+            row_ = "received_s,sequence,time_s";
+            for (std::uint32_t i = 0; i < frame.words; ++i) fmt::format_to(end, ",count_{}", i);
+            row_ += '\n';
+            begun_ = true;
+        }
+        fmt::format_to(end, "{:.7f},{},{:.10f}", to_seconds(since_start), frame.sequence, to_seconds(frame.instant()));
+        for (const std::uint32_t count : frame.positions()) fmt::format_to(end, ",{}", static_cast<std::int32_t>(count));
+        row_ += '\n';
+        if (std::fwrite(row_.data(), 1, row_.size(), file_) != row_.size()) good_ = false;
+    }
+    Result<void> finish() {
+        if (!file_) return {};
+        good_ = std::fclose(file_) == 0 && good_;
+        file_ = nullptr;
+        return good_ ? Result<void>{} : broken();
+    }
+
+  private:
+    Result<void> broken() const {
+        return fail(Trouble::io, fmt::format("{} cannot be written: {}. Choose another name or make room.", path_, std::strerror(errno)));
+    }
+    std::FILE* file_ = nullptr;
+    std::string path_, row_;
+    bool begun_ = false, good_ = true;
+};
+
+/// What is on the screen, or goes into a pipe.
+class Display {
+  public:
+    Display(const SubscribeOptions& options, Instant start) : options_(options), start_(start), live_(!options.json && !options.quiet && is_terminal(1)) {}
+
+    void events(dds::FrameJudge& judge) {
+        for (dds::Event event; judge.next_event(event);) {
+            if (options_.json) {
+                fmt::print("{}\n", event_json(event, start_));
+                std::fflush(stdout);
+                continue;
+            }
+            wipe();
+            const bool news = event.kind == dds::EventKind::joined || event.kind == dds::EventKind::fresh || event.kind == dds::EventKind::conflict_over;
+            if (!news) print_warning(dds::sentence(event));
+            else if (!options_.quiet) fmt::print(stderr, "{}\n", dds::sentence(event));
+        }
+    }
+    void status(const dds::Subscriber& subscriber, Instant now) {
+        if (options_.json)
+            fmt::print("{}\n", status_json(subscriber, options_.bus.name, now));
+        else if (live_) {
+            wipe();
+            const std::string table = status_table(subscriber, options_.bus.name, now);
+            lines_ = std::count(table.begin(), table.end(), '\n');
+            fmt::print("{}", table);
+        } else if (!options_.quiet)
+            fmt::print("{}\n", status_line(subscriber, now));
+        std::fflush(stdout);
+    }
+    bool live() const { return live_; }
+
+  private:
+    /// Takes the table away that is shown.
+    void wipe() {
+        if (lines_ > 0) fmt::print("\033[{}A\033[J", lines_);
+        std::fflush(stdout);
+        lines_ = 0;
+    }
+    const SubscribeOptions& options_;
+    Instant start_;
+    bool live_;
+    std::ptrdiff_t lines_ = 0;
+};
+
+/// How the reading ended, in words and as a code.
+int ending(const SubscribeOptions& options, const dds::FrameJudge& judge, bool enough) {
+    if (stop_asked.load()) return exit_stopped;
+    if (judge.counts().used == 0) {
+        print_error(fmt::format("No frame came on bus '{}' in {:g} s ({} samples were received). Look whether a publisher runs under this bus name and in "
+                                "DDS domain {}, and which network CYCLONEDDS_URI chooses.",
+                                options.bus.name, options.seconds, judge.counts().received, options.bus.domain));
+        return exit_machine;
+    }
+    if (judge.counts().conflicts != 0) {
+        print_error(fmt::format("{} other publishers were on bus '{}'; their frames were not used.", judge.counts().conflicts, options.bus.name));
+        return exit_machine;
+    }
+    if (!enough) {
+        print_error(fmt::format("{} frames came in {:g} s, but {} were asked for.", judge.counts().used, options.seconds, options.count));
+        return exit_machine;
+    }
+    return exit_done;
+}
+
+int listen(const SubscribeOptions& options, dds::Subscriber& subscriber, CsvFile& csv) {
+    const Instant start = subscriber.poll(nullptr);
+    Display display(options, start);
+    const Duration every = from_seconds(options.every > 0 ? options.every : display.live() ? 0.2 : 1);
+    const Instant end = options.seconds > 0 ? start + from_seconds(options.seconds) : never;
+    Instant now = start, next = start + every;
+    std::uint64_t used = 0;
+    const auto enough = [&] { return options.count != 0 && used >= options.count; };
+    while (!stop_asked.load() && now < end && !enough()) {
+        subscriber.wait(std::min({next - now, end - now, milliseconds(50)}));
+        now = subscriber.poll([&](const dds::Sample& sample, dds::Verdict verdict, Instant received) {
+            if (verdict != dds::Verdict::used || enough()) return;
+            ++used;
+            csv.add(sample.frame, received - start);
+        });
+        display.events(subscriber.judge());
+        if (now < next) continue;
+        display.status(subscriber, now);
+        next = std::max(next + every, now);
+    }
+    display.status(subscriber, now);
+    const int code = ending(options, subscriber.judge(), options.count == 0 || enough());
+    const Result<void> written = csv.finish();
+    return written ? code : report(written.error());
+}
+
+int subscribe(const SubscribeOptions& options) {
+    if (!(options.seconds >= 0 && options.seconds <= 1e8) || !(options.every >= 0 && options.every <= 1e6)) {
+        print_error(fmt::format("--for is {:g} s and --every {:g} s; they must be 0 to 1e8 and 0 to 1e6. Nothing was opened.", options.seconds, options.every));
+        return exit_usage;
+    }
+    if (const Result<void> done = use_config(options.bus); !done) return report(done.error());
+    CsvFile csv;
+    if (const Result<void> done = csv.open(options.csv); !done) return report(done.error());
+    dds::SubscriberSettings settings;
+    settings.bus = options.bus.name;
+    settings.domain = options.bus.domain;
+    settings.judge.words = options.scales;
+    const auto subscriber = dds::Subscriber::open(settings);
+    if (!subscriber) return report(subscriber.error());
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    return listen(options, **subscriber, csv);
+}
+
+}  // namespace
+
+void add_frames_subscribe(CLI::App& frames, Action& chosen) {
+    auto options = std::make_shared<SubscribeOptions>();
+    CLI::App* command = frames.add_subcommand("subscribe", "Listen to the frames that another computer publishes; it only listens");
+    add_bus_options(*command, options->bus);
+    command->add_option("--scales", options->scales, "N that is expected; frames with another one are not used (default: N of the first frame)")
+        ->check(CLI::Range(1, grating_bus::most_scales))->option_text("1 .. 255");
+    command->add_option("--count", options->count, "end after so many frames");
+    command->add_option("--for", options->seconds, "end after so many seconds");
+    command->add_option("--every", options->every, "seconds between two states (default: 0.2 on a terminal, 1 else)");
+    command->add_option("--csv", options->csv, "write every frame as a row");
+    command->add_flag("--json", options->json, "print states and events as lines of JSON");
+    command->add_flag("-q,--quiet", options->quiet, "print no states, only what is wrong");
+    command->footer("Example: motionrack frames subscribe --bus stage\n"
+                    "Example: motionrack frames subscribe --bus stage --count 5000 --csv frames.csv\n"
+                    "Ctrl-C ends it. Exit code 4: no frame came, fewer than asked for, or two publishers were on the bus.");
+    command->callback([options, &chosen] { chosen = [options] { return subscribe(*options); }; });
+}
+
+}  // namespace motionrack::cli

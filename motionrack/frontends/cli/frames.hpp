@@ -1,0 +1,30 @@
+// What the commands of `frames` share: the options of a bus on the network, and frames and counts as people and programs read them.
+#pragma once
+
+#include <motionrack/dds/subscriber.hpp>
+#include <motionrack/frontends/cli/commands.hpp>
+#include <string>
+
+namespace motionrack::cli {
+
+/// Which bus on which network.
+struct BusOptions {
+    std::string name = "grating", config;
+    int domain = 0;
+};
+void add_bus_options(CLI::App& command, BusOptions& options);
+/// Lets the network engine read `config`, if one is named, instead of what CYCLONEDDS_URI has. Errors: io.
+Result<void> use_config(const BusOptions& options);
+
+/// What a subscriber knows at `now`, as one line of JSON.
+std::string status_json(const dds::Subscriber& subscriber, const std::string& bus, Instant now);
+/// An event as one line of JSON; its time counts from `start`.
+std::string event_json(const dds::Event& event, Instant start);
+/// The same as a table of several lines, each ended.
+std::string status_table(const dds::Subscriber& subscriber, const std::string& bus, Instant now);
+/// In one line without its end.
+std::string status_line(const dds::Subscriber& subscriber, Instant now);
+
+void add_frames_subscribe(CLI::App& frames, Action& chosen);
+
+}  // namespace motionrack::cli

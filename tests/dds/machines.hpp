@@ -1,0 +1,78 @@
+// Several computers on one network, made of Linux namespaces:
+//
+//   machine 0    machine 1    machine 2        each with a network, a host name and an address 10.77.0.(n + 1) of its own
+//     eth0         eth0         eth0
+//      |            |            |
+//      p0 -------- br0 --------- p2            the test's own network
+//
+// None of it has a name that anyone else sees, and all of it is gone when the test's process is, however that ends.
+#pragma once
+
+#include <sys/types.h>
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace motionrack::dds_test {
+
+using Command = std::vector<std::string>;
+
+/// A program that runs on a machine; its standard output is lines of JSON. It is killed when this goes.
+class Child {
+  public:
+    Child(pid_t process, int output) : process_(process), output_(output) {}
+    ~Child();
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+    Child(Child&& other) noexcept;
+    Child& operator=(Child&&) = delete;
+
+    /// Reads until a line fulfils `condition`; false if the program ends first or nothing of the kind comes for a minute.
+    using Condition = std::function<bool(const nlohmann::json&)>;
+    bool wait_for(const Condition& condition);
+    /// Reads to its end; the exit code, or -1 if a signal ended it.
+    int finish();
+    void send(int signal);
+    /// Whether an event of this kind was among the lines that were read.
+    bool told(const std::string& kind) const { return events_.count(kind) != 0; }
+    /// The last lines that were read, for a message.
+    std::string said() const;
+    const nlohmann::json& last() const { return last_; }
+
+  private:
+    bool read_line();
+    pid_t process_;
+    int output_;
+    std::string rest_, said_;
+    nlohmann::json last_;
+    std::set<std::string> events_;
+};
+
+class Machines {
+  public:
+    /// Makes `count` machines; why_not() tells if that is not permitted here.
+    explicit Machines(int count);
+    ~Machines();
+    Machines(const Machines&) = delete;
+    Machines& operator=(const Machines&) = delete;
+
+    const std::string& why_not() const { return why_not_; }
+    Child start(int machine, const Command& command);
+    /// Takes the cable of a machine off, and plugs it in again.
+    void set_link(int machine, bool up);
+    /// Lets packets to a machine get lost. False: this kernel has no means to do so.
+    bool begin_loss(int machine);
+    void end_loss(int machine);
+
+  private:
+    bool make(int count);
+    bool add_machine();
+    bool run(int machine, const Command& command);
+    std::vector<pid_t> holders_;
+    std::string why_not_;
+};
+
+}  // namespace motionrack::dds_test

@@ -1,0 +1,237 @@
+// Publishers and listeners on several machines, and what networks do to them.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string>
+#include <tests/dds/machines.hpp>
+#include <vector>
+
+namespace motionrack::dds_test {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr int scales = 6;
+
+struct Row {
+    std::uint32_t sequence = 0;
+    std::vector<std::int64_t> counts;
+};
+
+/// Machines and a folder for what subscribers write; both go with the test.
+class Network : public testing::Test {
+  protected:
+    void SetUp() override {
+        network_ = std::make_unique<Machines>(6);
+        if (!network_->why_not().empty()) GTEST_SKIP() << network_->why_not();
+        std::string pattern = (fs::temp_directory_path() / "motionrack-dds-XXXXXX").string();
+        if (::mkdtemp(pattern.data())) folder_ = pattern;
+    }
+    void TearDown() override {
+        std::error_code ignored;
+        if (!folder_.empty()) fs::remove_all(folder_, ignored);
+    }
+    Child publish(int machine, int offset = 0) {
+        return network_->start(machine, {MOTIONRACK_TEST_PUBLISHER, "good", "stage", "2000", std::to_string(scales), std::to_string(offset)});
+    }
+    /// Listens with its frames in `name`.csv.
+    Child subscribe(int machine, const std::string& name, int count = 0) {
+        Command command = {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "stage", "--json", "--every", "0.02", "--csv", file(name)};
+        if (count > 0) command.insert(command.end(), {"--count", std::to_string(count)});
+        return network_->start(machine, command);
+    }
+    std::string file(const std::string& name) const { return (folder_ / (name + ".csv")).string(); }
+    std::vector<Row> rows(const std::string& name) const {
+        std::ifstream in(file(name));
+        std::vector<Row> out;
+        std::string line, cell;
+        std::getline(in, line);
+        while (std::getline(in, line)) {
+            std::istringstream cells(line);
+            std::vector<std::string> all;
+            while (std::getline(cells, cell, ',')) all.push_back(cell);
+            Row row;
+            row.sequence = static_cast<std::uint32_t>(std::stoul(all.at(1)));
+            for (std::size_t i = 3; i < all.size(); ++i) row.counts.push_back(std::stoll(all[i]));
+            out.push_back(row);
+        }
+        return out;
+    }
+    /// Every row is what the publisher latched; the offset of its positions.
+    std::int64_t check_rows(const std::vector<Row>& rows) {
+        std::set<std::int64_t> offsets;
+        for (const Row& row : rows) {
+            EXPECT_EQ(row.counts.size(), static_cast<std::size_t>(scales));
+            for (std::size_t k = 0; k < row.counts.size(); ++k)
+                offsets.insert(row.counts[k] - 1000 * std::int64_t{row.sequence} - static_cast<std::int64_t>(k));
+        }
+        EXPECT_EQ(offsets.size(), 1u);
+        return offsets.empty() ? -1 : *offsets.begin();
+    }
+    std::unique_ptr<Machines> network_;
+    fs::path folder_;
+};
+
+bool is_event(const json& line, const char* kind) { return line.value("event", "") == kind; }
+std::int64_t count_in(const json& line, const char* name) { return line.contains("counts") ? line["counts"].value(name, std::int64_t{-1}) : -1; }
+Child::Condition used_at_least(std::int64_t frames) {
+    return [frames](const json& line) { return count_in(line, "used") >= frames; };
+}
+
+TEST_F(Network, TenSubscribersHoldTheSameFrames) {
+    Child publisher = publish(0);
+    ASSERT_TRUE(publisher.wait_for([](const json& line) { return line.contains("sent"); })) << publisher.said();
+    std::vector<Child> subscribers;
+    for (int i = 0; i < 10; ++i) subscribers.push_back(subscribe(1 + i % 5, std::to_string(i), 300));
+    std::map<std::uint32_t, std::vector<std::int64_t>> frames;
+    std::map<std::uint32_t, int> holders;
+    for (int i = 0; i < 10; ++i) {
+        Child& subscriber = subscribers[static_cast<std::size_t>(i)];
+        EXPECT_EQ(subscriber.finish(), 0) << subscriber.said();
+        const std::vector<Row> got = rows(std::to_string(i));
+        EXPECT_EQ(got.size(), 300u);
+        EXPECT_EQ(check_rows(got), 0);
+        for (const Row& row : got) {
+            EXPECT_EQ(frames.emplace(row.sequence, row.counts).first->second, row.counts) << row.sequence;
+            ++holders[row.sequence];
+        }
+        EXPECT_EQ(count_in(subscriber.last(), "other_source"), 0);
+    }
+    EXPECT_GT(holders.size(), 0u);
+}
+
+TEST_F(Network, CountsWhatALossyLinkLosesAndUsesTheRest) {
+    Child publisher = publish(0), subscriber = subscribe(1, "lossy");
+    ASSERT_TRUE(subscriber.wait_for(used_at_least(50))) << subscriber.said();
+    if (!network_->begin_loss(1)) GTEST_SKIP() << "Nothing was tested: this kernel has neither netem nor tbf";
+    EXPECT_TRUE(subscriber.wait_for([](const json& line) { return count_in(line, "lost") > 50; })) << subscriber.said();
+    network_->end_loss(1);
+    const std::int64_t used = count_in(subscriber.last(), "used");
+    EXPECT_TRUE(subscriber.wait_for(used_at_least(used + 100))) << subscriber.said();
+    subscriber.send(SIGINT);
+    EXPECT_EQ(subscriber.finish(), 130);
+    const std::vector<Row> got = rows("lossy");
+    EXPECT_EQ(check_rows(got), 0);
+    ASSERT_FALSE(got.empty());
+    EXPECT_EQ(count_in(subscriber.last(), "used"), static_cast<std::int64_t>(got.size()));
+    EXPECT_EQ(count_in(subscriber.last(), "used") + count_in(subscriber.last(), "late") + count_in(subscriber.last(), "lost"),
+              std::int64_t{got.back().sequence} - std::int64_t{got.front().sequence} + 1);
+}
+
+TEST_F(Network, MarksItsDataStaleWhileTheLinkIsCutAndGoesOnAfterIt) {
+    Child publisher = publish(0), subscriber = subscribe(1, "cut");
+    ASSERT_TRUE(subscriber.wait_for(used_at_least(50))) << subscriber.said();
+    network_->set_link(1, false);
+    EXPECT_TRUE(subscriber.wait_for([](const json& line) { return line.value("stale", false) && line.value("age_ms", 0.0) > 600; })) << subscriber.said();
+    const std::int64_t lost = count_in(subscriber.last(), "lost"), used = count_in(subscriber.last(), "used");
+    network_->set_link(1, true);
+    EXPECT_TRUE(subscriber.wait_for([&](const json& line) { return count_in(line, "lost") > lost + 50 && !line.value("stale", true); })) << subscriber.said();
+    EXPECT_TRUE(subscriber.wait_for(used_at_least(used + 100)));
+    EXPECT_EQ(count_in(subscriber.last(), "restarts"), 0);
+    EXPECT_EQ(count_in(subscriber.last(), "takeovers"), 0);
+    subscriber.send(SIGINT);
+    subscriber.finish();
+    EXPECT_EQ(check_rows(rows("cut")), 0);
+    EXPECT_TRUE(subscriber.told("stale"));
+    EXPECT_TRUE(subscriber.told("fresh"));
+}
+
+TEST_F(Network, FollowsAPublisherThatWasKilledAndStartedAnew) {
+    Child subscriber = subscribe(1, "restart");
+    {
+        Child publisher = publish(0);
+        ASSERT_TRUE(subscriber.wait_for(used_at_least(50))) << subscriber.said();
+        publisher.send(SIGKILL);
+        EXPECT_EQ(publisher.finish(), -1);
+    }
+    EXPECT_TRUE(subscriber.wait_for([](const json& line) { return line.value("stale", false) && line.value("age_ms", 0.0) > 600; })) << subscriber.said();
+    Child again = publish(0);
+    EXPECT_TRUE(subscriber.wait_for([](const json& line) { return is_event(line, "restart"); })) << subscriber.said();
+    const json event = subscriber.last();
+    EXPECT_EQ(event["source"]["host"], event["other"]["host"]);
+    EXPECT_NE(event["source"]["id"], event["other"]["id"]);
+    EXPECT_TRUE(subscriber.wait_for(used_at_least(100)));
+    EXPECT_EQ(count_in(subscriber.last(), "restarts"), 1);
+    EXPECT_EQ(count_in(subscriber.last(), "conflicts"), 0);
+    subscriber.send(SIGINT);
+    subscriber.finish();
+    EXPECT_EQ(check_rows(rows("restart")), 0);
+}
+
+TEST_F(Network, EverySubscriberAndBothPublishersReportTwoOnOneBus) {
+    Child first = publish(0), a = subscribe(2, "a"), b = subscribe(3, "b"), c = subscribe(4, "c");
+    std::vector<Child*> subscribers = {&a, &b, &c};
+    for (Child* each : subscribers) ASSERT_TRUE(each->wait_for(used_at_least(20))) << each->said();
+    ASSERT_TRUE(first.wait_for([](const json& line) { return line.contains("id"); }));
+    const std::string first_id = first.last()["id"];
+    Child second = publish(1, 500);
+    ASSERT_TRUE(second.wait_for([](const json& line) { return line.contains("id"); })) << second.said();
+    const std::string second_id = second.last()["id"];
+    const auto conflict = [](const json& line) { return is_event(line, "conflict"); };
+    for (Child* each : subscribers) {
+        EXPECT_TRUE(each->wait_for(conflict)) << each->said();
+        EXPECT_EQ(each->last()["source"]["id"], first_id);
+        EXPECT_EQ(each->last()["other"]["id"], second_id);
+        EXPECT_EQ(each->last()["other"]["host"], "machine1");
+        EXPECT_TRUE(each->wait_for([](const json& line) { return count_in(line, "other_source") > 100; })) << each->said();
+    }
+    EXPECT_TRUE(first.wait_for(conflict)) << first.said();
+    EXPECT_EQ(first.last()["other"], second_id);
+    EXPECT_TRUE(second.wait_for(conflict)) << second.said();
+    EXPECT_EQ(second.last()["other"], first_id);
+    second.send(SIGKILL);
+    for (Child* each : subscribers) {
+        EXPECT_TRUE(each->wait_for([](const json& line) { return is_event(line, "conflict_over"); })) << each->said();
+        each->send(SIGINT);
+        each->finish();
+    }
+    for (const char* name : {"a", "b", "c"}) EXPECT_EQ(check_rows(rows(name)), 0) << "only frames of the first";
+}
+
+TEST_F(Network, CountsForeignSamplesAndUsesNone) {
+    Child publisher = publish(0), bad = network_->start(1, {MOTIONRACK_TEST_PUBLISHER, "bad", "stage"}), subscriber = subscribe(2, "foreign");
+    EXPECT_TRUE(subscriber.wait_for([](const json& line) {
+        return count_in(line, "wrong_crc") > 10 && count_in(line, "foreign") > 10 && count_in(line, "malformed") > 10 && count_in(line, "used") > 50;
+    })) << subscriber.said();
+    EXPECT_EQ(count_in(subscriber.last(), "other_source"), 0);
+    subscriber.send(SIGINT);
+    subscriber.finish();
+    EXPECT_EQ(check_rows(rows("foreign")), 0);
+    for (const char* kind : {"wrong_crc", "foreign", "malformed"}) EXPECT_TRUE(subscriber.told(kind)) << kind;
+}
+
+TEST_F(Network, AFrozenSubscriberHoldsNobodyUp) {
+    Child publisher = publish(0), frozen = subscribe(1, "frozen"), other = subscribe(2, "other");
+    ASSERT_TRUE(frozen.wait_for(used_at_least(50))) << frozen.said();
+    ASSERT_TRUE(other.wait_for(used_at_least(50))) << other.said();
+    frozen.send(SIGSTOP);
+    const std::int64_t used = count_in(other.last(), "used");
+    EXPECT_TRUE(other.wait_for(used_at_least(used + 500))) << other.said();
+    frozen.send(SIGCONT);
+    const std::int64_t behind = count_in(frozen.last(), "used");
+    EXPECT_TRUE(frozen.wait_for([&](const json& line) { return count_in(line, "used") > behind + 100 && !line.value("stale", true); })) << frozen.said();
+    for (Child* each : {&frozen, &other}) {
+        each->send(SIGINT);
+        each->finish();
+    }
+    EXPECT_EQ(check_rows(rows("frozen")), 0);
+    EXPECT_EQ(check_rows(rows("other")), 0);
+}
+
+TEST_F(Network, SaysThatNoFrameCame) {
+    Child subscriber = network_->start(0, {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "nobody", "--json", "--for", "0.1"});
+    EXPECT_EQ(subscriber.finish(), 4);
+    EXPECT_EQ(subscriber.last()["joined"], false);
+}
+
+}  // namespace
+}  // namespace motionrack::dds_test

@@ -1,0 +1,14 @@
+// libFuzzer: any bytes as samples of a grating bus at any time; what must always hold is in the room's test/judge_fuzz.hpp.
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <motionrack/dds/test/judge_fuzz.hpp>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    motionrack::fuzz::Bytes bytes({data, size});
+    const std::string problem = motionrack::dds::fuzz::Run(bytes).go(2'000);
+    if (problem.empty()) return 0;
+    std::fprintf(stderr, "%s\n", problem.c_str());
+    std::abort();
+}
