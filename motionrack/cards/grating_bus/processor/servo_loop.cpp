@@ -25,13 +25,13 @@ double FollowingError::rms_nm() const {
 
 ServoLoop::ServoLoop(const ServoSettings& settings) : settings_(settings) {
     MOTIONRACK_ASSERT(settings.word < most_scales && settings.nm_per_count != 0);
-    MOTIONRACK_ASSERT(settings.limit_v > 0 && settings.limit_i_v >= 0);
+    MOTIONRACK_ASSERT(settings.limit_v > 0 && settings.limit_i_v >= 0 && settings.limit_nm >= 0);
 }
 
 void ServoLoop::close(std::int64_t count) {
     count_ = count;
     integral_ = volts_ = 0;
-    closed_ = true;
+    state_ = LoopState::closed;
     begun_ = false;
 }
 
@@ -40,7 +40,7 @@ bool ServoLoop::usable(const Frame& frame) const {
 }
 
 double ServoLoop::on_frame(const Frame& frame, const Setpoint& wanted) {
-    if (!closed_) return volts_;
+    if (!closed()) return volts_;
     if (!usable(frame)) {
         ++unused_;
         return volts_;
@@ -63,14 +63,18 @@ double ServoLoop::on_frame(const Frame& frame, const Setpoint& wanted) {
     error_.peak_nm = std::max(error_.peak_nm, std::fabs(error));
     error_.squares += error * error;
     ++error_.frames;
+    if (settings_.limit_nm > 0 && std::fabs(error) > settings_.limit_nm) return open(LoopState::too_far);
     return volts_;
 }
 
-double ServoLoop::on_stale() {
-    if (closed_) ++opened_;
-    closed_ = false;
+double ServoLoop::open(LoopState why) {
+    state_ = why;
     integral_ = 0;
     return volts_ = 0;
+}
+
+double ServoLoop::on_stale() {
+    return closed() ? open(LoopState::stale) : volts_;
 }
 
 }  // namespace motionrack::grating_bus

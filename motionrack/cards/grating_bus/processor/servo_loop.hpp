@@ -5,7 +5,8 @@
 //   profile ──► wanted ───────────────(-)──► error ──► P + I + D ──┐
 //         └──► speed, acceleration ──► feed-forward ──────────────(+)──► limit ──► volts
 //
-// A frame that is not sound, not newer or stale is not used. Stale data open the loop: 0 V, and the position is not trusted until close().
+// A frame that is not sound or not newer is not used. Stale data and too great an error open the loop: 0 V, and the position is not trusted
+// until close().
 #pragma once
 
 #include <cstdint>
@@ -33,6 +34,14 @@ struct ServoSettings {
     ServoGains gains;
     double limit_v = 10;        ///< > 0: of the output
     double limit_i_v = 5;       ///< >= 0: of the integral part
+    double limit_nm = 0;        ///< >= 0: a greater following error opens the loop; 0: none does
+};
+
+enum class LoopState : std::uint8_t {
+    not_begun,  ///< close() was not called
+    closed,
+    stale,      ///< opened: no frame came in time
+    too_far     ///< opened: the following error was greater than limit_nm
 };
 
 /// What the loop has missed since it was last reset.
@@ -52,10 +61,11 @@ class ServoLoop {
     void close(std::int64_t count = 0);
     /// Takes the frame's position; the volts from now on. A frame that cannot be used changes nothing and is counted.
     double on_frame(const Frame& frame, const Setpoint& wanted);
-    /// No frame came in time: opens the loop; 0 V.
+    /// No frame came in time: opens the loop, if it is closed; 0 V.
     double on_stale();
 
-    bool closed() const { return closed_; }
+    bool closed() const { return state_ == LoopState::closed; }
+    LoopState state() const { return state_; }
     double volts() const { return volts_; }
     /// As measured by the last frame.
     double position_nm() const { return static_cast<double>(count_) * settings_.nm_per_count; }
@@ -64,12 +74,11 @@ class ServoLoop {
     void reset_error() { error_ = {}; }
     /// Frames that were not used: damaged, without this word, not newer than the last one.
     std::uint64_t unused() const { return unused_; }
-    /// Times that the loop was opened by stale data.
-    std::uint64_t opened() const { return opened_; }
     const ServoSettings& settings() const { return settings_; }
 
   private:
     bool usable(const Frame& frame) const;
+    double open(LoopState why);
 
     ServoSettings settings_;
     FollowingError error_;
@@ -78,10 +87,9 @@ class ServoLoop {
     double before_ = 0;    // error at the last frame, nm
     double volts_ = 0;
     Instant last_{};       // of the last frame used
-    bool closed_ = false;
+    LoopState state_ = LoopState::not_begun;
     bool begun_ = false;   // a frame was used since close()
     std::uint64_t unused_ = 0;
-    std::uint64_t opened_ = 0;
 };
 
 }  // namespace motionrack::grating_bus

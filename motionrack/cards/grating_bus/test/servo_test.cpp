@@ -223,7 +223,7 @@ TEST(ServoLoop, StaleDataOpenTheLoopUntilItIsClosedAgain) {
     axis.run(steps, 0.01);
     EXPECT_EQ(axis.loop.volts(), 0) << "frames that come later do not close it";
     EXPECT_EQ(axis.loop.on_stale(), 0);
-    EXPECT_EQ(axis.loop.opened(), 1u);
+    EXPECT_EQ(axis.loop.state(), LoopState::stale);
     // Without volts it coasts; somebody catches it and begins anew where it stands.
     axis.stage.fault("motor.stall", 1, axis.kernel.now());
     axis.stage.fault("motor.stall", 0, axis.kernel.now());
@@ -234,6 +234,24 @@ TEST(ServoLoop, StaleDataOpenTheLoopUntilItIsClosedAgain) {
     axis.run(here, 0.1);
     EXPECT_LT(axis.loop.error().peak_nm, 20);
     EXPECT_TRUE(axis.loop.closed());
+}
+
+TEST(ServoLoop, TooGreatAnErrorOpensTheLoopBeforeItRunsAway) {
+    Axis axis;
+    ServoSettings s = axis.loop.settings();
+    s.limit_nm = 2'000;
+    axis.loop = ServoLoop(s);
+    EXPECT_EQ(axis.loop.state(), LoopState::not_begun);
+    axis.loop.close();
+    const StepProfile steps(0, 1e6, 1, 1, limits);
+    axis.run(steps, 0.02);
+    EXPECT_TRUE(axis.loop.closed());
+    axis.scale.fault("scale.lose", 1'000, axis.kernel.now());
+    axis.run(steps, 0.001);
+    EXPECT_EQ(axis.loop.state(), LoopState::too_far);
+    EXPECT_EQ(axis.loop.volts(), 0);
+    EXPECT_EQ(axis.loop.on_stale(), 0);
+    EXPECT_EQ(axis.loop.state(), LoopState::too_far) << "what opened it first stays";
 }
 
 TEST(ServoLoop, FramesThatAreNotSoundOrNotNewAreCountedAndNotUsed) {
