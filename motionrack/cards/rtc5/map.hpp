@@ -1,0 +1,53 @@
+// The RTC5's commands, status bits, pins and numbers as constants; model, library, documents and tests read them here.
+#pragma once
+
+#include <motionrack/base/card_map.hpp>
+#include <motionrack/base/result.hpp>
+#include <motionrack/base/time.hpp>
+#include <motionrack/cards/rtc5/map/commands.hpp>
+#include <motionrack/cards/rtc5/map/pins.hpp>
+#include <motionrack/cards/rtc5/map/status.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::rtc5 {
+
+inline constexpr Duration tick_time = microseconds(10);                  ///< one output of the card
+inline constexpr int half_us_per_tick = 20;                              ///< laser switching is resolved to 0.5 us
+inline constexpr double field_least = -524288, field_greatest = 524287;  ///< the real field, 20 bits
+inline constexpr double z_least = -32768, z_greatest = 32767;
+inline constexpr int encoder_count = 2, head_count = 2, table_count = 4, start_queue = 8;
+inline constexpr int simulated_counts = 10;  ///< a tick: 1 MHz
+inline constexpr std::int64_t greatest_list_memory = 1 << 20;
+inline constexpr double least_resolution = 100;  ///< counts a turn; under it rotary corrections are off
+
+/// Bits of set_control_mode.
+inline constexpr std::uint32_t control_ext_start = 1u << 0, control_reset_at_start = 1u << 9,
+                               control_equidistant = 1u << 10;
+
+/// A list command with its parameters looked at: NaN, infinities and what is outside a range that is not clipped are
+/// refused (the sentence has the command, the parameter, the number and the range); coordinates and speeds are clipped;
+/// fractions of whole parameters are refused.
+Result<Command> list_command(Op op, std::span<const double> parameters);
+inline Result<Command> list_command(Op op, std::initializer_list<double> parameters) {
+    return list_command(op, std::span<const double>(parameters.begin(), parameters.size()));
+}
+
+/// The names of the bits set, for people: "FLY_X_OVERFLOW: the corrected X was above 524287".
+std::vector<std::string> decoded(std::uint32_t word, std::span<const BitInfo> bits);
+
+namespace map {
+inline constexpr CardMap card = {"rtc5",
+                                 "Control of laser scan heads: lists of vectors, processing on the fly by encoders or "
+                                 "position words, field correction",
+                                 {},
+                                 {},
+                                 {},
+                                 pins};
+}
+/// The whole map, for documents, inspectors and traces.
+inline const CardMap& card_map() {
+    return map::card;
+}
+
+}  // namespace motionrack::rtc5

@@ -1,0 +1,80 @@
+// The bits that the RTC5 answers about itself, by name.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/base/declaration.hpp>
+#include <span>
+#include <string_view>
+
+namespace motionrack::rtc5 {
+
+struct BitInfo {
+    std::string_view name;
+    int bit = 0;
+    std::string_view meaning;
+};
+
+namespace map {
+
+inline constexpr BitInfo marking_info_bits[] = {
+    {"FLY_X_UNDERFLOW", 0, "the corrected X was below -524288"},
+    {"FLY_X_OVERFLOW", 1, "the corrected X was above 524287"},
+    {"FLY_Y_UNDERFLOW", 2, "the corrected Y was below -524288"},
+    {"FLY_Y_OVERFLOW", 3, "the corrected Y was above 524287"},
+    {"LIMIT_X_MIN", 4, "the corrected X was below Xmin of set_fly_limits"},
+    {"LIMIT_X_MAX", 5, "the corrected X was above Xmax"},
+    {"LIMIT_Y_MIN", 6, "the corrected Y was below Ymin"},
+    {"LIMIT_Y_MAX", 7, "the corrected Y was above Ymax"},
+    {"TRIGGER_ERROR", 8, "a start came while a list was running"},
+    {"ACTIVATE_FLY_ERROR", 9, "activate_fly_2d or activate_fly_xy could not be done"},
+    {"ENCODER_X_SEQUENCE", 20, "both lines of encoder 0 changed at once"},
+    {"ENCODER_Y_SEQUENCE", 21, "both lines of encoder 1 changed at once"},
+    {"FLY_Z_UNDERFLOW", 22, "the corrected Z was below -32768"},
+    {"FLY_Z_OVERFLOW", 23, "the corrected Z was above 32767"},
+    {"LIMIT_Z_MIN", 24, "the corrected Z was below Zmin of set_fly_limits_z"},
+    {"LIMIT_Z_MAX", 25, "the corrected Z was above Zmax"},
+};
+
+inline constexpr BitInfo startstop_info_bits[] = {
+    {"START", 0, "an external start came since the last reading"},
+    {"STOP", 1, "an external stop came since the last reading"},
+    {"START_LOST", 11, "a start was lost: a list was running, or eight starts were waiting"},
+};
+
+inline constexpr BitInfo status_bits[] = {
+    {"BUSY", 0, "a list is running"},
+    {"INTERNAL_BUSY", 7, "the card moves by itself (goto_xy)"},
+    {"PAUSED", 15, "a list was paused"},
+};
+
+constexpr Flaw bits_flaw(std::span<const BitInfo> bits) {
+    return names_flaw("the status words", "bit", bits);
+}
+static_assert(declared<bits_flaw(marking_info_bits)>() && declared<bits_flaw(startstop_info_bits)>() &&
+              declared<bits_flaw(status_bits)>());
+
+consteval std::uint32_t bit_named(std::span<const BitInfo> bits, std::string_view name) {
+    for (const BitInfo& bit : bits)
+        if (bit.name == name) return std::uint32_t{1} << bit.bit;
+    throw "there is no bit of that name";
+}
+
+}  // namespace map
+
+/// A bit of get_marking_info, by its name.
+consteval std::uint32_t marking_bit(std::string_view name) {
+    return map::bit_named(map::marking_info_bits, name);
+}
+consteval std::uint32_t startstop_bit(std::string_view name) {
+    return map::bit_named(map::startstop_info_bits, name);
+}
+consteval std::uint32_t status_bit(std::string_view name) {
+    return map::bit_named(map::status_bits, name);
+}
+
+/// These stay when get_marking_info is read; the others are cleared by it.
+inline constexpr std::uint32_t kept_when_read = marking_bit("LIMIT_X_MIN") | marking_bit("LIMIT_X_MAX") |
+                                                marking_bit("LIMIT_Y_MIN") | marking_bit("LIMIT_Y_MAX") |
+                                                marking_bit("LIMIT_Z_MIN") | marking_bit("LIMIT_Z_MAX");
+
+}  // namespace motionrack::rtc5

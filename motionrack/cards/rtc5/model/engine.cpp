@@ -1,0 +1,201 @@
+// How ticks go by: in blocks with somebody looking, from vector to vector without.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/cards/rtc5/model/engine.hpp>
+
+namespace motionrack::rtc5 {
+
+void Engine::Free::operator()(Command* memory) const {
+    std::free(memory);
+}
+
+Engine::Engine(const Settings& settings) : settings_(settings), scratch_(std::make_unique<Scratch>()) {
+    MOTIONRACK_ASSERT(check(settings).has_value());
+    // Zeros are empty places; pages that no list touches cost nothing.
+    static_assert(static_cast<int>(Op::none) == 0);
+    memory_.reset(static_cast<Command*>(std::calloc(static_cast<std::size_t>(settings.list_memory), sizeof(Command))));
+    MOTIONRACK_ASSERT(memory_ != nullptr);
+    state_.lists.begin = {0, settings.list1, settings.list1 + settings.list2, settings.list_memory};
+    state_.lists.input_end = settings.list1;
+}
+
+void Engine::run_until(std::int64_t tick, Sink* sink) {
+    sink_ = sink;
+    while (state_.tick < tick) piece(tick, sink);
+    evaluate();
+    sink_ = nullptr;
+}
+
+bool Engine::at_rest() const {
+    const Lists& l = state_.lists;
+    return l.running == 0 && state_.activity.kind == ActivityKind::none && state_.starts.waiting == 0 &&
+           state_.starts.triggers == 0 && state_.starts.asked_count == 0 && state_.laser.count == 0;
+}
+
+bool Engine::run_to_rest(std::int64_t ticks, Sink* sink) {
+    const std::int64_t end = state_.tick + ticks;
+    sink_ = sink;
+    until_rest_ = true;
+    while (state_.tick < end && !at_rest()) piece(end, sink);
+    until_rest_ = false;
+    evaluate();
+    sink_ = nullptr;
+    return at_rest();
+}
+
+void Engine::begin_tick() {
+    if (state_.sampled == state_.tick) return;
+    state_.sampled = state_.tick;
+    filled_ = state_.tick;
+    sample_inputs();
+    take_starts();
+}
+
+/// At least a tick, at most to `end`.
+void Engine::piece(std::int64_t end, Sink* sink) {
+    begin_tick();
+    std::int64_t limit = end - state_.tick;
+    if (state_.starts.waiting > 0) limit = ticks_to_start(limit);
+    if (sink == nullptr && skip(limit)) return;
+    const std::size_t n = produce(static_cast<std::size_t>(std::min<std::int64_t>(limit, block)));
+    run_pipeline(n, sink);
+    advance(static_cast<std::int64_t>(n));
+}
+
+/// Positions of the ticks from now on: up to `room`, or to a command of the pipeline.
+std::size_t Engine::produce(std::size_t room) {
+    std::size_t n = 0;
+    while (n < room) {
+        n = micro_vectors(n, room);
+        if (n == room) break;
+        if (state_.lists.paused) {
+            kernels::hold(&scratch_->x[n], &scratch_->y[n], room - n, state_.p);
+            return room;
+        }
+        if (!next_step(n)) break;
+        if (n == 0 && state_.starts.asked_count > 0) room = 1;
+        if (state_.activity.kind == ActivityKind::none && until_rest_) {
+            if (n > 0) break;
+            room = 1;
+        }
+        n = fill(n, room);
+    }
+    return n;
+}
+
+/// The commonest of dense lists without detours: micro-vectors that do not switch the laser, one after the other.
+std::size_t Engine::micro_vectors(std::size_t n, std::size_t room) {
+    Lists& l = state_.lists;
+    Activity& a = state_.activity;
+    if (!l.running || l.paused || l.skip || a.kind != ActivityKind::line || a.done != a.steps ||
+        a.ending != Ending::none)
+        return n;
+    const auto silent = [](double at) { return !(at >= 0 && at < half_us_per_tick); };
+    const std::int64_t first = l.next,
+                       end = std::min<std::int64_t>(l.begin[3], first + static_cast<std::int64_t>(room - n));
+    std::int64_t at = first;
+    for (; at < end; ++at, ++n) {
+        const Command& c = memory_[static_cast<std::size_t>(at)];
+        if (c.op != Op::micro_vector_abs || !silent(c.p[2]) || !silent(c.p[3])) break;
+        scratch_->x[n] = c.p[0];
+        scratch_->y[n] = c.p[1];
+    }
+    if (at == first) return n;
+    l.current = at - 1;
+    l.next = at;
+    const Point before = at - first > 1 ? Point{scratch_->x[n - 2], scratch_->y[n - 2]} : state_.p;
+    a.from = before;
+    state_.p = a.to = {scratch_->x[n - 1], scratch_->y[n - 1]};
+    a.step = a.direction = a.to - before;
+    return n;
+}
+
+std::size_t Engine::fill(std::size_t n, std::size_t room) {
+    Activity& a = state_.activity;
+    double *const x = &scratch_->x[n], *const y = &scratch_->y[n];
+    std::size_t m = room - n;
+    switch (a.kind) {
+        case ActivityKind::none:
+            break;
+        case ActivityKind::line:
+            m = static_cast<std::size_t>(std::min<std::int64_t>(a.steps - a.done, static_cast<std::int64_t>(m)));
+            kernels::line(x, y, m, a.from, a.step, a.done + 1);
+            a.done += static_cast<std::int64_t>(m);
+            if (a.done == a.steps) x[m - 1] = a.to.x, y[m - 1] = a.to.y;
+            state_.p = {x[m - 1], y[m - 1]};
+            return n + m;
+        case ActivityKind::arc:
+            m = static_cast<std::size_t>(std::min<std::int64_t>(a.steps - a.done, static_cast<std::int64_t>(m)));
+            for (std::size_t i = 0; i < m; ++i) {
+                const Point p = position_of(a, ++a.done);
+                x[i] = p.x, y[i] = p.y;
+            }
+            state_.p = {x[m - 1], y[m - 1]};
+            return n + m;
+        case ActivityKind::hold:
+            m = static_cast<std::size_t>(std::min<std::int64_t>(a.steps - a.done, static_cast<std::int64_t>(m)));
+            a.done += static_cast<std::int64_t>(m);
+            break;
+        default: {
+            bool over = false;
+            m = static_cast<std::size_t>(wait_ticks(static_cast<std::int64_t>(m), over));
+            if (over) a.done = a.steps;
+        }
+    }
+    kernels::hold(x, y, m, state_.p);
+    return n + m;
+}
+
+Point Engine::position_of(const Activity& a, std::int64_t done) const {
+    const double at = static_cast<double>(done);
+    if (a.kind == ActivityKind::line)
+        return done == a.steps ? a.to : Point{a.from.x + at * a.step.x, a.from.y + at * a.step.y};
+    if (a.kind != ActivityKind::arc) return state_.p;
+    const SinCos t = sin_cos(at * a.step.x);
+    return {a.to.x + (t.cos * a.from.x - t.sin * a.from.y), a.to.y + (t.sin * a.from.x + t.cos * a.from.y)};
+}
+
+/// Nobody looks: as many ticks at once as the present activity has, if its flags are known without looking at each.
+/// False: nothing was done but taking commands.
+bool Engine::skip(std::int64_t limit) {
+    State& s = state_;
+    if (!s.lists.paused) next_step(0);
+    if (s.speed_watched || s.mcbsp.multi) return false;
+    if (s.starts.asked_count > 0) limit = 1;
+    Activity& a = s.activity;
+    const bool still = s.lists.paused || a.kind == ActivityKind::none || a.kind == ActivityKind::hold;
+    const bool moves = !s.lists.paused && (a.kind == ActivityKind::line || a.kind == ActivityKind::arc);
+    if (inputs_ != nullptr) {
+        if (s.fly.on() || (!still && !moves)) return false;
+        limit = std::min<std::int64_t>(limit, 1 << 20);
+    }
+    std::int64_t n = limit;
+    bool over = false;
+    if (!s.lists.paused && a.kind == ActivityKind::none && until_rest_) n = 1;
+    if (moves || (a.kind == ActivityKind::hold && !s.lists.paused)) n = std::min(limit, a.steps - a.done);
+    if (!still && !moves) {
+        n = simple_wait(over);
+        if (n < 0) return false;
+        if (n > limit) n = limit, over = false;
+    }
+    if (s.fly.on() && !flags_cannot_change(a, n)) return false;
+    laser_until(s.tick + n);
+    if (moves) s.p = position_of(a, a.done + n);
+    if (moves || (a.kind == ActivityKind::hold && !s.lists.paused)) a.done += n;
+    if (over) a.done = a.steps;
+    evaluated_ = false;
+    advance(n);
+    return true;
+}
+
+/// n ticks are over.
+void Engine::advance(std::int64_t n) {
+    advance_encoders(n);
+    advance_words(n);
+    state_.tick += n;
+    state_.sampled = state_.tick - 1;
+}
+
+}  // namespace motionrack::rtc5

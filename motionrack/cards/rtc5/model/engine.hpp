@@ -1,0 +1,261 @@
+// The virtual RTC5: lists of vectors become outputs every 10 us, corrected for a part that moves (RULES.md).
+//
+//   list ──► vectors ──► p ──► global ──► fly ──► flags ──► matrix ──► clip ──► table ──► gain ──► x, y of head A and B
+//                │                         ▲
+//                └──► laser gate           └── encoder counts, McBSP words                every 10 us, in blocks
+//
+// It needs no kernel: run_until(tick, sink) runs in bulk and hands blocks of samples over; without a sink it skips from
+// vector to vector. Card (card.hpp) is the same on the wires of a rack.
+#pragma once
+
+#include <memory>
+#include <motionrack/cards/rtc5/model/correction.hpp>
+#include <motionrack/cards/rtc5/model/fly_table.hpp>
+#include <motionrack/cards/rtc5/model/kernels.hpp>
+#include <motionrack/cards/rtc5/model/settings.hpp>
+#include <motionrack/cards/rtc5/model/state.hpp>
+#include <string_view>
+
+namespace motionrack::rtc5 {
+
+/// Outputs of consecutive ticks. In the 10 us of tick k the spot of ideal mirrors goes from the output of tick k-1 to
+/// that of tick k.
+struct Samples {
+    std::int64_t first = 0;                  ///< tick
+    std::span<const std::int32_t> x, y;      ///< head A, bits
+    std::span<const std::int32_t> x_b, y_b;  ///< head B, empty while it has no table selected
+    std::span<const std::uint8_t> laser;     ///< half-microseconds on, 0 .. 20
+};
+
+class Sink {
+  public:
+    virtual ~Sink() = default;
+    virtual void samples(const Samples& block) = 0;
+    /// The gate changes `half_us` half-microseconds after tick 0; before the block that has this tick.
+    virtual void laser(std::int64_t half_us, bool on) { (void)half_us, (void)on; }
+};
+
+/// What the card's inputs see, tick by tick, when somebody knows it beforehand.
+class Inputs {
+  public:
+    virtual ~Inputs() = default;
+    /// Counts (x4, wrapping) of an encoder at `first`, `first` + 1, ..
+    virtual void counts(int encoder, std::int64_t first, std::span<std::int32_t> out) = 0;
+    /// The McBSP word that is complete at these ticks; false: none comes by this way.
+    virtual bool words(std::int64_t first, std::span<std::uint32_t> out) { return (void)first, (void)out, false; }
+};
+
+class Engine {
+  public:
+    /// `settings` must pass check().
+    explicit Engine(const Settings& settings = {});
+
+    // ---- lists (lists.cpp)
+    Result<void> config_list(std::int64_t list1, std::int64_t list2);
+    /// Where put() goes from here on: the begin of list 1, 2 or 3. Refused while that list runs.
+    Result<void> set_start_list(int list);
+    /// Appends; refused when the list is full (nothing is changed). `command` must come from list_command().
+    Result<void> put(const Command& command);
+    std::int64_t input_pointer() const { return state_.lists.input; }
+    Result<void> execute_list(int list);
+    Result<void> execute_at(std::int64_t position);
+    void auto_change() { state_.lists.auto_change = 1; }
+    void start_loop() { state_.lists.loop = 1; }
+    void quit_loop() { state_.lists.loop = 0; }
+    void stop_execution();
+    void pause_list();
+    void restart_list();
+    /// Jumps at the jump speed while no list runs.
+    Result<void> goto_xy(double x, double y);
+
+    // ---- control commands (control.cpp)
+    /// Resets everything but McBSP location 0, its filling, and the inputs. Lists, tables and settings are as at
+    /// power-up.
+    void load_program_file();
+    /// Table 1 to 4; nullptr: 1:1.
+    Result<void> load_correction(std::shared_ptr<const Table> table, int number);
+    /// Tables of head A and B, 0 .. 4; 0: A: 1:1, B: no output.
+    Result<void> select_cor_table(int head_a, int head_b);
+    Result<void> set_delays(const Delays& delays);
+    void set_jump_speed(double bits_ms);
+    void set_mark_speed(double bits_ms);
+    /// at_once 0: with the next tick; 1, 3: the same; 2: with the next jump. `head`: 1 A, 2 B, 3 both, 4 all, before
+    /// fly.
+    Result<void> set_matrix(int head, std::array<double, 4> matrix, int at_once);
+    Result<void> set_offset(int head, Point offset, int at_once);
+    Result<void> set_angle(int head, double degrees, int at_once);
+    Result<void> set_scale(int head, double scale, int at_once);
+    Result<void> set_hi(int head, Point gain, Point offset);
+    Result<void> set_rot_center(Point centre);
+    Result<void> simulate_encoder(int which);
+    void set_tracking_error(std::uint16_t x, std::uint16_t y) { state_.tracking_error = {x, y}; }
+    void set_control_mode(std::uint32_t mode) { state_.control_mode = mode; }
+    Result<void> set_ext_start_delay(std::int32_t delay, int encoder);
+    void set_extstart_pos(std::int64_t position) { state_.starts.position = position; }
+    Result<void> set_encoder_speed(int encoder, double counts_ms, double smooth);
+    void load_fly_2d_table(std::shared_ptr<const FlyTable> table) { fly_table_ = std::move(table); }
+    void init_fly_2d(std::int32_t offset_x, std::int32_t offset_y);
+    Result<void> set_mcbsp_in(int mode, double scale);
+    void set_multi_mcbsp_in();
+    /// Online positioning: scale 0 is off, resolution under 100 too.
+    Result<void> set_mcbsp_online(double scale_x, double scale_y, double resolution);
+    Result<void> apply_mcbsp(int head, int at_once);
+
+    // ---- what comes from outside
+    void external_start() { ++state_.starts.triggers; }
+    void external_stop();
+    void set_count(int encoder, std::int32_t counts) { state_.input[static_cast<std::size_t>(encoder)] = counts; }
+    void receive(std::uint32_t word);
+    /// A tick in which both lines of an encoder changed.
+    void encoder_sequence_error(int encoder);
+    /// nullptr: set_count and receive.
+    void set_inputs(Inputs* inputs) { inputs_ = inputs; }
+
+    // ---- running
+    /// Runs ticks up to, not including, `tick`.
+    void run_until(std::int64_t tick, Sink* sink = nullptr);
+    /// Runs until no list runs, nothing moves and no start waits, at most `ticks`; true: it came to rest.
+    bool run_to_rest(std::int64_t ticks, Sink* sink = nullptr);
+    std::int64_t tick() const { return state_.tick; }
+
+    // ---- answers
+    bool busy() const { return state_.lists.running != 0; }
+    std::uint32_t status() const;
+    std::int64_t list_position() const { return state_.lists.current; }
+    std::int32_t encoder(int number) const { return state_.encoders[static_cast<std::size_t>(number)].count(); }
+    std::int32_t read_mcbsp(int location) const { return state_.mcbsp.memory[static_cast<std::size_t>(location & 3)]; }
+    std::int32_t read_multi_mcbsp(int type) const { return state_.mcbsp.typed[static_cast<std::size_t>(type & 7)]; }
+    /// Reads and clears as the rules say.
+    std::uint32_t get_marking_info();
+    std::uint32_t get_startstop_info();
+    /// Counts/ms behind the filters; 0 while not watched.
+    double encoder_speed() const;
+    /// x, y of head A in the last tick.
+    const Output& output() const { return state_.output; }
+    const State& state() const { return state_; }
+    State& mutable_state() { return state_; }
+    std::span<Command> memory() { return {memory_.get(), static_cast<std::size_t>(settings_.list_memory)}; }
+    const Settings& settings() const { return settings_; }
+
+  private:
+    static constexpr std::size_t block = kernels::block;
+    using Doubles = std::array<double, block>;
+    struct Scratch {
+        Doubles x, y, ec[2], head_x, head_y;
+        std::array<std::int32_t, block> raw[2], counts[2], values[2], out[4];
+        std::array<std::uint32_t, block> words;
+        std::array<std::uint8_t, block> laser;
+    };
+
+    // engine.cpp
+    void begin_tick();
+    bool at_rest() const;
+    void piece(std::int64_t end, Sink* sink);
+    std::size_t produce(std::size_t room);
+    std::size_t micro_vectors(std::size_t n, std::size_t room);
+    std::size_t fill(std::size_t n, std::size_t room);
+    bool skip(std::int64_t limit);
+    void advance(std::int64_t n);
+    Point position_of(const Activity& a, std::int64_t done) const;
+
+    // interpreter.cpp: the path
+    bool next_step(std::size_t n);
+    void finish(std::int64_t tick);
+    void take(const Command& c, std::int64_t tick);
+    void take_motion(const Command& c, std::int64_t tick);
+    void begin_line(Point target, double speed, Ending ending, std::int64_t steps = 0);
+    bool begin_polyline(std::int64_t tick);
+    void begin_arc(const Command& c);
+    void begin_hold(std::int64_t ticks, Ending ending = Ending::none);
+    void jump_to(Point target);
+    std::int64_t corner_delay(const Command& next, bool& cut) const;
+    const Command* next_mark() const;
+    Point direction_of(const Command& mark) const;
+    Point target_of(const Command& c, bool relative) const;
+    void end_list(bool written, std::int64_t tick);
+
+    // fly.cpp: commands of the pipeline
+    void pipeline_command(const Command& c);
+    bool fly_command(const Command& c);
+    void set_fly(const Command& c);
+    void mcbsp_in(int mode, double scale);
+    void end_online();
+    void control_command(const Command& c);
+    void transform_command(const Command& c);
+    void be_kind(FlyKind kind);
+    void settle_kind();
+    void turn(FlyKind kind, double resolution);
+    void zero_encoder(std::size_t encoder);
+    bool empty_cycle(std::initializer_list<std::size_t> encoders);
+    void condition(const Command& c);
+    void park(const Command& c);
+    void leave_fly();
+    Point fly_of(Point p, bool backwards) const;
+    void move_by_fly(bool backwards);
+    void wait(const Command& c);
+
+    // inputs.cpp
+    void sample_inputs();
+    void take_words();
+    void take_word(std::uint32_t word);
+    bool load_words(std::size_t n);
+    void load_counts(int encoder, std::size_t n);
+    void effective_counts(int encoder, std::size_t n);
+    void mcbsp_values(std::size_t n);
+    std::int64_t wait_ticks(std::int64_t limit, bool& over);
+    bool met(std::int64_t before, std::int64_t present) const;
+    bool met_at(std::size_t i) const;
+    bool met_now() const;
+    std::int64_t simple_wait(bool& over) const;
+    void filter_speed(std::size_t first, std::size_t n);
+    double effective(int encoder) const;
+    Point mcbsp_now() const;
+    std::int32_t axis_value(std::uint32_t word, bool y) const;
+    void store_word();
+    void advance_encoders(std::int64_t n);
+    void advance_words(std::int64_t n);
+
+    // starts.cpp
+    void take_starts();
+    void enqueue(std::int32_t delay, int encoder);
+    void begin_start();
+    std::int64_t ticks_to_start(std::int64_t limit);
+
+    // pipeline.cpp
+    void run_pipeline(std::size_t n, Sink* sink);
+    void apply_fly(std::size_t n);
+    void raise(std::uint32_t bits, std::int64_t tick);
+    void check_flags(std::size_t n);
+    void check_z(std::size_t n);
+    void run_head(std::size_t number, std::size_t n);
+    void keep_output(std::size_t n);
+    void evaluate();
+    const Table* table(std::int64_t number) const;
+    bool flags_cannot_change(const Activity& a, std::int64_t n) const;
+
+    // laser.cpp
+    void switch_laser(std::int64_t half_us, bool on, std::int64_t tick);
+    void laser_until(std::int64_t tick);
+
+    // control.cpp
+    template <class Change>
+    Result<void> change_transform(int head, int at_once, const Change& change);
+    void transforms_of_jump();
+
+    Settings settings_;
+    struct Free {
+        void operator()(Command* memory) const;
+    };
+    std::unique_ptr<Command[], Free> memory_;
+    State state_;
+    Inputs* inputs_ = nullptr;
+    std::array<std::shared_ptr<const Table>, table_count> tables_;
+    std::shared_ptr<const FlyTable> fly_table_;
+    std::unique_ptr<Scratch> scratch_;
+    Sink* sink_ = nullptr;     // of the run
+    std::int64_t filled_ = 0;  // the laser's samples are there up to this tick
+    bool until_rest_ = false;  // the run ends when the card rests
+    bool evaluated_ = true;    // the output is that of the last tick
+};
+
+}  // namespace motionrack::rtc5

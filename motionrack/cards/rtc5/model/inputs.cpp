@@ -1,0 +1,300 @@
+// Encoder counts and McBSP words: in a tick, in blocks, and over spans.
+#include <cmath>
+#include <motionrack/cards/rtc5/model/engine.hpp>
+
+namespace motionrack::rtc5 {
+
+namespace {
+
+std::int32_t wrapped(std::int64_t v) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(v));
+}
+
+}  // namespace
+
+void Engine::sample_inputs() {
+    for (int number = 0; number < encoder_count; ++number) {
+        Encoder& e = state_.encoders[static_cast<std::size_t>(number)];
+        e.previous = e.count();
+        std::int32_t raw = wrapped(state_.input[static_cast<std::size_t>(number)]);
+        if (inputs_ != nullptr) inputs_->counts(number, state_.tick, {&raw, 1});
+        e.travel += e.simulated ? simulated_counts : wrapped(raw - e.raw);
+        e.raw = raw;
+    }
+    if (state_.speed_watched) {
+        for (std::size_t e = 0; e < encoder_count; ++e) scratch_->counts[e][0] = state_.encoders[e].count();
+        filter_speed(0, 1);
+    }
+    state_.mcbsp.previous = state_.mcbsp.word;
+    take_words();
+    store_word();
+}
+
+/// The speeds of ticks first .. n-1, whose counts are in the scratch.
+void Engine::filter_speed(std::size_t first, std::size_t n) {
+    const double through = 1 - state_.speed_smooth;
+    for (std::size_t number = 0; number < encoder_count; ++number) {
+        Encoder& e = state_.encoders[number];
+        const auto& counts = scratch_->counts[number];
+        for (std::size_t i = first; i < n; ++i) {
+            const std::int64_t before = i == 0 ? e.previous : counts[i - 1];
+            const double speed = 100.0 * wrapped(counts[i] - before);
+            e.slow1 += (speed - e.slow1) * through;
+            e.slow2 += (e.slow1 - e.slow2) * through;
+        }
+    }
+}
+
+void Engine::receive(std::uint32_t word) {
+    McBsp& m = state_.mcbsp;
+    if (m.pending_count == static_cast<std::int64_t>(m.pending.size())) {
+        for (std::size_t i = 1; i < m.pending.size(); ++i) m.pending[i - 1] = m.pending[i];
+        --m.pending_count;
+    }
+    m.pending[static_cast<std::size_t>(m.pending_count++)] = word;
+}
+
+void Engine::take_words() {
+    McBsp& m = state_.mcbsp;
+    std::uint32_t word = 0;
+    if (inputs_ != nullptr && inputs_->words(state_.tick, {&word, 1})) {
+        take_word(word);
+    } else {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(m.pending_count); ++i) take_word(m.pending[i]);
+    }
+    m.pending_count = 0;
+    m.pending = {};
+}
+
+void Engine::take_word(std::uint32_t word) {
+    McBsp& m = state_.mcbsp;
+    m.word = word;
+    if (!m.multi) return;
+    m.typed[word & 7] = static_cast<std::int32_t>(word) >> 3;
+    m.memory[static_cast<std::size_t>(m.round)] = static_cast<std::int32_t>(word);
+    m.round = (m.round + 1) & 3;
+}
+
+std::int32_t Engine::axis_value(std::uint32_t word, bool y) const {
+    const Fly& f = state_.fly;
+    const bool both = f.kind == FlyKind::mcbsp && f.x && f.y;
+    if (!both) return static_cast<std::int32_t>(word);
+    return static_cast<std::int16_t>(y ? word >> 16 : word & 0xFFFF);
+}
+
+/// The memory locations of this tick.
+void Engine::store_word() {
+    McBsp& m = state_.mcbsp;
+    const auto word = static_cast<std::uint32_t>(m.word);
+    const bool online = m.online_x || m.online_y || m.online_rot;
+    if (online) {
+        m.memory[m.online_rot && word >> 31 ? 2 : 1] = static_cast<std::int32_t>(word);
+        return;
+    }
+    if (m.multi) return;
+    if (m.to_zero) m.memory[0] = static_cast<std::int32_t>(word);
+    if (m.in_mode == 1 || m.in_mode == 2)
+        m.memory[static_cast<std::size_t>(m.in_mode)] = static_cast<std::int32_t>(word);
+    if (m.in_mode != 3) return;
+    m.memory[1] = static_cast<std::int16_t>(word & 0xFFFF);
+    m.memory[2] = static_cast<std::int16_t>(word >> 16);
+    m.memory[3] = static_cast<std::int32_t>(word);
+}
+
+bool Engine::load_words(std::size_t n) {
+    return inputs_ != nullptr && inputs_->words(state_.tick, {scratch_->words.data(), n});
+}
+
+/// The encoder's counts of n ticks from now on.
+void Engine::load_counts(int encoder, std::size_t n) {
+    const Encoder& e = state_.encoders[static_cast<std::size_t>(encoder)];
+    std::int32_t* const out = scratch_->counts[encoder].data();
+    const auto begin = static_cast<std::uint32_t>(e.count());
+    if (e.simulated) {
+        for (std::size_t i = 0; i < n; ++i)
+            out[i] = static_cast<std::int32_t>(begin + static_cast<std::uint32_t>(simulated_counts) *
+                                                           static_cast<std::uint32_t>(i));
+    } else if (inputs_ != nullptr && n > 1) {
+        std::int32_t* const raw = scratch_->raw[encoder].data();
+        inputs_->counts(encoder, state_.tick, {raw, n});
+        for (std::size_t i = 0; i < n; ++i)
+            out[i] = static_cast<std::int32_t>(
+                begin + (static_cast<std::uint32_t>(raw[i]) - static_cast<std::uint32_t>(raw[0])));
+    } else {
+        std::fill_n(out, n, static_cast<std::int32_t>(begin));
+    }
+}
+
+/// What the correction takes: counts, ahead by the tracking error.
+void Engine::effective_counts(int encoder, std::size_t n) {
+    load_counts(encoder, n);
+    const std::int32_t* const counts = scratch_->counts[encoder].data();
+    double* const out = scratch_->ec[encoder].data();
+    const double ahead = static_cast<double>(state_.tracking_error[static_cast<std::size_t>(encoder)]);
+    if (ahead == 0) {
+        for (std::size_t i = 0; i < n; ++i) out[i] = counts[i];
+        return;
+    }
+    out[0] = effective(encoder);
+    for (std::size_t i = 1; i < n; ++i)
+        out[i] = counts[i] + static_cast<double>(static_cast<std::int32_t>(static_cast<std::uint32_t>(counts[i]) -
+                                                                           static_cast<std::uint32_t>(counts[i - 1]))) *
+                                 ahead;
+}
+
+double Engine::effective(int encoder) const {
+    const Encoder& e = state_.encoders[static_cast<std::size_t>(encoder)];
+    return e.count() + static_cast<double>(wrapped(e.count() - e.previous)) *
+                           static_cast<double>(state_.tracking_error[static_cast<std::size_t>(encoder)]);
+}
+
+Point Engine::mcbsp_now() const {
+    const McBsp& m = state_.mcbsp;
+    if (state_.fly.kind == FlyKind::multi) return {static_cast<double>(m.typed[0]), static_cast<double>(m.typed[1])};
+    const auto word = static_cast<std::uint32_t>(m.word);
+    return {static_cast<double>(axis_value(word, false)), static_cast<double>(axis_value(word, true))};
+}
+
+/// The McBSP values of x and y in n ticks from now on.
+void Engine::mcbsp_values(std::size_t n) {
+    const Point now = mcbsp_now();
+    const bool many = n > 1 && load_words(n), multi = state_.fly.kind == FlyKind::multi;
+    double *const x = scratch_->ec[0].data(), *const y = scratch_->ec[1].data();
+    kernels::hold(x, y, n, now);
+    if (!many) return;
+    Point p = now;
+    for (std::size_t i = 1; i < n; ++i) {
+        const std::uint32_t word = scratch_->words[i];
+        if (!multi) {
+            x[i] = axis_value(word, false), y[i] = axis_value(word, true);
+            continue;
+        }
+        if ((word & 7) == 0) p.x = static_cast<std::int32_t>(word) >> 3;
+        if ((word & 7) == 1) p.y = static_cast<std::int32_t>(word) >> 3;
+        x[i] = p.x, y[i] = p.y;
+    }
+}
+
+/// Whether a wait for an encoder or McBSP value is over in a tick with `present`, after one with `before`.
+bool Engine::met(std::int64_t before, std::int64_t present) const {
+    const std::int64_t value = state_.activity.value[0], mode = state_.activity.value[2];
+    if (mode > 0) return present >= value;
+    if (mode < 0) return present <= value;
+    const std::int32_t way = wrapped(present - before);
+    if (value > 0) return way > 0 && (wrapped(before - value) < 0) != (wrapped(present - value) < 0);
+    return way < 0 && (wrapped(value - before) < 0) != (wrapped(value - present) < 0);
+}
+
+/// The same in tick i of the block, whose counts or words are loaded.
+bool Engine::met_at(std::size_t i) const {
+    const Activity& a = state_.activity;
+    if (i == 0) return met_now();
+    if (a.kind == ActivityKind::wait_encoder) {
+        const auto& counts = scratch_->counts[a.value[1]];
+        return met(counts[i - 1], counts[i]);
+    }
+    if (a.kind == ActivityKind::wait_range) {
+        const std::int32_t x = scratch_->counts[0][i], y = scratch_->counts[1][i];
+        return x >= a.value[0] && x <= a.value[1] && y >= a.value[2] && y <= a.value[3];
+    }
+    const bool y = a.value[1] != 0;
+    return met(axis_value(scratch_->words[i - 1], y), axis_value(scratch_->words[i], y));
+}
+
+bool Engine::met_now() const {
+    const Activity& a = state_.activity;
+    if (a.kind == ActivityKind::wait_encoder) {
+        const Encoder& e = state_.encoders[static_cast<std::size_t>(a.value[1])];
+        return met(e.previous, e.count());
+    }
+    if (a.kind == ActivityKind::wait_range) {
+        const std::int32_t x = encoder(0), y = encoder(1);
+        return x >= a.value[0] && x <= a.value[1] && y >= a.value[2] && y <= a.value[3];
+    }
+    const bool y = a.value[1] != 0;
+    return met(axis_value(static_cast<std::uint32_t>(state_.mcbsp.previous), y),
+               axis_value(static_cast<std::uint32_t>(state_.mcbsp.word), y));
+}
+
+/// Ticks of the wait among the next `limit`, the one that ends it included.
+std::int64_t Engine::wait_ticks(std::int64_t limit, bool& over) {
+    const auto n = static_cast<std::size_t>(limit);
+    if (state_.activity.kind == ActivityKind::wait_mcbsp) {
+        if (!load_words(n)) std::fill_n(scratch_->words.begin(), n, static_cast<std::uint32_t>(state_.mcbsp.word));
+    } else {
+        for (int e = 0; e < encoder_count; ++e) load_counts(e, n);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        if (!met_at(i)) continue;
+        over = true;
+        return static_cast<std::int64_t>(i) + 1;
+    }
+    return limit;
+}
+
+/// The same without looking at each tick, if counts stand or are simulated; -1: each must be looked at.
+std::int64_t Engine::simple_wait(bool& over) const {
+    constexpr std::int64_t endless = std::int64_t{1} << 60, half = std::int64_t{1} << 31;
+    const Activity& a = state_.activity;
+    over = met_now();
+    if (over) return 1;
+    if (a.kind == ActivityKind::wait_mcbsp) return endless;
+    const bool one = a.kind == ActivityKind::wait_encoder;
+    if (!one) return state_.encoders[0].simulated || state_.encoders[1].simulated ? -1 : endless;
+    const Encoder& e = state_.encoders[static_cast<std::size_t>(a.value[1])];
+    if (!e.simulated) return endless;
+    const std::int64_t value = a.value[0], mode = a.value[2], count = e.count();
+    const auto ticks_for = [](std::int64_t counts) { return (counts + simulated_counts - 1) / simulated_counts; };
+    if (mode == 0 && value <= 0) return endless;
+    over = true;
+    if (mode == 0) {
+        const std::int64_t past = wrapped(count - value);
+        return 1 + ticks_for(past < 0 ? -past : half - past);
+    }
+    const std::int64_t ticks = ticks_for(mode > 0 ? value - count : half - count),
+                       then = wrapped(count + ticks * simulated_counts);
+    return met(then, then) ? 1 + ticks : -1;
+}
+
+/// From this tick to the last one of n.
+void Engine::advance_encoders(std::int64_t n) {
+    if (n == 1) return;
+    if (state_.speed_watched) {
+        for (int e = 0; e < encoder_count; ++e) load_counts(e, static_cast<std::size_t>(n));
+        filter_speed(1, static_cast<std::size_t>(n));
+    }
+    for (int number = 0; number < encoder_count; ++number) {
+        Encoder& e = state_.encoders[static_cast<std::size_t>(number)];
+        std::int32_t raw[2] = {wrapped(e.raw), wrapped(e.raw)};
+        if (inputs_ != nullptr) inputs_->counts(number, state_.tick + n - 2, raw);
+        e.travel += e.simulated ? simulated_counts * (n - 2) : wrapped(raw[0] - e.raw);
+        e.previous = e.count();
+        e.travel += e.simulated ? simulated_counts : wrapped(std::int64_t{raw[1]} - raw[0]);
+        e.raw = raw[1];
+    }
+}
+
+void Engine::advance_words(std::int64_t n) {
+    if (n == 1) return;
+    McBsp& m = state_.mcbsp;
+    std::uint32_t last[2] = {static_cast<std::uint32_t>(m.word), static_cast<std::uint32_t>(m.word)};
+    if (inputs_ != nullptr && m.multi) {
+        const bool come = load_words(static_cast<std::size_t>(n));
+        for (std::size_t i = 1; come && i + 1 < static_cast<std::size_t>(n); ++i) take_word(scratch_->words[i]);
+    }
+    const bool come = inputs_ != nullptr && inputs_->words(state_.tick + n - 2, last);
+    m.previous = last[0];
+    if (m.online_rot && come) {
+        // Both locations keep the last word of their kind: look at each.
+        for (std::int64_t i = 1; i < n; ++i) {
+            std::uint32_t word = 0;
+            inputs_->words(state_.tick + i, {&word, 1});
+            m.word = word;
+            store_word();
+        }
+    }
+    if (come) take_word(last[1]);
+    store_word();
+}
+
+}  // namespace motionrack::rtc5

@@ -1,0 +1,269 @@
+// Lists become steps: vectors, arcs, delays, polylines.
+#include <algorithm>
+#include <cmath>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/cards/rtc5/model/engine.hpp>
+
+namespace motionrack::rtc5 {
+
+namespace {
+
+constexpr double nearly = 1 - 0x1p-40;  // a length that is a whole number of steps but for rounding is that number
+
+std::int64_t steps_for(double length, double step) {
+    const double steps = std::ceil(length / step * nearly);
+    return steps < 1 ? 1 : static_cast<std::int64_t>(steps);
+}
+
+double clipped(double v) {
+    return std::clamp(v, -8388608.0, 8388607.0);
+}
+
+bool is_mark(Op op) {
+    return op == Op::mark_abs || op == Op::mark_rel || op == Op::arc_abs || op == Op::arc_rel ||
+           op == Op::timed_mark_abs || op == Op::timed_mark_rel;
+}
+bool is_relative(Op op) {
+    return op == Op::jump_rel || op == Op::mark_rel || op == Op::arc_rel || op == Op::timed_jump_rel ||
+           op == Op::timed_mark_rel || op == Op::micro_vector_rel;
+}
+
+}  // namespace
+
+/// Sees that there is a step for tick `tick + n`; false: a command of the pipeline comes first, which needs the ticks
+/// before it done.
+bool Engine::next_step(std::size_t n) {
+    const std::int64_t tick = state_.tick + static_cast<std::int64_t>(n);
+    Activity& a = state_.activity;
+    Lists& l = state_.lists;
+    while (true) {
+        if (a.kind != ActivityKind::none) {
+            if (a.done < a.steps) return true;
+            finish(tick);
+            continue;
+        }
+        if (!l.running) return true;
+        if (l.next >= l.begin[3]) {
+            l.current = l.next;
+            end_list(false, tick);
+            continue;
+        }
+        const Command& c = memory_[static_cast<std::size_t>(l.next)];
+        const ListCommandInfo& what = info(c.op);
+        if (n > 0 && (what.timing == Timing::pipeline || what.timing == Timing::normal)) return false;
+        if (n > 0 && state_.later_count != 0) return false;  // a jump would change transforms
+        if (l.skip) {
+            l.skip = 0;
+            l.next += what.positions;
+            continue;
+        }
+        l.current = l.next;
+        l.next += what.positions;
+        take(c, tick);
+    }
+}
+
+/// The activity is over: what follows it by itself.
+void Engine::finish(std::int64_t tick) {
+    const Ending ending = state_.activity.ending;
+    const Activity over = state_.activity;
+    state_.activity.kind = ActivityKind::none;
+    state_.lists.moving_alone = 0;
+    const Delays& d = state_.delays;
+    if (ending == Ending::laser_off) switch_laser(tick * half_us_per_tick, false, tick);
+    if (ending == Ending::jump) {
+        std::int64_t delay = d.jump;
+        const Point way = over.to - over.from;
+        const double length = std::sqrt(way.x * way.x + way.y * way.y);
+        if (length < d.jump_limit && d.least_jump < d.jump)
+            delay = static_cast<std::int64_t>(
+                std::floor(static_cast<double>(d.least_jump) +
+                           static_cast<double>(d.jump - d.least_jump) * (length / d.jump_limit) + 0.5));
+        begin_hold(delay);
+    }
+    if (ending != Ending::mark) return;
+    state_.activity.direction = over.direction;
+    bool cut = true;
+    const Command* const next = next_mark();
+    const std::int64_t delay = next != nullptr ? corner_delay(*next, cut) : d.mark;
+    if (next == nullptr || cut) {
+        switch_laser(tick * half_us_per_tick + d.laser_off, false, tick);
+        state_.lists.marking = 0;
+    }
+    begin_hold(delay);
+}
+
+/// The mark that goes on with the polyline, or nullptr.
+const Command* Engine::next_mark() const {
+    const Lists& l = state_.lists;
+    if (!l.running) return nullptr;
+    for (std::int64_t at = l.next; at < l.begin[3];) {
+        const Command& c = memory_[static_cast<std::size_t>(at)];
+        if (is_mark(c.op)) return &c;
+        if (info(c.op).timing != Timing::shortly) return nullptr;
+        at += info(c.op).positions;
+    }
+    return nullptr;
+}
+
+Point Engine::direction_of(const Command& mark) const {
+    const bool relative = is_relative(mark.op);
+    if (mark.op != Op::arc_abs && mark.op != Op::arc_rel) return target_of(mark, relative) - state_.p;
+    const Point radius = state_.p - target_of(mark, relative);
+    return mark.p[2] > 0 ? Point{radius.y, -radius.x} : Point{-radius.y, radius.x};
+}
+
+std::int64_t Engine::corner_delay(const Command& next, bool& cut) const {
+    const Delays& d = state_.delays;
+    cut = false;
+    if (!d.variable_polygon) return d.polygon;
+    const Point a = state_.activity.direction, b = direction_of(next);
+    const double lengths = std::sqrt(a.x * a.x + a.y * a.y) * std::sqrt(b.x * b.x + b.y * b.y);
+    const double cosine = lengths > 0 ? (a.x * b.x + a.y * b.y) / lengths : 1;
+    const auto delay = static_cast<std::int64_t>(std::floor(static_cast<double>(d.polygon) * (1 - cosine) + 0.5));
+    cut = d.edge_level > 0 && delay > d.edge_level;
+    return delay;
+}
+
+Point Engine::target_of(const Command& c, bool relative) const {
+    if (!relative) return {c.p[0], c.p[1]};
+    return {clipped(state_.p.x + c.p[0]), clipped(state_.p.y + c.p[1])};
+}
+
+void Engine::begin_hold(std::int64_t ticks, Ending ending) {
+    if (ticks <= 0) return;
+    Activity& a = state_.activity;
+    a.kind = ActivityKind::hold;
+    a.ending = ending;
+    a.done = 0;
+    a.steps = ticks;
+}
+
+void Engine::begin_line(Point target, double speed, Ending ending, std::int64_t steps) {
+    Activity& a = state_.activity;
+    const Point way = target - state_.p;
+    const double length = std::sqrt(way.x * way.x + way.y * way.y);
+    a.kind = ActivityKind::line;
+    a.ending = ending;
+    a.done = 0;
+    a.steps = steps > 0 ? steps : steps_for(length, speed / 100);
+    a.from = state_.p;
+    a.to = target;
+    const double n = static_cast<double>(a.steps);
+    a.step = {way.x / n, way.y / n};
+    a.direction = way;
+}
+
+void Engine::begin_arc(const Command& c) {
+    Activity& a = state_.activity;
+    const Point centre = target_of(c, c.op == Op::arc_rel), radius = state_.p - centre;
+    const double angle = -c.p[2] * (pi / 180), length = std::sqrt(radius.x * radius.x + radius.y * radius.y);
+    a.kind = ActivityKind::arc;
+    a.ending = Ending::mark;
+    a.done = 0;
+    a.steps = steps_for(std::abs(angle) * length, state_.mark_speed / 100);
+    a.from = radius;
+    a.to = centre;
+    a.step = {angle / static_cast<double>(a.steps), 0};
+    const SinCos t = sin_cos(angle);
+    const Point end = {t.cos * radius.x - t.sin * radius.y, t.sin * radius.x + t.cos * radius.y};
+    a.direction = c.p[2] > 0 ? Point{end.y, -end.x} : Point{-end.y, end.x};
+}
+
+void Engine::jump_to(Point target) {
+    transforms_of_jump();
+    begin_line(target, state_.jump_speed, Ending::jump);
+}
+
+/// The laser goes on for a mark; false: it must wait before it moves, and be taken again.
+bool Engine::begin_polyline(std::int64_t tick) {
+    if (state_.lists.marking) return true;
+    state_.lists.marking = 1;
+    const std::int64_t delay = state_.delays.laser_on,
+                       wait = delay < 0 ? (-delay + half_us_per_tick - 1) / half_us_per_tick : 0;
+    switch_laser((tick + wait) * half_us_per_tick + delay, true, tick);
+    if (wait == 0) return true;
+    begin_hold(wait);
+    state_.lists.next = state_.lists.current;
+    return false;
+}
+
+void Engine::take(const Command& c, std::int64_t tick) {
+    State& s = state_;
+    const auto whole = [&](int i) { return static_cast<std::int64_t>(c.p[static_cast<std::size_t>(i)]); };
+    switch (c.op) {
+        case Op::none:
+            return end_list(false, tick);
+        case Op::set_end_of_list:
+            return end_list(true, tick);
+        case Op::set_jump_speed:
+            s.jump_speed = c.p[0];
+            return;
+        case Op::set_mark_speed:
+            s.mark_speed = c.p[0];
+            return;
+        case Op::set_scanner_delays:
+            s.delays.jump = whole(0), s.delays.mark = whole(1), s.delays.polygon = whole(2);
+            return;
+        case Op::set_laser_delays:
+            s.delays.laser_on = whole(0), s.delays.laser_off = whole(1);
+            return;
+        case Op::laser_signal_on_list:
+        case Op::laser_signal_off_list:
+            return switch_laser(tick * half_us_per_tick, c.op == Op::laser_signal_on_list, tick);
+        case Op::write_io_port_list:
+            s.io = whole(0);
+            return;
+        default:
+            break;
+    }
+    if (info(c.op).timing == Timing::motion) return take_motion(c, tick);
+    pipeline_command(c);
+}
+
+void Engine::take_motion(const Command& c, std::int64_t tick) {
+    const auto whole = [&](int i) { return static_cast<std::int64_t>(c.p[static_cast<std::size_t>(i)]); };
+    const Point target = target_of(c, is_relative(c.op));
+    const std::int64_t start = tick * half_us_per_tick;
+    switch (c.op) {
+        case Op::jump_abs:
+        case Op::jump_rel:
+            return jump_to(target);
+        case Op::timed_jump_abs:
+        case Op::timed_jump_rel:
+            transforms_of_jump();
+            return begin_line(target, 0, Ending::jump,
+                              std::max<std::int64_t>(1, static_cast<std::int64_t>(c.p[2] / 10)));
+        case Op::mark_abs:
+        case Op::mark_rel:
+            if (begin_polyline(tick)) begin_line(target, state_.mark_speed, Ending::mark);
+            return;
+        case Op::timed_mark_abs:
+        case Op::timed_mark_rel:
+            if (begin_polyline(tick))
+                begin_line(target, 0, Ending::mark, std::max<std::int64_t>(1, static_cast<std::int64_t>(c.p[2] / 10)));
+            return;
+        case Op::arc_abs:
+        case Op::arc_rel:
+            if (begin_polyline(tick)) begin_arc(c);
+            return;
+        case Op::micro_vector_abs:
+        case Op::micro_vector_rel: {
+            const auto of_this_tick = [](double v) { return v >= 0 && v < half_us_per_tick; };
+            const bool on = of_this_tick(c.p[2]), off = of_this_tick(c.p[3]);
+            if (on && (!off || whole(2) < whole(3))) switch_laser(start + whole(2), true, tick);
+            if (off) switch_laser(start + whole(3), false, tick);
+            if (on && off && whole(3) <= whole(2)) switch_laser(start + whole(2), true, tick);
+            return begin_line(target, 0, Ending::none, 1);
+        }
+        case Op::long_delay:
+            return begin_hold(std::max<std::int64_t>(1, whole(0)));
+        case Op::laser_on_list:
+            switch_laser(start, true, tick);
+            return begin_hold(std::max<std::int64_t>(1, whole(0)), Ending::laser_off);
+        default:
+            return begin_hold(1);
+    }
+}
+
+}  // namespace motionrack::rtc5

@@ -1,0 +1,31 @@
+// The pipeline's steps over blocks of ticks: plain loops that a compiler turns into vector instructions, same bits
+// everywhere.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <motionrack/cards/rtc5/model/correction.hpp>
+#include <motionrack/cards/rtc5/model/state.hpp>
+
+namespace motionrack::rtc5::kernels {
+
+/// Ticks of a block: what the arrays below have room for.
+inline constexpr std::size_t block = 512;
+
+struct Extent {
+    double least_x = 0, greatest_x = 0, least_y = 0, greatest_y = 0;
+};
+
+void line(double* x, double* y, std::size_t n, Point from, Point step, std::int64_t first);
+void hold(double* x, double* y, std::size_t n, Point p);
+void add_scaled(double* x, const double* counts, std::size_t n, double scale);
+void transform(double* x, double* y, std::size_t n, const Transform& t);
+Extent extent(const double* x, const double* y, std::size_t n);
+/// Into the field of 20 bits, from (x, y) to (to_x, to_y).
+void clip(const double* x, const double* y, double* to_x, double* to_y, std::size_t n);
+/// Inside the field, in place.
+void correct(double* x, double* y, std::size_t n, const Table& table);
+/// gain * v + offset, rounded, clipped.
+void out(const double* v, std::int32_t* to, std::size_t n, double gain, double offset);
+
+}  // namespace motionrack::rtc5::kernels

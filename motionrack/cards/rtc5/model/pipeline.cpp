@@ -1,0 +1,205 @@
+// From positions to outputs, block by block.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/cards/rtc5/model/engine.hpp>
+
+namespace motionrack::rtc5 {
+
+void Engine::run_pipeline(std::size_t n, Sink* sink) {
+    Scratch& b = *scratch_;
+    laser_until(state_.tick + static_cast<std::int64_t>(n));
+    if (!state_.global.neutral) kernels::transform(b.x.data(), b.y.data(), n, state_.global);
+    if (state_.fly.on()) {
+        apply_fly(n);
+        check_flags(n);
+        check_z(n);
+    }
+    if (sink == nullptr) {
+        evaluated_ = false;
+        return;
+    }
+    run_head(0, n);
+    const bool second = state_.heads[1].table != 0;
+    if (second) run_head(1, n);
+    keep_output(n);
+    const auto ints = [&](std::size_t i) { return std::span<const std::int32_t>(b.out[i].data(), n); };
+    sink->samples({state_.tick, ints(0), ints(1), second ? ints(2) : std::span<const std::int32_t>{},
+                   second ? ints(3) : std::span<const std::int32_t>{},
+                   std::span<const std::uint8_t>(b.laser.data(), n)});
+}
+
+void Engine::apply_fly(std::size_t n) {
+    Scratch& b = *scratch_;
+    const Fly& f = state_.fly;
+    const bool turns = f.kind == FlyKind::encoder_rot || f.kind == FlyKind::mcbsp_rot;
+    if (f.kind == FlyKind::encoder || f.kind == FlyKind::encoder_2d || f.kind == FlyKind::encoder_rot) {
+        if (f.x || turns || f.kind == FlyKind::encoder_2d) effective_counts(0, n);
+        if (f.y || f.kind == FlyKind::encoder_2d) effective_counts(1, n);
+    } else {
+        mcbsp_values(n);
+    }
+    if (turns) {
+        const Point centre = state_.rot_center;
+        const double per_count = 2 * pi / f.resolution;
+        for (std::size_t i = 0; i < n; ++i) {
+            const SinCos t = sin_cos(per_count * b.ec[0][i]);
+            const double dx = b.x[i] - centre.x, dy = b.y[i] - centre.y;
+            b.x[i] = centre.x + (t.cos * dx - t.sin * dy);
+            b.y[i] = centre.y + (t.sin * dx + t.cos * dy);
+        }
+        return;
+    }
+    if (f.kind == FlyKind::encoder_2d) {
+        for (std::size_t i = 0; i < n; ++i) {
+            b.ec[0][i] += state_.fly_2d_offset.x;
+            b.ec[1][i] += state_.fly_2d_offset.y;
+            if (fly_table_ == nullptr) continue;
+            const FlyTable::Shift shift = fly_table_->at(b.ec[0][i], b.ec[1][i]);
+            b.ec[0][i] += shift.x;
+            b.ec[1][i] += shift.y;
+        }
+    }
+    if (f.x) kernels::add_scaled(b.x.data(), b.ec[0].data(), n, f.scale_x);
+    if (f.y) kernels::add_scaled(b.y.data(), b.ec[1].data(), n, f.scale_y);
+}
+
+void Engine::raise(std::uint32_t bits, std::int64_t tick) {
+    for (std::uint32_t left = bits & ~static_cast<std::uint32_t>(state_.marking_info); left != 0; left &= left - 1)
+        state_.flag_tick[static_cast<std::size_t>(std::countr_zero(left))] = tick;
+    state_.marking_info |= bits;
+}
+
+void Engine::check_flags(std::size_t n) {
+    const Scratch& b = *scratch_;
+    const kernels::Extent e = kernels::extent(b.x.data(), b.y.data(), n);
+    const auto& m = state_.limits;
+    struct Bound {
+        const Doubles* values;
+        double bound, least, greatest;
+        bool upper;
+    };
+    const auto limit = [&](std::size_t i) { return static_cast<double>(m[i]); };
+    const Bound bounds[8] = {
+        {&b.x, field_least, e.least_x, e.greatest_x, false}, {&b.x, field_greatest, e.least_x, e.greatest_x, true},
+        {&b.y, field_least, e.least_y, e.greatest_y, false}, {&b.y, field_greatest, e.least_y, e.greatest_y, true},
+        {&b.x, limit(0), e.least_x, e.greatest_x, false},    {&b.x, limit(1), e.least_x, e.greatest_x, true},
+        {&b.y, limit(2), e.least_y, e.greatest_y, false},    {&b.y, limit(3), e.least_y, e.greatest_y, true},
+    };
+    for (std::uint32_t bit = 0; bit < 8; ++bit) {
+        const Bound& c = bounds[bit];
+        if (!(c.upper ? c.greatest > c.bound : c.least < c.bound) || (state_.marking_info >> bit & 1)) continue;
+        std::size_t i = 0;
+        while (!(c.upper ? (*c.values)[i] > c.bound : (*c.values)[i] < c.bound)) ++i;
+        raise(1u << bit, state_.tick + static_cast<std::int64_t>(i));
+    }
+}
+
+void Engine::check_z(std::size_t n) {
+    const Fly& f = state_.fly;
+    const bool multi = f.kind == FlyKind::multi;
+    if (!f.z && !multi) return;
+    const auto encoder = static_cast<int>(f.z_encoder);
+    if (f.z) effective_counts(encoder, n);
+    double at_type2 = static_cast<double>(state_.mcbsp.typed[2]);
+    const bool many = multi && n > 1 && load_words(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        if (many && i > 0 && (scratch_->words[i] & 7) == 2)
+            at_type2 = static_cast<double>(static_cast<std::int32_t>(scratch_->words[i]) >> 3);
+        const double z = multi ? state_.z + at_type2 : state_.z + f.scale_z * scratch_->ec[encoder][i];
+        std::uint32_t bits = 0;
+        if (z < z_least) bits |= marking_bit("FLY_Z_UNDERFLOW");
+        if (z > z_greatest) bits |= marking_bit("FLY_Z_OVERFLOW");
+        if (z < static_cast<double>(state_.limits[4])) bits |= marking_bit("LIMIT_Z_MIN");
+        if (z > static_cast<double>(state_.limits[5])) bits |= marking_bit("LIMIT_Z_MAX");
+        if (bits != 0) raise(bits, state_.tick + static_cast<std::int64_t>(i));
+    }
+}
+
+const Table* Engine::table(std::int64_t number) const {
+    return number == 0 ? nullptr : tables_[static_cast<std::size_t>(number - 1)].get();
+}
+
+void Engine::run_head(std::size_t number, std::size_t n) {
+    Scratch& b = *scratch_;
+    const Head& head = state_.heads[number];
+    const double *x = b.x.data(), *y = b.y.data();
+    if (!head.transform.neutral) {
+        std::copy_n(x, n, b.head_x.data());
+        std::copy_n(y, n, b.head_y.data());
+        kernels::transform(b.head_x.data(), b.head_y.data(), n, head.transform);
+        for (Doubles* v : {&b.head_x, &b.head_y})
+            for (std::size_t i = 0; i < n; ++i) (*v)[i] = std::clamp((*v)[i], field_least, field_greatest);
+    } else {
+        kernels::clip(x, y, b.head_x.data(), b.head_y.data(), n);
+    }
+    if (const Table* const t = table(head.table)) kernels::correct(b.head_x.data(), b.head_y.data(), n, *t);
+    kernels::out(b.head_x.data(), b.out[2 * number].data(), n, head.gain.x, head.offset.x);
+    kernels::out(b.head_y.data(), b.out[2 * number + 1].data(), n, head.gain.y, head.offset.y);
+}
+
+/// What the last of n ticks put out.
+void Engine::keep_output(std::size_t n) {
+    const Scratch& b = *scratch_;
+    Output& o = state_.output;
+    o.a = {b.out[0][n - 1], b.out[1][n - 1]};
+    o.b = state_.heads[1].table != 0 ? std::array<std::int32_t, 2>{b.out[2][n - 1], b.out[3][n - 1]}
+                                     : std::array<std::int32_t, 2>{};
+    o.corrected = {b.x[n - 1], b.y[n - 1]};
+    o.z = state_.z;
+    const Fly& f = state_.fly;
+    if (f.z) o.z += f.scale_z * effective(static_cast<int>(f.z_encoder));
+    if (f.kind == FlyKind::multi) o.z += static_cast<double>(state_.mcbsp.typed[2]);
+    o.z = std::clamp(o.z, z_least, z_greatest);
+    evaluated_ = true;
+}
+
+/// The output of the last tick, if nobody looked at it.
+void Engine::evaluate() {
+    if (evaluated_) return;
+    Scratch& b = *scratch_;
+    b.x[0] = state_.p.x, b.y[0] = state_.p.y;
+    if (!state_.global.neutral) kernels::transform(b.x.data(), b.y.data(), 1, state_.global);
+    if (state_.fly.on()) apply_fly(1);
+    run_head(0, 1);
+    if (state_.heads[1].table != 0) run_head(1, 1);
+    keep_output(1);
+}
+
+/// Whether n ticks of the activity stay so far inside field and limits that no flag can be set: positions and counts
+/// are straight lines in time.
+bool Engine::flags_cannot_change(const Activity& a, std::int64_t n) const {
+    const Fly& f = state_.fly;
+    const bool encoders = f.kind == FlyKind::encoder;
+    if ((!encoders && f.kind != FlyKind::mcbsp) || f.z || a.kind == ActivityKind::arc || !state_.global.neutral ||
+        inputs_ != nullptr)
+        return false;
+    for (const Encoder& e : state_.encoders)
+        if (encoders && e.simulated && e.count() + simulated_counts * std::min<std::int64_t>(n, 1 << 29) > 2147483647)
+            return false;
+    if (n > 1 << 28) return false;
+    const bool moves = a.kind == ActivityKind::line && !state_.lists.paused;
+    const auto inside = [&](double v, std::size_t axis) {
+        const double least = std::max(field_least, static_cast<double>(state_.limits[2 * axis])) + 1;
+        const double greatest = std::min(field_greatest, static_cast<double>(state_.limits[2 * axis + 1])) - 1;
+        return v > least && v < greatest;
+    };
+    const Point words = mcbsp_now();
+    const auto value = [&](std::size_t axis, std::int64_t i) {
+        if (!encoders) return axis == 0 ? words.x : words.y;
+        const Encoder& e = state_.encoders[axis];
+        if (i == 0) return effective(static_cast<int>(axis));
+        const double each = e.simulated ? simulated_counts : 0;
+        return e.count() + each * static_cast<double>(i) + each * static_cast<double>(state_.tracking_error[axis]);
+    };
+    for (const std::int64_t i : {std::int64_t{0}, std::min<std::int64_t>(1, n - 1), n - 1}) {
+        const Point p = moves ? position_of(a, a.done + i + 1) : state_.p;
+        if (!inside(f.x ? p.x + f.scale_x * value(0, i) : p.x, 0) ||
+            !inside(f.y ? p.y + f.scale_y * value(1, i) : p.y, 1))
+            return false;
+    }
+    return true;
+}
+
+}  // namespace motionrack::rtc5

@@ -1,0 +1,97 @@
+// External starts: at once, or after a stretch of the track.
+#include <algorithm>
+#include <motionrack/cards/rtc5/model/engine.hpp>
+
+namespace motionrack::rtc5 {
+
+namespace {
+
+bool due(const Start& start, std::int64_t travel) {
+    return start.delay > 0 ? travel >= start.target : travel <= start.target;
+}
+
+}  // namespace
+
+void Engine::take_starts() {
+    Starts& s = state_.starts;
+    const auto asked = s.asked_count;
+    s.asked_count = 0;
+    for (std::int64_t i = 0; i < asked; ++i) {
+        const Start start = s.asked[static_cast<std::size_t>(i)];
+        enqueue(static_cast<std::int32_t>(start.delay), static_cast<int>(start.encoder));
+    }
+    s.asked = {};
+    const auto triggers = s.triggers;
+    s.triggers = 0;
+    for (std::int64_t i = 0; i < triggers; ++i)
+        enqueue(static_cast<std::int32_t>(s.delay), static_cast<int>(s.encoder));
+    while (s.waiting > 0 && due(s.queue[0], state_.encoders[static_cast<std::size_t>(s.queue[0].encoder)].travel)) {
+        const Start start = s.queue[0];
+        std::copy(s.queue.begin() + 1, s.queue.end(), s.queue.begin());
+        s.queue.back() = {};
+        --s.waiting;
+        begin_start();
+        s.last[static_cast<std::size_t>(start.encoder)] = start.target;
+    }
+}
+
+void Engine::enqueue(std::int32_t delay, int encoder) {
+    Starts& s = state_.starts;
+    state_.startstop_info |= startstop_bit("START");
+    if (!(state_.control_mode & control_ext_start)) return;
+    if (delay == 0) return begin_start();
+    if (s.waiting == start_queue) {
+        state_.startstop_info |= startstop_bit("START_LOST");
+        return;
+    }
+    std::int64_t from = state_.encoders[static_cast<std::size_t>(encoder)].travel;
+    if (state_.control_mode & control_equidistant) {
+        const Start* const before = s.waiting > 0 ? &s.queue[static_cast<std::size_t>(s.waiting - 1)] : nullptr;
+        if (before != nullptr && before->encoder == encoder)
+            from = before->target;
+        else if (s.has_last)
+            from = s.last[static_cast<std::size_t>(encoder)];
+    }
+    s.queue[static_cast<std::size_t>(s.waiting++)] = {from + delay, delay, encoder};
+}
+
+void Engine::begin_start() {
+    Lists& l = state_.lists;
+    Starts& s = state_.starts;
+    for (std::size_t e = 0; e < encoder_count; ++e) s.last[e] = state_.encoders[e].travel;
+    s.has_last = 1;
+    if (l.running || l.moving_alone) {
+        raise(marking_bit("TRIGGER_ERROR"), state_.tick);
+        state_.startstop_info |= startstop_bit("START_LOST");
+        return;
+    }
+    for (Encoder& e : state_.encoders) {
+        if (e.reset_at_start) e.zero = e.travel;
+        e.reset_at_start = 0;
+    }
+    l.running = 1;
+    l.next = l.current = s.position;
+}
+
+/// Ticks from this one to the one in which the first waiting start is due, at most `limit`.
+std::int64_t Engine::ticks_to_start(std::int64_t limit) {
+    const Start& start = state_.starts.queue[0];
+    const Encoder& e = state_.encoders[static_cast<std::size_t>(start.encoder)];
+    if (e.simulated) {
+        if (start.delay < 0) return limit;
+        return std::clamp<std::int64_t>((start.target - e.travel + simulated_counts - 1) / simulated_counts, 1, limit);
+    }
+    if (inputs_ == nullptr) return limit;
+    const auto n = static_cast<std::size_t>(std::min<std::int64_t>(limit, block));
+    load_counts(static_cast<int>(start.encoder), n);
+    const auto& counts = scratch_->counts[start.encoder];
+    std::int64_t travel = e.travel;
+    for (std::size_t i = 1; i < n; ++i) {
+        travel += static_cast<std::int32_t>(static_cast<std::uint32_t>(counts[i]) -
+                                            static_cast<std::uint32_t>(counts[i - 1]));
+        if (due(start, travel)) return static_cast<std::int64_t>(i);
+    }
+    return static_cast<std::int64_t>(n);
+}
+
+}  // namespace motionrack::rtc5

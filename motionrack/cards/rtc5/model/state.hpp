@@ -1,0 +1,151 @@
+// All that the card remembers but its lists and tables. Every member has 8 bytes (or comes in pairs), so that there is
+// no padding that a snapshot's hash would see.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/cards/rtc5/map.hpp>
+
+namespace motionrack::rtc5 {
+
+struct Point {
+    double x = 0, y = 0;
+    friend constexpr Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
+    friend constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+};
+
+/// x' = m11 x + m12 y + ox. Matrix = Scale * Angle * Matrix.
+struct Transform {
+    std::array<double, 4> matrix{1, 0, 0, 1};
+    double angle_deg = 0, scale = 1;
+    Point offset;
+    std::array<double, 4> product{1, 0, 0, 1};
+    std::int64_t neutral = 1;
+};
+
+enum class ActivityKind : std::int64_t { none, line, arc, hold, wait_encoder, wait_range, wait_mcbsp };
+enum class Ending : std::int64_t { none, jump, mark, laser_off };
+
+/// What the list is doing: step `done` of `steps`.
+struct Activity {
+    ActivityKind kind = ActivityKind::none;
+    Ending ending = Ending::none;
+    std::int64_t done = 0, steps = 0;
+    Point from, step, to;                 ///< line; arc: from is the radius, to the centre, step.x the angle of a step
+    std::array<std::int64_t, 4> value{};  ///< waits: values; then encoder or axis, mode
+    Point direction;                      ///< of its end, for the corner
+};
+
+struct Encoder {
+    std::int64_t travel = 0, zero = 0, raw = 0;
+    std::int64_t previous = 0;  ///< the count of the tick before
+    std::int64_t simulated = 0, reset_at_start = 0;
+    double slow1 = 0, slow2 = 0;  ///< speed behind the filters, counts/ms
+    std::int32_t count() const {
+        return static_cast<std::int32_t>(static_cast<std::uint32_t>(travel) - static_cast<std::uint32_t>(zero));
+    }
+};
+
+enum class FlyKind : std::int64_t { off, encoder, encoder_2d, encoder_rot, mcbsp, mcbsp_rot, multi };
+
+struct Fly {
+    FlyKind kind = FlyKind::off;
+    std::int64_t x = 0, y = 0, z = 0;  ///< which are on
+    double scale_x = 0, scale_y = 0, scale_z = 0, resolution = 0;
+    std::int64_t z_encoder = 0;
+    bool on() const { return kind != FlyKind::off; }
+};
+
+struct McBsp {
+    std::int64_t word = 0, previous = 0;
+    std::array<std::int32_t, 4> memory{};
+    std::array<std::int32_t, 8> typed{};
+    std::array<std::uint32_t, 4> pending{};
+    std::int64_t pending_count = 0;
+    std::int64_t to_zero = 0;  ///< location 0 is kept filled
+    std::int64_t in_mode = 0, multi = 0, round = 0;
+    std::int64_t online_x = 0, online_y = 0, online_rot = 0;
+    double online_scale_x = 0, online_scale_y = 0, online_resolution = 0;
+};
+
+struct Laser {
+    static constexpr std::int64_t capacity = 16;
+    std::int64_t on = 0, count = 0, head = 0;
+    std::array<std::int64_t, capacity> at{};  ///< half-microseconds; ring from head; levels alternate from !on
+    std::int64_t on_since = 0, on_time = 0, lost = 0;
+};
+
+struct Start {
+    std::int64_t target = 0, delay = 0, encoder = 0;
+};
+
+struct Starts {
+    std::array<Start, start_queue> queue{};
+    std::int64_t waiting = 0, triggers = 0, delay = 0, encoder = 0;
+    std::array<Start, start_queue> asked{};  ///< by simulate_ext_start, since the last tick
+    std::int64_t asked_count = 0;
+    std::int64_t position = 0, has_last = 0;
+    std::array<std::int64_t, encoder_count> last{};  ///< travel at the last start
+};
+
+struct Delays {
+    std::int64_t jump = 0, mark = 0, polygon = 0;
+    std::int64_t laser_on = 0, laser_off = 0;
+    std::int64_t variable_polygon = 0, edge_level = 0, least_jump = 0;
+    double jump_limit = 0;  ///< bits
+};
+
+struct Lists {
+    std::array<std::int64_t, 4> begin{};    ///< of list 1, 2, 3; the memory's end
+    std::int64_t input = 0, input_end = 0;  ///< where the next command goes
+    std::int64_t next = 0, running = 0, current = 0, paused = 0, paused_laser = 0;
+    std::int64_t auto_change = 0, loop = 0, changed_at = -1, skip = 0, again = 0, marking = 0, moving_alone = 0;
+    std::int64_t ended_unwritten = 0;  ///< times that a list ran into a place never written
+};
+
+struct Head {
+    Transform transform;
+    std::int64_t table = 0;  ///< 0: 1:1
+    Point gain{1, 1}, offset;
+};
+
+struct Output {
+    std::array<std::int32_t, 2> a{}, b{};  ///< x, y of both heads
+    double z = 0;
+    Point corrected;  ///< after fly
+};
+
+struct State {
+    std::int64_t tick = 0;      ///< the next one
+    std::int64_t sampled = -1;  ///< the last one whose inputs were taken
+    Point p;
+    double z = 0;
+    Activity activity;
+    Lists lists;
+    double jump_speed = 1000, mark_speed = 1000;
+    Delays delays;
+    std::array<Encoder, encoder_count> encoders{};
+    std::array<std::int64_t, encoder_count> input{};  ///< what the lines have counted
+    std::array<std::int64_t, 4> stored{};             ///< Encoder0, Encoder1 of Pos 0; of Pos 1
+    std::array<std::int64_t, encoder_count> tracking_error{};
+    std::int64_t speed_watched = 0, speed_encoder = 0;
+    double speed_target = 0, speed_smooth = 0;
+    Fly fly, paused_fly;
+    Point park_from, rot_center, fly_2d_offset;
+    std::int64_t parked = 0;
+    std::array<std::int64_t, 6> limits{-8388608, 8388607, -8388608, 8388607, -8388608, 8388607};
+    McBsp mcbsp;
+    Laser laser;
+    Starts starts;
+    std::int64_t control_mode = 0;
+    std::int64_t marking_info = 0, startstop_info = 0;
+    std::array<std::int64_t, 32> flag_tick{};  ///< when a bit of marking info was set, since it was last clear
+    Transform global;
+    std::array<Head, head_count> heads{};
+    std::int64_t later_count = 0;      ///< transforms that wait for the next jump: bit HeadNo
+    std::array<Transform, 3> later{};  ///< heads A, B, global
+    std::int64_t io = 0;
+    Output output;
+};
+
+}  // namespace motionrack::rtc5

@@ -1,0 +1,83 @@
+// Random jobs for the card and its twin: list commands, and what somebody does between ticks.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/cards/rtc5/map.hpp>
+#include <random>
+#include <vector>
+
+namespace motionrack::rtc5 {
+
+struct Act {
+    enum Kind {
+        run,
+        load,
+        execute,
+        change,
+        loop,
+        quit_loop,
+        stop,
+        pause,
+        restart,
+        alone,
+        start,
+        word,
+        count,
+        simulate,
+        tracking,
+        control,
+        start_delay,
+        matrix,
+        offset,
+        angle,
+        scale,
+        hi,
+        cor,
+        delays,
+        mcbsp_in,
+        multi,
+        online,
+        apply,
+        init_2d,
+        read_info,
+        reset_2d,
+        watch,
+        kinds
+    };
+    Kind kind = run;
+    std::int64_t a = 0, b = 0;
+    double v[4] = {};
+};
+
+struct Job {
+    std::vector<Command> list1, list2;
+    std::vector<Act> acts;
+    bool inputs = false;  ///< counts and words are functions of the tick
+    bool steady = false;  ///< the table of the lens is used
+    double rate[2] = {};  ///< counts a tick
+    std::int64_t word_every = 1;
+};
+
+class JobMaker {
+  public:
+    explicit JobMaker(std::uint64_t seed) : random_(seed) {}
+    Job make();
+
+  private:
+    std::int64_t below(std::int64_t n) { return static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(n)); }
+    bool one_of(std::int64_t n) { return below(n) == 0; }
+    double real(double least, double greatest) {
+        return least + (greatest - least) * (static_cast<double>(random_() >> 11) * 0x1p-53);
+    }
+    double coordinate();
+    double count_scale();
+    double value_of(Op op, const ParamInfo& param);
+    Command command();
+    void fill(std::vector<Command>& list);
+    Act act();
+
+    std::mt19937_64 random_;
+    bool calm_ = false;  ///< mostly path
+};
+
+}  // namespace motionrack::rtc5

@@ -1,0 +1,273 @@
+// Lists, paths, laser, starts, corrections and refusals, from outside.
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <motionrack/cards/rtc5/test/rig.hpp>
+#include <numeric>
+
+namespace motionrack::rtc5 {
+namespace {
+
+TEST(Rtc5List, AMarkOf10MillimetresAt500Takes2000Ticks) {
+    Rig rig;
+    rig.put(Op::set_mark_speed, {2592});
+    rig.put(Op::mark_abs, {51'840, 0});
+    EXPECT_EQ(rig.go(), 2001);
+    EXPECT_EQ(rig.x[0], 26);
+    EXPECT_EQ(rig.x[1999], 51'840);
+    EXPECT_EQ(std::accumulate(rig.laser.begin(), rig.laser.end(), 0), 40'000);
+    EXPECT_EQ(rig.card.state().laser.on_time, 40'000);
+}
+
+TEST(Rtc5List, DelaysFollowJumpsCornersAndPolylines) {
+    Rig rig;
+    rig.put(Op::set_scanner_delays, {10, 7, 3});
+    rig.put(Op::set_laser_delays, {25, 30});
+    rig.put(Op::set_mark_speed, {1000});
+    rig.put(Op::set_jump_speed, {1000});
+    rig.put(Op::jump_abs, {100, 0});  // 10 + 10
+    rig.put(Op::mark_abs, {200, 0});  // 10 + 3
+    rig.put(Op::set_mark_speed, {2000});
+    rig.put(Op::mark_abs, {200, 100});  // 5 + 7
+    rig.put(Op::jump_abs, {0, 0});
+    rig.go();
+    EXPECT_EQ(rig.laser[20], 0);
+    EXPECT_EQ(rig.laser[21], 15);  // on 12.5 us after the first step
+    for (std::size_t i = 22; i < 39; ++i) EXPECT_EQ(rig.laser[i], 20) << i;
+    EXPECT_EQ(rig.laser[38], 20);
+    EXPECT_EQ(rig.laser[39], 10);  // off 15 us after the last step's tick
+    EXPECT_EQ(rig.laser[40], 0);
+    EXPECT_EQ(rig.x[44], rig.x[37]) << "mark delay";
+}
+
+TEST(Rtc5List, AVariableCornerDelayGrowsWithTheAngle) {
+    const auto ticks = [](double x, double y) {
+        Rig rig;
+        Delays d;
+        d.polygon = 20;
+        d.variable_polygon = 1;
+        EXPECT_TRUE(rig.card.set_delays(d));
+        rig.put(Op::mark_abs, {100, 0});
+        rig.put(Op::mark_rel, {x, y});
+        return rig.go() - 21;
+    };
+    EXPECT_EQ(ticks(100, 0), 0);
+    EXPECT_EQ(ticks(0, 100), 20);
+    EXPECT_EQ(ticks(-100, 0), 40);
+}
+
+TEST(Rtc5List, AnEarlyLaserLengthensTheWay) {
+    Rig rig;
+    rig.put(Op::set_laser_delays, {-50, 0});
+    rig.put(Op::mark_abs, {100, 0});
+    EXPECT_EQ(rig.go(), 3 + 10 + 1);
+    EXPECT_EQ(rig.laser[0], 10);
+    EXPECT_EQ(rig.x[2], 0);
+    EXPECT_EQ(rig.x[3], 10);
+}
+
+TEST(Rtc5List, APositiveArcIsClockwise) {
+    Rig rig;
+    rig.put(Op::set_mark_speed, {10'000});
+    rig.put(Op::arc_abs, {1000, 0, 90});
+    rig.go();
+    EXPECT_EQ(rig.last_x(), 1000);
+    EXPECT_EQ(rig.last_y(), 1000);
+}
+
+TEST(Rtc5List, ListsChangeOnceByAutoChangeAndForEverInALoop) {
+    Rig rig;
+    rig.put(Op::jump_rel, {10, 0});
+    rig.put(Op::set_end_of_list);
+    rig.begin(2);
+    rig.put(Op::jump_rel, {0, 10});
+    rig.put(Op::set_end_of_list);
+    rig.card.auto_change();
+    ASSERT_TRUE(rig.card.execute_list(1));
+    ASSERT_TRUE(rig.card.run_to_rest(1000, &rig));
+    EXPECT_EQ(rig.last_x(), 10);
+    EXPECT_EQ(rig.last_y(), 10);
+    rig.card.start_loop();
+    ASSERT_TRUE(rig.card.execute_list(1));
+    rig.run(100);
+    EXPECT_EQ(rig.last_x() + rig.last_y(), 20 + 1000);
+    EXPECT_TRUE(rig.card.busy());
+    rig.card.quit_loop();
+    EXPECT_TRUE(rig.card.run_to_rest(1000, &rig));
+}
+
+TEST(Rtc5List, ListsThatTakeNoTimeDoNotHangInALoop) {
+    Rig rig;
+    rig.put(Op::set_end_of_list);
+    rig.begin(2);
+    rig.put(Op::set_end_of_list);
+    rig.card.start_loop();
+    ASSERT_TRUE(rig.card.execute_list(1));
+    rig.run(3);
+    EXPECT_FALSE(rig.card.busy());
+}
+
+TEST(Rtc5List, AListThatIsFullOrRunsIsRefusedAndTheOldOneKept) {
+    Rig rig;
+    for (int i = 0; i < 1000; ++i) rig.put(Op::list_nop);
+    const auto full = rig.card.put(*list_command(Op::list_nop, {}));
+    ASSERT_FALSE(full);
+    EXPECT_NE(full.error().message.find("full at position 1000"), std::string::npos) << full.error().message;
+    ASSERT_TRUE(rig.card.execute_list(1));
+    rig.run(2);
+    EXPECT_FALSE(rig.card.execute_list(1));
+    EXPECT_FALSE(rig.card.set_start_list(1));
+    EXPECT_FALSE(rig.card.config_list(10, 10));
+    EXPECT_TRUE(rig.card.set_start_list(2));
+    EXPECT_EQ(rig.card.status(), status_bit("BUSY"));
+    rig.run(2000);
+    EXPECT_FALSE(rig.card.busy());
+    EXPECT_EQ(rig.card.state().lists.ended_unwritten, 1) << "list 2 was never written";
+}
+
+TEST(Rtc5List, NumbersThatAreNoneOrOutOfRangeAreRefusedWithTheirPlace) {
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(list_command(Op::mark_abs, {nan, 0}));
+    EXPECT_FALSE(list_command(Op::set_fly_x, {infinite}));
+    EXPECT_FALSE(list_command(Op::mark_abs, {0.5, 0}));
+    EXPECT_FALSE(list_command(Op::mark_abs, {0}));
+    EXPECT_FALSE(list_command(Op::wait_for_encoder, {0, 2}));
+    EXPECT_FALSE(list_command(Op::none, {}));
+    EXPECT_FALSE(list_command(static_cast<Op>(9999), {}));
+    EXPECT_FALSE(list_command(Op::set_matrix_list, {1, 0, 0, 51, 1}));
+    const auto angle = list_command(Op::arc_abs, {0, 0, 4000});
+    ASSERT_FALSE(angle);
+    EXPECT_EQ(angle.error().message,
+              "arc_abs: Angle is 4000, outside -3600 to 3600 degrees; the command was not put into the list");
+    EXPECT_EQ(list_command(Op::mark_abs, {1e12, -1e12})->p, (std::array<double, 4>{8388607, -8388608, 0, 0}))
+        << "coordinates are clipped";
+    EXPECT_EQ(list_command(Op::set_mark_speed, {1})->p[0], 1.6);
+    Engine card;
+    EXPECT_FALSE(card.set_matrix(1, {nan, 0, 0, 1}, 1));
+    EXPECT_FALSE(card.set_offset(5, {0, 0}, 1));
+    EXPECT_FALSE(card.set_rot_center({nan, 0}));
+    EXPECT_FALSE(card.load_correction(nullptr, 5));
+    EXPECT_FALSE(card.select_cor_table(1, 9));
+    EXPECT_FALSE(card.goto_xy(nan, 0));
+    EXPECT_FALSE(check({.list_memory = 10}));
+}
+
+TEST(Rtc5List, TheMatrixTurnsBehindTheCorrection) {
+    Rig rig;
+    ASSERT_TRUE(rig.card.set_matrix(1, {0.5, -0.866, 0.866, 0.5}, 1));
+    rig.put(Op::micro_vector_abs, {1000, 0, -1, -1});
+    rig.go();
+    EXPECT_EQ(rig.last_x(), 500);
+    EXPECT_EQ(rig.last_y(), 866);
+}
+
+TEST(Rtc5List, ATransformForTheNextJumpWaitsForIt) {
+    Rig rig;
+    ASSERT_TRUE(rig.card.set_offset(3, {100, 0}, 2));
+    rig.put(Op::list_nop);
+    rig.put(Op::jump_abs, {0, 0});
+    rig.go();
+    EXPECT_EQ(rig.x[0], 0);
+    EXPECT_EQ(rig.x[1], 100);
+}
+
+TEST(Rtc5Starts, TrackDelaysQueueEightAndAStartIntoARunningListIsLost) {
+    Rig rig;
+    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    rig.card.set_control_mode(control_ext_start);
+    ASSERT_TRUE(rig.card.set_ext_start_delay(1000, 0));
+    rig.put(Op::micro_vector_rel, {1, 0, -1, -1});
+    rig.put(Op::set_end_of_list);
+    for (int i = 0; i < 8; ++i) {
+        rig.card.external_start();
+        rig.run(5);
+    }
+    EXPECT_EQ(rig.card.get_startstop_info(), startstop_bit("START"));
+    rig.card.external_start();
+    rig.run(1);
+    EXPECT_EQ(rig.card.get_startstop_info(), startstop_bit("START") | startstop_bit("START_LOST"));
+    rig.run(200);
+    EXPECT_EQ(rig.last_x(), 8);
+    ASSERT_TRUE(rig.card.set_ext_start_delay(0, 0));
+    rig.begin();
+    rig.put(Op::long_delay, {50});
+    rig.put(Op::set_end_of_list);
+    rig.card.external_start();
+    rig.run(2);
+    rig.card.external_start();
+    rig.run(2);
+    EXPECT_EQ(rig.card.get_startstop_info() & startstop_bit("START_LOST"), startstop_bit("START_LOST"));
+    EXPECT_EQ(rig.card.get_marking_info(), marking_bit("TRIGGER_ERROR"));
+}
+
+TEST(Rtc5Starts, EquidistantPartsCountFromTheStartBefore) {
+    Rig rig;
+    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    rig.card.set_control_mode(control_ext_start | control_equidistant);
+    ASSERT_TRUE(rig.card.set_ext_start_delay(1000, 0));
+    rig.put(Op::micro_vector_rel, {1, 0, -1, -1});
+    rig.put(Op::set_end_of_list);
+    rig.card.external_start();
+    rig.run(110);
+    rig.card.external_start();  // in tick 110, ten ticks late: the part's place is counted from the first
+    rig.run(200);
+    std::vector<std::size_t> at;
+    for (std::size_t i = 1; i < rig.x.size(); ++i)
+        if (rig.x[i] != rig.x[i - 1]) at.push_back(i);
+    ASSERT_EQ(at.size(), 2u);
+    EXPECT_EQ(at[1] - at[0], 100u);
+}
+
+TEST(Rtc5Starts, ResetAtStartZeroesTheEncoderWithTheList) {
+    Rig rig;
+    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    rig.card.set_control_mode(control_ext_start | control_reset_at_start);
+    rig.put(Op::set_fly_x, {1});
+    rig.go();
+    EXPECT_NE(rig.card.encoder(0), 0);
+    rig.card.external_start();
+    rig.run(1);
+    EXPECT_EQ(rig.card.encoder(0), 0);
+}
+
+TEST(Rtc5Card, AStateAtAnInstantDoesNotDependOnHowItWasReached) {
+    const auto state_after = [](std::vector<std::int64_t> steps, bool looked_at) {
+        Rig rig;
+        static_cast<void>(rig.card.simulate_encoder(1));
+        rig.put(Op::set_fly_x, {0.5});
+        rig.put(Op::set_laser_delays, {13, 17});
+        for (int i = 0; i < 200; ++i) {
+            rig.put(Op::mark_rel, {i % 3 ? 77.0 : -400.0, i % 5 * 90.0});
+            if (i % 9 == 0) rig.put(Op::jump_rel, {-100, 10});
+            if (i % 20 == 0) rig.put(Op::micro_vector_abs, {5, 7, 3, 9});
+            if (i % 20 == 0) rig.put(Op::micro_vector_abs, {6, 7, -1, -1});
+            if (i % 20 == 0) rig.put(Op::micro_vector_abs, {7, 7, -1, -1});
+        }
+        static_cast<void>(rig.card.execute_list(1));
+        for (std::size_t i = 0; rig.card.tick() < 4000; ++i)
+            rig.card.run_until(std::min<std::int64_t>(4000, rig.card.tick() + steps[i % steps.size()]),
+                               looked_at ? &rig : nullptr);
+        std::vector<std::byte> out(sizeof(State));
+        std::memcpy(out.data(), &rig.card.state(), sizeof(State));
+        return out;
+    };
+    const auto whole = state_after({4000}, true);
+    EXPECT_EQ(whole, state_after({1}, true));
+    EXPECT_EQ(whole, state_after({1, 7, 333}, true));
+    EXPECT_EQ(whole, state_after({4000}, false));
+    EXPECT_EQ(whole, state_after({3, 1, 600}, false));
+}
+
+TEST(Rtc5Card, EverySettingOfOneCardLeavesAnotherAlone) {
+    Rig a, b;
+    ASSERT_TRUE(a.card.simulate_encoder(3));
+    a.put(Op::set_fly_x, {3});
+    a.go();
+    b.put(Op::jump_abs, {9, 9});
+    b.go();
+    EXPECT_EQ(b.card.encoder(0), 0);
+    EXPECT_EQ(b.last_x(), 9);
+}
+
+}  // namespace
+}  // namespace motionrack::rtc5

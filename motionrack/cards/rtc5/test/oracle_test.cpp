@@ -1,0 +1,335 @@
+// Random jobs look the same on the card that works in blocks and spans and on its slow twin.
+//
+// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment choose other and more jobs.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <motionrack/cards/rtc5/model/engine.hpp>
+#include <motionrack/cards/rtc5/test/job.hpp>
+#include <motionrack/cards/rtc5/test/twin.hpp>
+#include <string>
+
+namespace motionrack::rtc5 {
+namespace {
+
+constexpr std::int64_t memory = 1700, list1 = 800, list2 = 800;
+
+std::int32_t counted(const Job& job, int encoder, std::int64_t tick) {
+    const double t = static_cast<double>(tick);
+    return static_cast<std::int32_t>(job.rate[encoder] * t +
+                                     40 * (static_cast<double>(tick % 700) / 700 < 0.5 ? 1 : 0));
+}
+std::uint32_t word_of(const Job& job, std::int64_t tick) {
+    return static_cast<std::uint32_t>(tick / job.word_every * 2654435761u);
+}
+
+class JobInputs final : public Inputs {
+  public:
+    explicit JobInputs(const Job& job) : job_(job) {}
+    void counts(int encoder, std::int64_t first, std::span<std::int32_t> out) override {
+        for (std::size_t i = 0; i < out.size(); ++i)
+            out[i] = counted(job_, encoder, first + static_cast<std::int64_t>(i));
+    }
+    bool words(std::int64_t first, std::span<std::uint32_t> out) override {
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] = word_of(job_, first + static_cast<std::int64_t>(i));
+        return true;
+    }
+
+  private:
+    const Job& job_;
+};
+
+class Keeper final : public Sink {
+  public:
+    void samples(const Samples& b) override {
+        EXPECT_EQ(b.first, static_cast<std::int64_t>(first + got.size()));
+        for (std::size_t i = 0; i < b.x.size(); ++i)
+            got.push_back({b.x[i], b.y[i], b.x_b.empty() ? 0 : b.x_b[i], b.y_b.empty() ? 0 : b.y_b[i], b.laser[i]});
+    }
+    std::int64_t first = 0;
+    std::vector<twin::Sample> got;
+};
+
+const CorrectionFile& lens_file() {
+    static const CorrectionFile file = *correction_of({});
+    return file;
+}
+const FlyTable& fly_table() {
+    static const FlyTable table =
+        *FlyTable::read("[Fly2DTable3]\n0 0 0 0\n1000 0 30 -4\n0 2000 -7 9\n1000 2000 11 60\n", 3, "t");
+    return table;
+}
+
+/// Both cards side by side.
+class Pair {
+  public:
+    explicit Pair(const Job& job)
+        : job_(job), card_({memory, list1, list2}), twin_(memory, list1, list2), inputs_(job) {
+        table_ = table_of(lens_file());
+        load();
+        if (job.inputs) card_.set_inputs(&inputs_);
+    }
+
+    /// False: they differ, and why was said.
+    bool run() {
+        for (std::size_t i = 0; i < job_.acts.size(); ++i) {
+            act(job_.acts[i]);
+            if (!same()) {
+                ADD_FAILURE() << "after act " << i << " (kind " << job_.acts[i].kind << ") at tick " << card_.tick()
+                              << where();
+                return false;
+            }
+        }
+        return true;
+    }
+
+  private:
+    void load() {
+        for (int list = 1; list <= 2; ++list) {
+            static_cast<void>(card_.set_start_list(list));
+            for (const Command& c : list == 1 ? job_.list1 : job_.list2)
+                if (!card_.put(c)) break;
+        }
+        std::copy(card_.memory().begin(), card_.memory().end(), twin_.memory.begin());
+    }
+
+    twin::Sample twin_tick() {
+        if (job_.inputs) {
+            for (int e = 0; e < 2; ++e) twin_.encoders[e].input = counted(job_, e, twin_.now);
+            twin_.words.assign(1, word_of(job_, twin_.now));
+        }
+        return twin_.tick();
+    }
+
+    void run_ticks(std::int64_t n, bool looked_at) {
+        Keeper keeper;
+        keeper.first = card_.tick();
+        card_.run_until(card_.tick() + n, looked_at ? &keeper : nullptr);
+        for (std::int64_t i = 0; i < n; ++i) {
+            last_ = twin_tick();
+            if (!looked_at) continue;
+            const twin::Sample& got = keeper.got.at(static_cast<std::size_t>(i));
+            ASSERT_EQ(got, last_) << "tick " << twin_.now - 1 << ": (" << got.x << ", " << got.y << ", laser "
+                                  << got.laser << ") on the card, (" << last_.x << ", " << last_.y << ", laser "
+                                  << last_.laser << ") on the twin; B " << got.x_b << " " << last_.x_b << where();
+        }
+        ran_ = ran_ || n > 0;
+    }
+
+    void act(const Act& a) {
+        const auto pick = [&](std::int64_t n) { return a.a % n; };
+        Engine& c = card_;
+        twin::Twin& t = twin_;
+        switch (a.kind) {
+            case Act::run:
+                return run_ticks(a.a, a.b != 0);
+            case Act::load:
+                return;
+            case Act::execute:
+                static_cast<void>(c.execute_at(pick(2) ? list1 : 0)), t.execute(pick(2) ? list1 : 0);
+                return;
+            case Act::change:
+                c.auto_change(), t.auto_change = true;
+                return;
+            case Act::loop:
+                c.start_loop(), t.loop = true;
+                return;
+            case Act::quit_loop:
+                c.quit_loop(), t.loop = false;
+                return;
+            case Act::stop:
+                c.stop_execution(), t.stop();
+                return;
+            case Act::pause:
+                c.pause_list(), t.pause();
+                return;
+            case Act::restart:
+                c.restart_list(), t.restart();
+                return;
+            case Act::alone:
+                static_cast<void>(c.goto_xy(std::floor(a.v[0] * 9e4), 5)), t.jump_alone({std::floor(a.v[0] * 9e4), 5});
+                return;
+            case Act::start:
+                c.external_start(), ++t.triggers;
+                return;
+            case Act::word:
+                c.receive(static_cast<std::uint32_t>(a.a)), t.receive(static_cast<std::uint32_t>(a.a));
+                return;
+            case Act::count: {
+                const auto e = static_cast<std::size_t>(pick(2));
+                t.encoders[e].input += static_cast<std::int32_t>(a.v[1] * 3000);
+                c.set_count(static_cast<int>(e), t.encoders[e].input);
+                return;
+            }
+            case Act::simulate:
+                static_cast<void>(c.simulate_encoder(static_cast<int>(pick(4))));
+                for (int e = 0; e < 2; ++e) t.encoders[e].simulated = pick(4) >> e & 1;
+                return;
+            case Act::tracking:
+                c.set_tracking_error(static_cast<std::uint16_t>(pick(4) * 7), static_cast<std::uint16_t>(pick(3)));
+                t.tracking[0] = static_cast<int>(pick(4)) * 7, t.tracking[1] = static_cast<int>(pick(3));
+                return;
+            case Act::control:
+                t.control =
+                    static_cast<std::uint32_t>((pick(5) ? 1 : 0) | (pick(3) ? 0 : 512) | (pick(7) > 3 ? 1024 : 0)),
+                c.set_control_mode(t.control);
+                return;
+            case Act::start_delay:
+                t.start_delay = pick(4) ? pick(2000) - 200 : 0, t.start_encoder = static_cast<int>(a.b),
+                t.start_position = pick(2) ? list1 : 0;
+                static_cast<void>(c.set_ext_start_delay(static_cast<std::int32_t>(t.start_delay), t.start_encoder));
+                c.set_extstart_pos(t.start_position);
+                return;
+            default:
+                return act_on_pipeline(a, c, t);
+        }
+    }
+
+    void act_on_pipeline(const Act& a, Engine& c, twin::Twin& t) {
+        const auto pick = [&](std::int64_t n) { return a.a % n; };
+        const int head = static_cast<int>(pick(4)) + 1, once = static_cast<int>(pick(9)) % 4;
+        switch (a.kind) {
+            case Act::matrix:
+                static_cast<void>(c.set_matrix(head, {a.v[0], a.v[1], a.v[2], a.v[3]}, once));
+                t.set_matrix(head, once, a.v);
+                return;
+            case Act::offset:
+                static_cast<void>(c.set_offset(head, {a.v[0] * 1e4, a.v[1] * 1e4}, once));
+                t.set_offset(head, once, {a.v[0] * 1e4, a.v[1] * 1e4});
+                return;
+            case Act::angle:
+                static_cast<void>(c.set_angle(head, a.v[0] * 90, once)), t.set_angle(head, once, a.v[0] * 90);
+                return;
+            case Act::scale:
+                static_cast<void>(c.set_scale(head, 1 + a.v[0] / 2, once)), t.set_scale(head, once, 1 + a.v[0] / 2);
+                return;
+            case Act::hi:
+                static_cast<void>(c.set_hi(3, {1 + a.v[0], 1}, {a.v[1] * 100, 0.5}));
+                for (int h = 0; h < 2; ++h)
+                    t.gain[h][0] = 1 + a.v[0], t.gain[h][1] = 1, t.gain_offset[h][0] = a.v[1] * 100,
+                    t.gain_offset[h][1] = 0.5;
+                return;
+            case Act::cor:
+                static_cast<void>(c.load_correction(table_, 2));
+                static_cast<void>(c.select_cor_table(pick(2) ? 2 : 0, a.b ? 2 : 0));
+                t.tables[0] = pick(2) ? &lens_file() : nullptr, t.tables[1] = &lens_file(), t.second_head = a.b;
+                return;
+            case Act::delays: {
+                const Delays d{pick(9),       pick(11), pick(30),
+                               pick(60) - 20, pick(70), pick(2),
+                               pick(3) * 10,  pick(5),  a.v[0] > 0 ? a.v[0] * 40000 : 0};
+                static_cast<void>(c.set_delays(d));
+                t.jump_delay = d.jump, t.mark_delay = d.mark, t.polygon_delay = d.polygon, t.laser_on = d.laser_on,
+                t.laser_off = d.laser_off;
+                t.variable_polygon = d.variable_polygon, t.edge_level = d.edge_level, t.least_jump = d.least_jump,
+                t.jump_limit = d.jump_limit;
+                return;
+            }
+            case Act::mcbsp_in:
+                static_cast<void>(c.set_mcbsp_in(static_cast<int>(pick(4)), a.v[0] * 3)),
+                    t.set_mcbsp_in(static_cast<int>(pick(4)), a.v[0] * 3);
+                return;
+            case Act::multi:
+                c.set_multi_mcbsp_in(), t.set_multi();
+                return;
+            case Act::online: {
+                const double x = pick(2) ? 1 : 0, y = pick(3) ? 0 : 2, r = pick(5) ? 0 : 4000;
+                static_cast<void>(c.set_mcbsp_online(x, y, r)), t.set_online(x, y, r);
+                return;
+            }
+            case Act::init_2d:
+                c.init_fly_2d(static_cast<std::int32_t>(pick(500)), 7);
+                for (auto& e : t.encoders) e.zero = e.travel;
+                t.offset_2d = {static_cast<double>(pick(500)), 7};
+                return;
+            case Act::reset_2d:
+                c.load_fly_2d_table(a.b ? std::make_shared<const FlyTable>(fly_table()) : nullptr);
+                t.table_2d = a.b ? &fly_table() : nullptr;
+                return;
+            case Act::read_info:
+                EXPECT_EQ(c.get_marking_info(), t.take_marking_info());
+                EXPECT_EQ(c.get_startstop_info(), t.startstop);
+                t.startstop = 0;
+                return;
+            case Act::watch:
+                static_cast<void>(c.set_encoder_speed(2, 200, 0.3));
+                t.watch_speed = true, t.smooth = 0.3;
+                for (auto& e : t.encoders) e.slow1 = e.slow2 = 0;
+                return;
+            default:
+                return;
+        }
+    }
+
+    /// The commands about the one that the twin is at.
+    std::string where() const {
+        std::string out = "\n";
+        for (std::int64_t i = std::max<std::int64_t>(0, twin_.current - 6); i < std::min(memory, twin_.current + 3);
+             ++i) {
+            const Command& c = twin_.memory[static_cast<std::size_t>(i)];
+            out += fmt::format("{} {} {}", i == twin_.current ? "  >" : "   ", i, info(c.op).name);
+            for (int k = 0; k < std::min(info(c.op).param_count(), 4); ++k)
+                out += fmt::format(" {}", c.p[static_cast<std::size_t>(k)]);
+            out += "\n";
+        }
+        return out;
+    }
+
+    bool same() {
+        const State& s = card_.state();
+        EXPECT_EQ(s.tick, twin_.now);
+        EXPECT_EQ(s.p.x, twin_.p.x);
+        EXPECT_EQ(s.p.y, twin_.p.y);
+        if (ran_ && s.tick > 0) {
+            EXPECT_EQ(s.output.a[0], last_.x);
+            EXPECT_EQ(s.output.a[1], last_.y);
+        }
+        for (std::size_t e = 0; e < 2; ++e) {
+            EXPECT_EQ(s.encoders[e].count(), twin_.encoders[e].count()) << e;
+            EXPECT_EQ(s.encoders[e].travel, twin_.encoders[e].travel) << e;
+            EXPECT_EQ(s.encoders[e].slow2, twin_.encoders[e].slow2) << e;
+        }
+        for (std::size_t i = 0; i < 4; ++i) {
+            EXPECT_EQ(s.stored[i], twin_.stored[i]) << i;
+            EXPECT_EQ(s.mcbsp.memory[i], twin_.locations[i]) << i;
+        }
+        for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(s.mcbsp.typed[i], twin_.typed[i]) << i;
+        EXPECT_EQ(static_cast<std::uint32_t>(s.marking_info), twin_.marking);
+        EXPECT_EQ(static_cast<std::uint32_t>(s.startstop_info), twin_.startstop);
+        for (std::size_t i = 0; i < 32; ++i) EXPECT_EQ(s.flag_tick[i], twin_.flag_tick[i]) << "bit " << i;
+        EXPECT_EQ(card_.busy(), twin_.running);
+        EXPECT_EQ(s.lists.current, twin_.current);
+        EXPECT_EQ(s.lists.ended_unwritten, twin_.unwritten);
+        EXPECT_EQ(s.io, twin_.io);
+        EXPECT_EQ(s.laser.on != 0, twin_.laser);
+        return !::testing::Test::HasFailure();
+    }
+
+    const Job& job_;
+    Engine card_;
+    twin::Twin twin_;
+    JobInputs inputs_;
+    std::shared_ptr<const Table> table_;
+    twin::Sample last_;
+    bool ran_ = false;
+};
+
+TEST(Rtc5Oracle, RandomJobsLookTheSameOnTheTwin) {
+    const char *const seed_text = std::getenv("MOTIONRACK_SEED"), *const count_text =
+                                                                      std::getenv("MOTIONRACK_PROGRAMS");
+    const std::uint64_t seed = seed_text != nullptr ? std::strtoull(seed_text, nullptr, 10) : 20250;
+    const int count = count_text != nullptr ? std::atoi(count_text) : 1500;
+    std::cout << "seed " << seed << ", " << count << " jobs\n";
+    for (int i = 0; i < count; ++i) {
+        const std::uint64_t own = seed + static_cast<std::uint64_t>(i);
+        const Job job = JobMaker(own).make();
+        ASSERT_TRUE(Pair(job).run()) << "MOTIONRACK_SEED=" << own << " MOTIONRACK_PROGRAMS=1 runs this job alone";
+    }
+}
+
+}  // namespace
+}  // namespace motionrack::rtc5
