@@ -117,6 +117,8 @@ class Engine {
     /// Runs until no list runs, nothing moves and no start waits, at most `ticks`; true: it came to rest.
     bool run_to_rest(std::int64_t ticks, Sink* sink = nullptr);
     std::int64_t tick() const { return state_.tick; }
+    /// No list runs, nothing moves or waits to start, and the laser has no change to come.
+    bool at_rest() const;
 
     // ---- answers
     bool busy() const { return state_.lists.running != 0; }
@@ -149,7 +151,6 @@ class Engine {
 
     // engine.cpp
     void begin_tick();
-    bool at_rest() const;
     void piece(std::int64_t end, Sink* sink);
     std::size_t produce(std::size_t room);
     std::size_t micro_vectors(std::size_t n, std::size_t room);

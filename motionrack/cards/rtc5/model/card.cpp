@@ -1,0 +1,157 @@
+// Wires of the rack in, ticks of the engine, wires of the rack out.
+#include <algorithm>
+#include <motionrack/cards/rtc5/model/card.hpp>
+
+namespace motionrack::rtc5 {
+
+namespace {
+
+/// Places of the pins in map::pins.
+enum Pin : int { enc0_a, enc0_b, enc1_a, enc1_b, start, stop, mcbsp_word, mcbsp_frame, laser_gate, head_x, head_y, busy, io };
+static_assert(map::pins[laser_gate].name == "laser" && map::pins[io].name == "io" && std::size(map::pins) == io + 1);
+
+constexpr Duration half_us = nanoseconds(500);
+
+}  // namespace
+
+Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& settings) : kernel_(kernel), engine_(settings) {
+    id_ = kernel.add(*this, sim::Phase::cards, name);
+    lists_.bytes = std::as_writable_bytes(engine_.memory());
+    inputs_.bytes = sim::bytes_of(lines_);
+    kernel.add(lists_, sim::Phase::cards, name + ".lists");
+    kernel.add(inputs_, sim::Phase::cards, name + ".lines");
+    for (std::size_t i = 0; i < wires_.size(); ++i) {
+        wires_[i] = kernel.add_wire(name + "." + std::string(map::pins[i].name), 0);
+        if (map::pins[i].direction == PinDirection::input && i != mcbsp_word) kernel.listen(wires_[i], id_, static_cast<int>(i));
+    }
+    for (const Pin pin : {head_x, head_y}) kernel.drive_lazily(wire(pin), id_, pin);
+    kernel.schedule(id_, Instant{0});
+}
+
+Engine& Card::engine() {
+    catch_up(kernel_.now());
+    // What is asked of it may move it: look in the next tick.
+    kernel_.schedule(id_, std::min((kernel_.now() / tick_time + 1) * tick_time,
+                                   lines_.change_count > 0 ? Instant{lines_.changes[0]} : never));
+    return engine_;
+}
+
+/// Works off the ticks up to and including `now`.
+void Card::catch_up(Instant now) {
+    engine_.run_until(now / tick_time + 1, this);
+    tell();
+}
+
+void Card::laser(std::int64_t at, bool) {
+    if (lines_.change_count < static_cast<std::int64_t>(lines_.changes.size()))
+        lines_.changes[static_cast<std::size_t>(lines_.change_count++)] = (at * half_us).count();
+}
+
+void Card::act(Instant now) {
+    catch_up(now);
+    put_out();
+    plan(now);
+}
+
+void Card::sync(Instant now) {
+    catch_up(now);
+    put_out();
+}
+
+/// The wires that are driven by events.
+void Card::put_out() {
+    Lines& l = lines_;
+    std::int64_t done = 0;
+    for (; done < l.change_count && l.changes[static_cast<std::size_t>(done)] <= kernel_.now().count(); ++done) l.laser = !l.laser;
+    if (done > 0) {
+        std::copy(l.changes.begin() + done, l.changes.begin() + l.change_count, l.changes.begin());
+        l.change_count -= done;
+        std::fill(l.changes.begin() + l.change_count, l.changes.end(), 0);
+    }
+    kernel_.set_wire(wire(laser_gate), static_cast<int>(l.laser));
+    kernel_.set_wire(wire(busy), engine_.busy());
+    kernel_.set_wire(wire(io), static_cast<int>(engine_.state().io));
+    if (kernel_.wanted(wire(head_x))) kernel_.set_wire(wire(head_x), engine_.output().a[0]);
+    if (kernel_.wanted(wire(head_y))) kernel_.set_wire(wire(head_y), engine_.output().a[1]);
+}
+
+/// The next instant at which a wire may change.
+void Card::plan(Instant now) {
+    Instant next = lines_.change_count > 0 ? Instant{lines_.changes[0]} : never;
+    const bool looked_at = kernel_.wanted(wire(head_x)) || kernel_.wanted(wire(head_y));
+    if (!engine_.at_rest() || (looked_at && engine_.state().fly.on())) next = std::min(next, (now / tick_time + 1) * tick_time);
+    kernel_.schedule(id_, next);
+}
+
+int Card::level_at(int pin, Instant) const {
+    return engine_.output().a[pin == head_x ? 0 : 1];
+}
+
+void Card::wanted_changed(int, bool wanted, Instant now) {
+    if (wanted) plan(now);
+}
+
+void Card::on_wire(int pin, int level, Instant now) {
+    catch_up(now);
+    switch (pin) {
+        case enc0_a:
+        case enc0_b:
+        case enc1_a:
+        case enc1_b:
+            count_line(static_cast<std::size_t>(pin / 2), pin % 2, level, now);
+            break;
+        case start:
+            if (level != 0) engine_.external_start();
+            break;
+        case stop:
+            if (level != 0) engine_.external_stop();
+            break;
+        case mcbsp_frame:
+            engine_.receive(static_cast<std::uint32_t>(kernel_.level(wire(mcbsp_word))));
+            break;
+        default:
+            break;
+    }
+    put_out();
+    plan(now);
+}
+
+/// 00 - 01 - 11 - 10 (B A) counts up. Both lines at one instant are no step but an error.
+void Card::count_line(std::size_t encoder, std::int64_t bit, int level, Instant now) {
+    const std::int64_t before = lines_.levels[encoder], after = level != 0 ? before | 1 << bit : before & ~(std::int64_t{1} << bit);
+    if (before == after) return;
+    lines_.levels[encoder] = after;
+    const auto phase = [](std::int64_t l) { return l == 0 ? 0 : l == 1 ? 1 : l == 3 ? 2 : 3; };
+    std::int64_t step = (phase(after) - phase(before)) & 3;
+    if (step == 3) step = -1;
+    if (lines_.changed_at[encoder] == now.count()) {
+        step = -lines_.last_step[encoder];
+        lines_.changed_at[encoder] = -1;
+        engine_.encoder_sequence_error(static_cast<int>(encoder));
+    } else {
+        lines_.changed_at[encoder] = now.count();
+        lines_.last_step[encoder] = step;
+    }
+    const auto input = static_cast<std::uint32_t>(engine_.state().input[encoder]);
+    engine_.set_count(static_cast<int>(encoder), static_cast<std::int32_t>(input + static_cast<std::uint32_t>(step)));
+}
+
+void Card::tell() {
+    const State& s = engine_.state();
+    const std::int64_t fresh = s.marking_info & ~lines_.told_flags;
+    if (fresh != 0)
+        for (std::int64_t bit = 0; bit < 32; ++bit)
+            if (fresh >> bit & 1) report(CardCondition::flag_set, bit, s.flag_tick[static_cast<std::size_t>(bit)]);
+    lines_.told_flags = s.marking_info;
+    if (s.lists.ended_unwritten > lines_.told_unwritten) report(CardCondition::unwritten_place, s.lists.current, s.tick - 1);
+    lines_.told_unwritten = s.lists.ended_unwritten;
+    const std::int64_t lost = s.startstop_info & startstop_bit("START_LOST");
+    if (lost != 0 && lines_.told_lost == 0) report(CardCondition::start_lost, 0, s.tick - 1);
+    lines_.told_lost = lost;
+}
+
+void Card::report(CardCondition code, std::int64_t a, std::int64_t tick) {
+    kernel_.report(id_, static_cast<std::uint16_t>(code), a, tick);
+}
+
+}  // namespace motionrack::rtc5

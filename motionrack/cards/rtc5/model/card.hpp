@@ -1,0 +1,69 @@
+// The RTC5 on the wires of a rack: Engine in virtual time.
+//
+//   enc0_a ─┐ enc0_b ─┐ ..   start ─┐ mcbsp_frame ─┐                    tick k is at k * 10 us; it sees what changed before that instant
+//   ────────▼─────────▼─────────────▼──────────────▼──┬──────────┬──    and puts x, y and the laser's changes of its 10 us out
+//                                                   tick k    tick k+1
+//
+// While nothing moves and nobody wants x and y it does not act at all; ticks are worked off when somebody asks.
+#pragma once
+
+#include <array>
+#include <motionrack/cards/rtc5/model/conditions.hpp>
+#include <motionrack/cards/rtc5/model/engine.hpp>
+#include <motionrack/sim/kernel.hpp>
+#include <string>
+
+namespace motionrack::rtc5 {
+
+class Card final : public sim::Device, private Sink {
+  public:
+    /// Adds the card and its wires "<name>.<pin>" to the kernel. `settings` must pass check().
+    Card(sim::Kernel& kernel, const std::string& name, const Settings& settings = {});
+
+    /// The card's commands and answers, at the present instant. Between runs only, and not kept over one.
+    Engine& engine();
+    sim::DeviceId id() const { return id_; }
+
+    void act(Instant now) override;
+    void on_wire(int pin, int level, Instant now) override;
+    int level_at(int pin, Instant now) const override;
+    void wanted_changed(int pin, bool wanted, Instant now) override;
+    void sync(Instant now) override;
+    std::span<std::byte> state() override { return sim::bytes_of(engine_.mutable_state()); }
+
+  private:
+    /// What belongs to a snapshot beside the engine's state, under a name of its own.
+    class Memory final : public sim::Device {
+      public:
+        void act(Instant) override {}
+        std::span<std::byte> state() override { return bytes; }
+        std::span<std::byte> bytes;
+    };
+    /// What the wires have done, and what the laser's wire has yet to do.
+    struct Lines {
+        std::array<std::int64_t, encoder_count> levels{};      ///< A, B of an encoder as bits 0, 1
+        std::array<std::int64_t, encoder_count> changed_at{-1, -1}, last_step{};
+        std::int64_t change_count = 0;
+        std::array<std::int64_t, 2 * half_us_per_tick> changes{};  ///< ticks of the kernel; levels alternate from !laser
+        std::int64_t laser = 0, told_unwritten = 0, told_flags = 0, told_lost = 0;
+    };
+
+    void samples(const Samples&) override {}
+    void laser(std::int64_t half_us, bool on) override;
+    void catch_up(Instant now);
+    void plan(Instant now);
+    void put_out();
+    void count_line(std::size_t encoder, std::int64_t bit, int level, Instant now);
+    void tell();
+    void report(CardCondition code, std::int64_t a, std::int64_t tick);
+    sim::WireId wire(std::size_t pin) const { return wires_[pin]; }
+
+    sim::Kernel& kernel_;
+    Engine engine_;
+    sim::DeviceId id_{};
+    std::array<sim::WireId, std::size(map::pins)> wires_{};
+    Lines lines_;
+    Memory lists_, inputs_;
+};
+
+}  // namespace motionrack::rtc5

@@ -1,0 +1,20 @@
+// What the card reports as conditions, and the sentences.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/sim/kernel.hpp>
+#include <string>
+#include <string_view>
+
+namespace motionrack::rtc5 {
+
+enum class CardCondition : std::uint16_t {
+    flag_set = 1,        ///< a: bit of the marking info, b: the tick
+    start_lost = 2,      ///< b: the tick
+    unwritten_place = 3  ///< a: position in the list memory, b: the tick
+};
+
+/// "card scan: at 0.012 s ...". `card`: its name.
+std::string describe(const sim::Condition& condition, std::string_view card);
+
+}  // namespace motionrack::rtc5
