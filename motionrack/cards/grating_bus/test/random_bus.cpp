@@ -159,7 +159,8 @@ void carry_out(Twin& twin, const Op& op) {
 }
 
 std::string text_of(const Program& program) {
-    constexpr const char* kinds[] = {"look", "off", "reset", "late", "miss_edges", "jitter", "no_latch", "force", "release", "claim", "give_back", "clear"};
+    constexpr const char* kinds[] = {"look",     "off",   "reset",   "late",  "miss_edges", "jitter",
+                                     "no_latch", "force", "release", "claim", "give_back",  "clear"};
     std::string out;
     const auto add = [&out](const char* name, std::int64_t value) { out.append(" ").append(name).append(" ").append(std::to_string(value)); };
     for (const CardSettings& card : program.cards) {
