@@ -90,14 +90,15 @@ void Bus::step(Instant now) {
 }
 
 void Bus::settle(Instant now) {
-    unsigned begun = drive(now);
+    drive();
     if (state_.lines.level(Line::clk) != 0 && state_.clk_was == 0) {
         for (Card* card : cards_) card->clock_rose(now);
-        begun |= drive(now);  // what was in reset may drive again
+        drive();  // what was in reset may drive again
     }
     state_.clk_was = state_.lines.level(Line::clk);
     for (std::size_t i = 0; i < decoders_.size(); ++i) decoders_[i]->follow(state_.lines, decoder_driver_[i], now);
-    begun |= state_.lines.settle(now);
+    state_.lines.settle();
+    const unsigned begun = state_.lines.note_conflicts(now);
     for (std::size_t i = 0; i < line_count; ++i) {
         if ((begun >> i & 1) == 0 || (state_.told >> i & 1) != 0) continue;
         state_.told |= 1u << i;
@@ -108,9 +109,9 @@ void Bus::settle(Instant now) {
     show();
 }
 
-unsigned Bus::drive(Instant now) {
+void Bus::drive() {
     for (std::size_t i = 0; i < cards_.size(); ++i) cards_[i]->drive(state_.lines, card_driver_[i]);
-    return state_.lines.settle(now);
+    state_.lines.settle();
 }
 
 void Bus::look_again(Instant now) {

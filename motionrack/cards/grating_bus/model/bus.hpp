@@ -80,8 +80,8 @@ class Bus final : public sim::Device {
     void publish_span(Instant now);
     void step(Instant now);
     void settle(Instant now);
-    /// All cards put on the lines what they drive; the lines on which a conflict began, a bit each.
-    unsigned drive(Instant now);
+    /// All cards put on the lines what they drive.
+    void drive();
     void schedule();
     void show();
     const CardSettings& host() const { return cards_[static_cast<std::size_t>(host_)]->settings(); }

@@ -52,13 +52,6 @@ void Card::count(Counter which, std::uint32_t by) {
 
 // ---- reset and faults -------------------------------------------------------------------------------------------------------
 
-void Card::find_pulse(Instant now) {
-    if (!is_host()) return;
-    state_.pulse = std::max<std::int64_t>(0, (now - settings_.offset) / settings_.period) - 1;
-    do next_pulse();
-    while (state_.pulse_at <= now);
-}
-
 // Buffers, what is claimed, and how old it is outlive it.
 void Card::reset() {
     if (state_.buffers.begun()) state_.buffers.abandon();
@@ -86,7 +79,6 @@ bool Card::fault(std::string_view name, double value, Instant now) {
     if (name == "off" && (value != 0) != (state_.off != 0)) {
         state_.off = value != 0 ? 1 : 0;
         reset();
-        if (state_.off == 0) find_pulse(now);
     } else if (name == "reset" && value != 0 && state_.off == 0) {
         reset();
     } else if (name == "late") {

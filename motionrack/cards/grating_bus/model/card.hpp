@@ -134,8 +134,6 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     void check_stale(Instant now);
     void set_fresh(bool fresh);
     void reset();
-    /// The first pulse after `now`.
-    void find_pulse(Instant now);
     void report(BusCondition code, std::int64_t a = 0, std::int64_t b = 0);
     void show();
 

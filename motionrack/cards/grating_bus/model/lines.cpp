@@ -4,35 +4,48 @@
 
 namespace motionrack::grating_bus {
 
-unsigned Lines::settle(Instant now) {
-    unsigned begun = 0;
-    for (std::size_t i = 0; i < line_count; ++i) begun |= settle(static_cast<Line>(i), now);
-    return begun;
-}
-
-unsigned Lines::settle(Line line, Instant now) {
-    const std::size_t i = at(line);
-    const unsigned bit = 1u << i;
-    std::uint32_t all = 0xFFFFFFFF, any = 0;
+std::uint32_t Lines::driven(std::size_t i, std::uint32_t& any) const {
+    std::uint32_t all = 0xFFFFFFFF;
+    any = 0;
     for (std::uint64_t left = driving_[i]; left != 0; left &= left - 1) {
         const std::uint32_t value = value_[i][static_cast<std::size_t>(std::countr_zero(left))];
         all &= value;
         any |= value;
     }
-    level_[i] = driving_[i] == 0 ? line_types[i].rest : all;
-    level_[i] = (level_[i] & ~forced_[i]) | stuck_[i];
-    const std::uint32_t differ = driving_[i] == 0 ? 0 : any & ~all;
+    return all;
+}
+
+void Lines::settle() {
+    std::uint32_t any = 0;
+    for (std::size_t i = 0; i < line_count; ++i) {
+        const std::uint32_t level = driving_[i] == 0 ? line_types[i].rest : driven(i, any);
+        level_[i] = (level & ~forced_[i]) | stuck_[i];
+    }
+}
+
+unsigned Lines::note_conflicts(Instant now) {
+    unsigned begun = 0;
+    for (std::size_t i = 0; i < line_count; ++i) begun |= note_conflicts(i, now);
+    return begun;
+}
+
+unsigned Lines::note_conflicts(std::size_t i, Instant now) {
+    const unsigned bit = 1u << i;
+    std::uint32_t any = 0;
+    const std::uint32_t all = driven(i, any), differ = driving_[i] == 0 ? 0 : any & ~all;
     if (differ == 0) {
         if ((in_conflict_ & bit) != 0) end_conflict(i, now);
         in_conflict_ &= ~bit;
         return 0;
     }
-    const bool begins = (in_conflict_ & bit) == 0;
+    const bool again = (in_conflict_ & bit) == 0 && ended_now(i, now);  // at this instant: the same one
+    const bool begins = (in_conflict_ & bit) == 0 && !again;
+    in_conflict_ |= bit;
+    if (again) list_[open_[i] % kept].end = never;
     if (begins) {
         open_[i] = count_++;
         ++told_[i];
         list_[open_[i] % kept] = {now, never, 0, 0, i};
-        in_conflict_ |= bit;
     }
     if (!listed(open_[i])) return 0;
     Conflict& conflict = list_[open_[i] % kept];
@@ -45,15 +58,26 @@ unsigned Lines::settle(Line line, Instant now) {
     return begins ? bit : 0;
 }
 
+bool Lines::ended_now(std::size_t i, Instant now) const {
+    if (told_[i] == 0 || open_[i] >= count_ || !listed(open_[i])) return false;
+    const Conflict& last = list_[open_[i] % kept];
+    return last.line == i && last.end == now;
+}
+
 void Lines::end_conflict(std::size_t i, Instant now) {
     if (!listed(open_[i])) return;
     Conflict& conflict = list_[open_[i] % kept];
-    if (conflict.begin < now || open_[i] + 1 != count_) {
+    if (conflict.begin < now) {
         conflict.end = now;
-    } else {  // of no length: none
-        --count_;
-        --told_[i];
+        return;
     }
+    // Of no length: none. Those that began after it, at this instant too, move up.
+    for (std::uint64_t n = open_[i] + 1; n < count_; ++n) {
+        list_[(n - 1) % kept] = list_[n % kept];
+        open_[list_[n % kept].line] = n - 1;
+    }
+    --count_;
+    --told_[i];
 }
 
 }  // namespace motionrack::grating_bus

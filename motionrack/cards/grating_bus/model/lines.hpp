@@ -58,8 +58,10 @@ class Lines {
     std::uint32_t stuck(Line line) const { return stuck_[at(line)]; }
     bool any_forced() const { return (forced_[0] | forced_[1] | forced_[2] | forced_[3] | forced_[4]) != 0; }
 
-    /// Makes the levels of what is driven. Returns the lines (a bit each) on which a conflict began.
-    unsigned settle(Instant now);
+    /// Makes the levels of what is driven.
+    void settle();
+    /// Lists conflicts, when an instant has settled. Returns the lines (a bit each) on which one began.
+    unsigned note_conflicts(Instant now);
     bool conflict() const { return in_conflict_ != 0; }
     /// On this line since the start.
     std::uint64_t conflicts(Line line) const { return told_[at(line)]; }
@@ -69,8 +71,12 @@ class Lines {
 
   private:
     static constexpr std::size_t at(Line line) { return static_cast<std::size_t>(line); }
-    unsigned settle(Line line, Instant now);
+    /// All levels that are driven, and-ed; `any`: or-ed.
+    std::uint32_t driven(std::size_t i, std::uint32_t& any) const;
+    unsigned note_conflicts(std::size_t i, Instant now);
     void end_conflict(std::size_t i, Instant now);
+    /// Whether the line's last conflict ended at this instant.
+    bool ended_now(std::size_t i, Instant now) const;
     /// Whether later conflicts have not yet pushed number `n` out of the list.
     bool listed(std::uint64_t n) const { return count_ <= n + kept; }
 

@@ -19,7 +19,7 @@ std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t most) {
 }
 
 Instant Card::next() const {
-    if (state_.off != 0) return state_.stale_at;
+    if (state_.off != 0) return std::min(state_.pulse_at, state_.stale_at);
     return std::min(std::min(std::min(state_.state_ends, state_.starts), std::min(state_.pulse_at, state_.fall_at)), state_.stale_at);
 }
 
@@ -50,7 +50,10 @@ void Card::spoil(Counter why, std::uint8_t bad) {
 }
 
 void Card::advance(Instant now) {
-    if (state_.off != 0) return check_stale(now);
+    if (state_.off != 0) {  // pulses keep their grid
+        if (state_.pulse_at == now) next_pulse();
+        return check_stale(now);
+    }
     if (state_.state_ends == now) enter(after(state_.fsm, state_.word + 1 < settings_.scales), now);
     if (state_.starts == now) begin(now);
     if (state_.fall_at == now) state_.clk = 0, state_.fall_at = never;
@@ -120,6 +123,7 @@ void Card::begin_frame(Instant now) {
     state_.frame_sequence = state_.sequence;
     state_.word = 0;
     state_.bad = 0;
+    state_.bad_word = 0;
     state_.buffers.begin();
 }
 

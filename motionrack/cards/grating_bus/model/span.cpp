@@ -13,7 +13,8 @@ bool Bus::regular() const {
         if (state_.span == 0 && !card->idle()) return false;
     }
     const Card::Data& first = cards_[static_cast<std::size_t>(host_)]->state_;
-    if (first.jitter + host().timing.frame_time(host().scales) >= host().period) return false;  // the next pulse may come too soon
+    const Instant next_period = cards_[static_cast<std::size_t>(host_)]->grid() + host().period;
+    if (first.pulse_at + host().timing.frame_time(host().scales) >= next_period) return false;  // the next pulse may come too soon
     return state_.span != 0 || (state_.lines.level(Line::clk) == 0 && first.quiet == 0);
 }
 
@@ -72,8 +73,10 @@ void Bus::interrupt_span(Instant now) {
     const Outputs lines = outputs_of(moment_of(host().timing, host().scales, now - state_.start), host().first);
     decoder.state_.out = output.out;
     decoder.state_.valid = state_.start + decoder.settings().latch;
-    decoder.state_.asked = output.next == never ? now : output.next - decoder.settings().output;
-    decoder.state_.output = lines.read_n == 0 && decoder.state_.asked <= now ? output.next : never;
+    const Duration since = std::max(Duration{0}, now - state_.start - host().timing.t1);  // the first address
+    decoder.state_.asked = state_.start + host().timing.t1 + std::min<std::int64_t>(since / host().timing.word_time(), host().scales - 1) * host().timing.word_time();
+    const bool owes = lines.read_n == 0 && output.next == decoder.state_.asked + decoder.settings().output;
+    decoder.state_.output = owes ? output.next : never;
     decoder.state_.hold = decoder.state_.frozen = lines.hold;
     decoder.state_.read_n = lines.read_n, decoder.state_.addr = lines.addr;
     state_.clk_was = span_level(Line::clk, now);
@@ -89,7 +92,8 @@ void Bus::interrupt_span(Instant now) {
         state_.lines.drive(Line::data, decoder_driver_[0], output.out);
     else
         state_.lines.leave(Line::data, decoder_driver_[0]);
-    state_.lines.settle(now);
+    state_.lines.settle();
+    schedule();
 }
 
 }  // namespace motionrack::grating_bus

@@ -1,18 +1,20 @@
 // Makes the random programs.
 #include <algorithm>
+#include <motionrack/cards/grating_bus/model/card.hpp>
 #include <motionrack/cards/grating_bus/test/random_bus.hpp>
 
 namespace motionrack::grating_bus::twin {
 
 Program Maker::make() {
     program_ = {};
-    constexpr Ticks grains[] = {1, 10, 100};
-    grain_ = grains[below(3)];
+    constexpr Ticks grains[] = {1, 7, 10, 100};
+    grain_ = grains[below(4)];
+    healthy_ = !one_in(3);
     add_cards();
     add_decoder();
     const std::int64_t periods = 3 + below(12);
     program_.end = (periods + 1) * period_;
-    const std::int64_t ops = one_in(4) ? 0 : below(25);
+    const std::int64_t ops = one_in(4) ? 0 : below(one_in(2) ? 8 : 25);
     for (std::int64_t i = 0; i < ops; ++i) program_.ops.push_back(op());
     // What is stuck or off is mostly put right again.
     for (std::size_t i = 0; i < program_.ops.size() && program_.ops.size() < 60; ++i) {
@@ -32,7 +34,7 @@ Program Maker::make() {
 }
 
 Timing Maker::timing() {
-    return {Duration{time(1, 30)}, Duration{time(1, 40)}, Duration{time(1, 40)}, Duration{time(1, 12)}};
+    return {Duration{time(1, 30)}, Duration{time(2, 40)}, Duration{time(1, 40)}, Duration{time(1, 12)}};
 }
 
 void Maker::set(CardSettings& card, const Timing& timing) {
@@ -41,30 +43,31 @@ void Maker::set(CardSettings& card, const Timing& timing) {
 
 void Maker::add_cards() {
     const std::int64_t count = 1 + below(one_in(5) ? 11 : 4);
-    const bool alike = !one_in(3);
+    const bool alike = healthy_ || !one_in(3);
     const Timing common = timing();
     const int words = static_cast<int>(1 + below(one_in(6) ? 20 : 5)), first = one_in(3) ? static_cast<int>(below(6)) : 0;
     Ticks longest = 0;
     for (std::int64_t i = 0; i < count; ++i) {
         CardSettings card;
-        card.host = i == 0 ? !one_in(12) : kinds_.hosts && one_in(8);
+        card.host = i == 0 ? healthy_ || !one_in(12) : !healthy_ && one_in(8);
         card.clock_out = card.address_out = card.host;
-        if (kinds_.directions && one_in(15)) card.clock_out = !card.clock_out;
-        if (kinds_.directions && one_in(15)) card.address_out = !card.address_out;
+        if (!healthy_ && one_in(15)) card.clock_out = !card.clock_out;
+        if (!healthy_ && one_in(15)) card.address_out = !card.address_out;
         card.checks = !one_in(3);
         const Timing own = alike || one_in(2) ? common : timing();
         set(card, own);
         card.words = alike || one_in(2) ? words : static_cast<int>(1 + below(6));
         card.first = alike || one_in(2) ? first : static_cast<int>(below(4));
         longest = std::max(longest, own.frame_time(card.words).count());
-        card.jitter = [seed = i](std::int64_t n, Ticks most) { return ((n + seed) * 7919) % (most + 1); };
+        const auto seed = static_cast<std::uint32_t>(random_());
+        card.jitter = [seed](std::int64_t n, Ticks most) { return scatter(seed, n, most); };
         program_.cards.push_back(card);
-        program_.seeds.push_back(random_());
+        program_.seeds.push_back(seed);
     }
     constexpr Ticks margins[] = {1, 3, 50};
-    period_ = longest + time(1, 1 + longest / grain_ / margins[below(3)]);
+    period_ = std::max<Ticks>(10'000, longest + time(1, 1 + longest / grain_ / margins[below(3)]));
     for (CardSettings& card : program_.cards) {
-        card.period = period_ + (alike || one_in(2) ? 0 : time(0, 5));
+        card.period = period_ + ((alike && !one_in(6)) || one_in(2) ? 0 : time(0, 5));
         card.offset = one_in(2) ? 0 : one_in(2) ? time(0, 20) : below(period_);
     }
 }
@@ -72,10 +75,14 @@ void Maker::add_cards() {
 void Maker::add_decoder() {
     int scales = 1 + static_cast<int>(below(8));
     for (const CardSettings& card : program_.cards)
-        if (!one_in(8)) scales = std::max(scales, card.first + card.words);
+        if (healthy_ || !one_in(8)) scales = std::max(scales, card.first + card.words);
     program_.decoder.scales = scales;
     program_.decoder.latch = one_in(8) ? 0 : time(1, 12);
-    program_.decoder.output = one_in(8) ? 0 : time(1, 25);
+    program_.decoder.output = time(1, 25);
+    if (healthy_) {
+        program_.decoder.latch = std::min(program_.decoder.latch, program_.cards[0].t1);
+        program_.decoder.output = std::min(program_.decoder.output, program_.cards[0].t2 - 1);
+    }
     for (int k = 0; k < scales; ++k)
         program_.scales.push_back({static_cast<std::uint32_t>(random_()), below(7) - 3, one_in(3) ? 1 + below(20) : 500 + below(3000)});
     program_.decoder.count = [scales_of = program_.scales](int scale, Ticks at) { return scales_of[static_cast<std::size_t>(scale)].at(at); };
@@ -106,24 +113,24 @@ Op Maker::op() {
     op.who = static_cast<int>(below(cards));
     const bool host = program_.cards[static_cast<std::size_t>(op.who)].host;
     if (what < 15) {
-        op.kind = Op::look;
+        op.kind = Op::look, op.a = below(2);
     } else if (what < 23) {
         op.kind = Op::off, op.a = 1;
     } else if (what < 30) {
-        op.kind = Op::reset;
+        op.kind = Op::reset, op.a = below(2);
     } else if (what < 42) {
         op.kind = host ? Op::look : Op::late, op.a = one_in(3) ? 0 : one_in(3) ? below(2 * period_) : time(0, 30);
     } else if (what < 50) {
         op.kind = host ? Op::look : Op::miss_edges, op.a = below(4);
     } else if (what < 55) {
-        op.kind = host && kinds_.jitter ? Op::jitter : Op::look, op.a = one_in(3) ? 0 : below(period_ / 2 + 1);
+        op.kind = host ? Op::jitter : Op::look, op.a = one_in(3) ? 0 : below(one_in(2) ? period_ / 2 : 1 + period_ / 20);
     } else if (what < 60) {
         op.kind = Op::no_latch, op.who = 0, op.a = 1;
     } else if (what < 78) {
         op.kind = Op::force;
-        op.line = static_cast<Line>(below(4));
-        op.bit = op.line == addr ? static_cast<int>(below(8)) : -1;
-        op.a = below(2);
+        op.line = static_cast<Line>(below(5));
+        op.bit = width[op.line] > 1 && !one_in(6) ? static_cast<int>(below(width[op.line])) : -1;
+        op.a = op.bit < 0 && op.line == addr ? below(256) : op.bit < 0 && op.line == data ? below(1 << 30) : below(2);
     } else if (what < 92) {
         op.kind = Op::claim;
     } else if (what < 97) {
@@ -140,7 +147,6 @@ Twin twin_of(const Program& program, bool every_tick) {
 }
 
 void carry_out(Twin& twin, const Op& op) {
-    const std::uint32_t mask = op.bit >= 0 ? 1u << op.bit : rest[data];
     twin.run_to(op.at);
     switch (op.kind) {
         case Op::look: break;
@@ -150,8 +156,8 @@ void carry_out(Twin& twin, const Op& op) {
         case Op::miss_edges: twin.set_miss_edges(op.who, static_cast<int>(op.a)); break;
         case Op::jitter: twin.set_jitter(op.who, op.a); break;
         case Op::no_latch: twin.set_no_latch(op.who, op.a != 0); break;
-        case Op::force: twin.force(op.line, mask, op.a != 0 ? mask : 0); break;
-        case Op::release: twin.release(op.line, mask); break;
+        case Op::force: twin.force(op.line, op.bit, static_cast<std::uint32_t>(op.a)); break;
+        case Op::release: twin.release(op.line, op.bit); break;
         case Op::claim: twin.claim(op.who); break;
         case Op::give_back: twin.give_back(op.who); break;
         case Op::clear: twin.clear_errors(op.who); break;

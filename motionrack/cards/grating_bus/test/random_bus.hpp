@@ -15,13 +15,13 @@ struct Op {
     Ticks at = 0;
     Kind kind = look;
     int who = 0;
-    std::int64_t a = 0;  ///< off, no_latch: 0 or 1; late, jitter: ticks; miss_edges: how many; force: the level
+    std::int64_t a = 0;  ///< off, no_latch: 0 or 1; late, jitter: ticks; miss_edges: how many; force: the level; look: other wires are looked at
     Line line = clk;
-    int bit = -1;  ///< of addr, or the whole line
+    int bit = -1;  ///< of addr or data, or the whole line
 };
 
 /// A scale that starts at `start` and moves by `step` counts in each `every` ticks.
-struct Motion {
+struct Course {
     std::uint32_t start = 0;
     std::int64_t step = 1, every = 500;
     std::uint32_t at(Ticks t) const { return start + static_cast<std::uint32_t>(step * (t / every)); }
@@ -29,23 +29,16 @@ struct Motion {
 
 struct Program {
     std::vector<CardSettings> cards;
-    std::vector<std::uint64_t> seeds;  ///< of the cards' jitter
-    DecoderSettings decoder;           ///< without its `count`, which is that of `scales`
-    std::vector<Motion> scales;
+    std::vector<std::uint32_t> seeds;  ///< of the cards' jitter
+    DecoderSettings decoder;
+    std::vector<Course> scales;
     std::vector<Op> ops;
     Ticks end = 0;
 };
 
-/// What a program may contain.
-struct Kinds {
-    bool hosts = true;       ///< more than one
-    bool directions = true;  ///< wrong shifters
-    bool jitter = true;
-};
-
 class Maker {
   public:
-    explicit Maker(std::uint64_t seed, Kinds kinds = {}) : random_(seed), kinds_(kinds) {}
+    explicit Maker(std::uint64_t seed) : random_(seed) {}
     Program make();
 
   private:
@@ -60,9 +53,9 @@ class Maker {
     Op op();
 
     std::mt19937_64 random_;
-    Kinds kinds_;
     Program program_;
     Ticks grain_ = 1, period_ = 0;
+    bool healthy_ = false;  // one host, all cards alike, a decoder that fits: what a crate is like
 };
 
 /// The program's twin, before its first instant.

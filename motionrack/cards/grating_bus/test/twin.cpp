@@ -50,7 +50,7 @@ Ticks Twin::next_instant() const {
         may_be(card.clock_falls);
         may_be(card.start_at);
         may_be(card.leaves_at);
-        if (card.published != none) may_be(card.buffer[static_cast<std::size_t>(card.published)].time + 2 * card.settings.period);
+        if (card.last_time != none) may_be(card.last_time + 2 * card.settings.period);
     }
     for (const Decoder& decoder : decoders_) may_be(ready_at(decoder));
     return next;
@@ -237,6 +237,7 @@ void Twin::finish(Card& card) {
         count_up(card.counters.broken);
         if (!card.row_bad) card.broken_rows.push_back(now_);
         card.row_bad = true;
+        abandon(card);
     } else {
         card.row_bad = false;
         Frame& frame = card.buffer[static_cast<std::size_t>(card.filling)];
@@ -245,15 +246,22 @@ void Twin::finish(Card& card) {
         frame.words = static_cast<std::uint32_t>(card.settings.words);
         frame.crc = crc_of(frame);
         card.published = card.filling;
+        card.filling = none;
+        card.last_time = card.frame_time;
+        card.fresh = true;
         card.frames.push_back({now_, frame});
         ++card.counters.frames;
     }
+}
+
+/// If it wrote over the frame published last, the claimed one, which is older, takes its place.
+void Twin::abandon(Card& card) {
+    if (card.filling != none && card.filling == card.published) card.published = card.claimed;
     card.filling = none;
 }
 
 void Twin::look_at_age(Card& card) {
-    const bool stale =
-        card.published == none || now_ >= card.buffer[static_cast<std::size_t>(card.published)].time + 2 * card.settings.period;
+    const bool stale = card.last_time == none || now_ >= card.last_time + 2 * card.settings.period;
     if (stale == card.stale) return;
     card.stale = stale;
     card.stale_changes.push_back({now_, stale});
@@ -262,31 +270,35 @@ void Twin::look_at_age(Card& card) {
 // ---- from outside --------------------------------------------------------------------------------------------------------------
 
 void Twin::reset(int number) {
-    Card& card = cards_[number];
-    if (card.off) return;
+    if (cards_[number].off) return;
+    begin_anew(cards_[number]);
+    settle();
+}
+
+void Twin::begin_anew(Card& card) {
     if (card.state != 0) card.states.push_back({now_, 0});
     card.state = 0;
     card.leaves_at = card.start_at = card.clock_falls = nothing_due;
     card.own_clock = card.own_clock_before = false;
     card.hold_pin = 0, card.read_pin = 1, card.address_pin = 0xFF;
-    card.filling = none;
+    abandon(card);
     card.silent = true;
     card.seen_one = card.row_bad = false;
     card.sequence = 0;
     card.counters = {};
-    settle();
 }
 
 void Twin::set_off(int number, bool off) {
     Card& card = cards_[number];
     if (off == card.off) return;
-    if (off) reset(number);
     card.off = off;
-    if (!off) reset(number);
+    begin_anew(card);
+    settle();
 }
 
 void Twin::claim(int number) {
     Card& card = cards_[number];
+    card.fresh = false;
     if (card.published != none && card.published != card.filling) card.claimed = card.published;
 }
 
@@ -302,14 +314,13 @@ void Twin::clear_errors(int number) {
     counters.frames = frames;
 }
 
-void Twin::force(Line line, std::uint32_t mask, std::uint32_t level) {
-    forced_mask_[line] |= mask;
-    forced_level_[line] = (forced_level_[line] & ~mask) | (level & mask);
+void Twin::force(Line line, int bit, std::uint32_t level) {
+    forced_[{line, bit}] = level;
     settle();
 }
 
-void Twin::release(Line line, std::uint32_t mask) {
-    forced_mask_[line] &= ~mask;
+void Twin::release(Line line, int bit) {
+    forced_.erase({line, bit});
     settle();
 }
 

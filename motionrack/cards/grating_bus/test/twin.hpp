@@ -90,9 +90,9 @@ class Twin {
     void set_miss_edges(int card, int edges) { cards_[card].miss_edges = edges; }
     void set_jitter(int card, Ticks most) { cards_[card].jitter_most = most; }
     void set_no_latch(int decoder, bool no_latch) { decoders_[decoder].no_latch = no_latch; }
-    /// Holds the bits of `mask` at those of `level`, the others as they were.
-    void force(Line line, std::uint32_t mask, std::uint32_t level);
-    void release(Line line, std::uint32_t mask);
+    /// Holds a bit of a line, or with `bit` -1 the whole line; the bit wins.
+    void force(Line line, int bit, std::uint32_t level);
+    void release(Line line, int bit);
     void claim(int card);
     void give_back(int card) { cards_[card].claimed = none; }
     void clear_errors(int card);
@@ -110,6 +110,9 @@ class Twin {
     int state(int card) const { return cards_[card].state; }
     bool frame_done(int card) const { return cards_[card].state == 12; }
     bool stale(int card) const { return cards_[card].stale; }
+    /// A frame was published since the last claim.
+    bool fresh(int card) const { return cards_[card].fresh; }
+    bool off(int card) const { return cards_[card].off; }
     bool claimed(int card) const { return cards_[card].claimed != none; }
     /// The claimed frame; one of 0 words if none is.
     Frame claimed_frame(int card) const;
@@ -142,7 +145,8 @@ class Twin {
         // The buffers.
         std::array<Frame, 2> buffer;
         int filling = none, published = none, claimed = none;
-        bool stale = true;
+        Ticks last_time = none;  // of the frame published last
+        bool stale = true, fresh = false;
         // What came of it.
         Counters counters;
         std::vector<Published> frames;
@@ -177,6 +181,8 @@ class Twin {
     void check_read_ended(Card& card);
     void bad_word(Card& card, std::uint32_t& counter);
     void finish(Card& card);
+    void abandon(Card& card);
+    void begin_anew(Card& card);
     void look_at_age(Card& card);
     Ticks duration(const Card& card) const;
     void decode(Decoder& decoder);
@@ -191,7 +197,7 @@ class Twin {
     Ticks now_ = -1;
     Levels levels_ = rest;
     Levels before_ = rest;  // as they were just before this instant
-    Levels forced_mask_{}, forced_level_{};
+    std::map<std::pair<Line, int>, std::uint32_t> forced_;  // line and bit, or -1 -> level
     std::vector<LevelChange> changes_;
     std::vector<Conflict> conflicts_;
     std::map<std::pair<int, int>, std::size_t> lasting_;  // line and bit -> number of its conflict

@@ -30,7 +30,9 @@ void Twin::take_levels(Line line) {
         level = first ? driven : level & driven;
         first = false;
     }
-    level = (level & ~forced_mask_[line]) | (forced_level_[line] & forced_mask_[line]);
+    if (const auto whole = forced_.find({line, -1}); whole != forced_.end()) level = whole->second;
+    for (int bit = 0; bit < width[line]; ++bit)
+        if (const auto held = forced_.find({line, bit}); held != forced_.end()) level = (level & ~(1u << bit)) | held->second << bit;
     if (level != levels_[line]) changes_.push_back({now_, line, level});
     levels_[line] = level;
 }

@@ -154,7 +154,7 @@ TEST(GratingTwin, NothingHappensAtTheInstantsThatAreLeftOut) {
     Counters sum;
     for (std::uint64_t number = 0; programs < 60; ++number) {
         const Program program = Maker(seed + number).make();
-        if (program.end > 30'000) continue;
+        if (program.end > 70'000) continue;
         ++programs;
         Twin twins[2] = {twin_of(program), twin_of(program, true)};
         for (Twin& twin : twins)

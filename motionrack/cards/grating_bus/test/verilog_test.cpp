@@ -24,7 +24,7 @@ struct System {
 };
 
 /// What both show, as text: "card clock state" and "card sequence time crc counts..".
-struct Course {
+struct Shown {
     std::vector<std::vector<std::string>> states, frames;
     std::string end;
 };
@@ -33,8 +33,8 @@ bool installed(const std::string& program) {
     return std::system(("command -v " + program + " >/dev/null").c_str()) == 0;
 }
 
-Course run_verilog(const System& system) {
-    Course out{std::vector<std::vector<std::string>>(static_cast<std::size_t>(system.cards)),
+Shown run_verilog(const System& system) {
+    Shown out{std::vector<std::vector<std::string>>(static_cast<std::size_t>(system.cards)),
                std::vector<std::vector<std::string>>(static_cast<std::size_t>(system.cards)), ""};
     const std::string program = (std::filesystem::temp_directory_path() / ("grating_" + std::to_string(getpid()))).string();
     std::string command = "iverilog -g2012 -o " + program;
@@ -78,7 +78,7 @@ std::size_t conflicting(const Twin& twin, const std::set<Line>& lines) {
     return clocks.size();
 }
 
-Course run_twin(const System& system) {
+Shown run_twin(const System& system) {
     CardSettings card;
     card.words = system.words;
     card.checks = false;
@@ -95,7 +95,7 @@ Course run_twin(const System& system) {
     decoder.count = [](int scale, Ticks at) { return position(scale, at / clock_ticks - 1); };
     Twin twin(cards, {decoder});
     twin.run_to(card.period * system.frames);
-    Course out;
+    Shown out;
     for (int i = 0; i < system.cards; ++i) {
         std::vector<std::string>& states = out.states.emplace_back();
         for (const StateChange& change : twin.states(i))
@@ -125,7 +125,7 @@ std::string counts_of(const std::string& frame) {
 std::size_t compare(const std::vector<System>& systems) {
     std::size_t different = 0;
     for (const System& system : systems) {
-        const Course twin = run_twin(system), verilog = run_verilog(system);
+        const Shown twin = run_twin(system), verilog = run_verilog(system);
         EXPECT_EQ(verilog.end, twin.end) << "clocks, clocks with a conflict on clk, on other lines, whether a scale's lines jumped";
         for (std::size_t card = 0; card < twin.frames.size(); ++card) {
             SCOPED_TRACE("card " + std::to_string(card) + " of " + std::to_string(system.cards) + ", N " + std::to_string(system.words) +

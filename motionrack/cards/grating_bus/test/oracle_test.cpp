@@ -1,0 +1,58 @@
+// Random programs of cards, faults and stuck lines look the same on the event-driven cards and on their slow twin, whoever looks at wires.
+//
+// MOTIONRACK_SEED and MOTIONRACK_PROGRAMS in the environment choose other and more programs.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <motionrack/cards/grating_bus/test/outcome.hpp>
+
+namespace motionrack::grating_bus::twin {
+namespace {
+
+std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+    const char* text = std::getenv(name);
+    return text && *text ? std::strtoull(text, nullptr, 0) : otherwise;
+}
+
+/// The first that differs, for people.
+std::string difference(const char* what, const std::vector<std::string>& twin, const std::vector<std::string>& cards) {
+    if (twin == cards) return "";
+    std::size_t i = 0;
+    while (i < twin.size() && i < cards.size() && twin[i] == cards[i]) ++i;
+    return std::string(what) + " " + std::to_string(i) + " of " + std::to_string(twin.size()) + " and " + std::to_string(cards.size()) + "\n  twin:  " +
+           (i < twin.size() ? twin[i] : "none") + "\n  cards: " + (i < cards.size() ? cards[i] : "none") + "\n";
+}
+
+void compare(std::uint64_t first, std::uint64_t programs, bool with_snapshot) {
+    const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 20'261'121) + first;
+    std::cout << "seed " << seed << ", " << programs << " programs" << std::endl;
+    std::size_t frames = 0, conflicts = 0, changes = 0, reports = 0, looks = 0;
+    for (std::uint64_t number = 0; number < programs; ++number) {
+        const Program program = Maker(seed + number).make();
+        const Outcome twin = on_twin(program);
+        for (const Watch watch : {Watch::nobody, Watch::everybody, Watch::now_and_then}) {
+            const Outcome cards = on_cards(program, watch, with_snapshot ? number % program.ops.size() : program.ops.size());
+            std::string differs = difference("frame", twin.frames, cards.frames) + difference("look", twin.looks, cards.looks) +
+                                  difference("conflict", twin.conflicts, cards.conflicts) + difference("report", twin.reports, cards.reports);
+            if (watch == Watch::everybody) differs += difference("change", twin.changes, cards.changes);
+            ASSERT_EQ(differs, "") << "program " << number << " of seed " << seed << ", watched by " << static_cast<int>(watch) << "\n" << text_of(program);
+            ASSERT_EQ(twin.conflict_count, cards.conflict_count) << "program " << number << " of seed " << seed << "\n" << text_of(program);
+        }
+        frames += twin.frames.size(), conflicts += twin.conflict_count, changes += twin.changes.size(), reports += twin.reports.size();
+        looks += twin.looks.size();
+    }
+    std::cout << frames << " frames, " << conflicts << " conflicts, " << changes << " changes of wires, " << reports << " reports, " << looks << " looks"
+              << std::endl;
+}
+
+TEST(GratingBusOracle, RandomProgramsLookTheSameOnTheCardsAndOnTheirTwin) {
+    compare(0, from_environment("MOTIONRACK_PROGRAMS", 1000), false);
+}
+
+TEST(GratingBusOracle, ARestoredSnapshotGivesTheSameRest) {
+    compare(1'000'000, from_environment("MOTIONRACK_PROGRAMS", 1000) / 5, true);
+}
+
+}  // namespace
+}  // namespace motionrack::grating_bus::twin

@@ -1,0 +1,215 @@
+// What a random program shows on the event-driven cards.
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <motionrack/cards/grating_bus/test/outcome.hpp>
+#include <motionrack/cards/grating_bus/test/rig.hpp>
+
+namespace motionrack::grating_bus::twin {
+
+namespace {
+
+class StepMotion final : public sim::Motion {
+  public:
+    explicit StepMotion(const Course& motion) : motion_(motion) {}
+    std::int64_t count(Instant t) const override { return motion_.at(t.count()); }
+    double rate(Instant) const override { return 0; }
+    void watch(int, std::int64_t, std::int64_t) override {}
+    int listen(sim::MotionListener&) override { return 0; }
+    void listen_edges(sim::EdgeListener*) override {}
+    void hand_over_edges() override {}
+
+  private:
+    Course motion_;
+};
+
+class Changes final : public sim::Kernel::WireObserver {
+  public:
+    explicit Changes(std::vector<std::pair<sim::WireId, int>> wires) {
+        for (const auto& [wire, level] : wires) waves_[wire].push_back({-1, level});
+    }
+    void wire_changed(sim::WireId wire, int level, Instant now) override {
+        const auto at = waves_.find(wire);
+        if (at == waves_.end()) return;
+        if (at->second.back().first == now.count())
+            at->second.back().second = level;
+        else
+            at->second.emplace_back(now.count(), level);
+    }
+    void put(std::vector<std::string>& out, sim::WireId wire, std::int64_t number) const {
+        const auto& wave = waves_.at(wire);
+        int last = wave.front().second;
+        for (std::size_t i = 1; i < wave.size(); ++i)
+            if (wave[i].second != last) out.push_back(row({number, wave[i].first, last = wave[i].second}));
+    }
+
+  private:
+    std::map<sim::WireId, std::vector<std::pair<Ticks, int>>> waves_;
+};
+
+grating_bus::CardSettings settings_of(const CardSettings& from, std::uint32_t seed) {
+    grating_bus::CardSettings out;
+    out.role = from.host ? Role::host : Role::slave;
+    out.scales = from.words, out.first = from.first;
+    out.timing = {Duration{from.t1}, Duration{from.t2}, Duration{from.t3}, Duration{from.clock}};
+    out.period = Duration{from.period}, out.offset = Duration{from.offset};
+    out.clock_shifter = from.clock_out ? Shifter::out : Shifter::in;
+    out.address_shifter = from.address_out ? Shifter::out : Shifter::in;
+    out.checks = from.checks;
+    out.seed = seed;
+    return out;
+}
+
+/// The program's cards, then its decoder.
+struct World {
+    explicit World(const Program& program) {
+        for (std::size_t i = 0; i < program.cards.size(); ++i) {
+            cards.push_back(std::make_unique<Card>(kernel, std::string("c").append(std::to_string(i)), bus, settings_of(program.cards[i], program.seeds[i])));
+            ears.push_back(std::make_unique<Ear>());
+            cards.back()->add_listener(*ears.back());
+        }
+        grating_bus::DecoderSettings settings;
+        settings.scales = program.decoder.scales;
+        settings.latch = Duration{program.decoder.latch}, settings.output = Duration{program.decoder.output};
+        decoder = std::make_unique<Decoder>(kernel, "decoder", bus, settings);
+        for (std::size_t i = 0; i < program.scales.size(); ++i) {
+            motions.push_back(std::make_unique<StepMotion>(program.scales[i]));
+            decoder->connect(static_cast<int>(i), motions.back().get());
+        }
+        for (int line = 0; line < line_count; ++line)
+            for (int bit = 0; bit < width[line]; ++bit) wires.push_back(wire(static_cast<Line>(line), width[line] > 1 ? bit : -1));
+        for (std::size_t i = 0; i < cards.size(); ++i)
+            for (const char* pin : {".state", ".frame_done"}) wires.push_back(kernel.find_wire("c" + std::to_string(i) + pin));
+        watcher.connect();
+        kernel.start();
+    }
+    sim::WireId wire(Line line, int bit) const {
+        constexpr const char* names[] = {"bus.clk", "bus.hold", "bus.read_n", "bus.addr", "bus.data"};
+        return kernel.find_wire(bit < 0 ? names[line] : names[line] + std::to_string(bit));
+    }
+    void run_to(Instant at) {
+        while (kernel.run_until(at) == sim::RunEnd::broken) {
+        }
+    }
+    void settle() {
+        while (kernel.run_until(kernel.now()) == sim::RunEnd::broken) {
+        }
+    }
+    void carry_out(const Op& op);
+    void look(Outcome& out, Ticks at) const;
+
+    sim::Kernel kernel;
+    Bus bus{kernel};
+    Watcher watcher{kernel};
+    std::unique_ptr<Decoder> decoder;
+    std::vector<std::unique_ptr<StepMotion>> motions;
+    std::vector<std::unique_ptr<Ear>> ears;
+    std::vector<std::unique_ptr<Card>> cards;
+    std::vector<sim::WireId> wires;
+};
+
+void World::carry_out(const Op& op) {
+    const Instant now = kernel.now();
+    const double ns = static_cast<double>(op.a) / 10;
+    const auto control = [&](const char* field) {
+        for (const FieldInfo& info : map::control_fields)
+            if (info.name == std::string_view(field)) cards[op.who]->write(offset("CONTROL"), static_cast<std::uint16_t>(info.mask));
+    };
+    bool done = true;
+    switch (op.kind) {
+        case Op::look: break;
+        case Op::off: done = cards[op.who]->fault("off", static_cast<double>(op.a), now); break;
+        case Op::reset:
+            if (op.a == 0) control("RESET");
+            else done = cards[op.who]->fault("reset", 1, now);
+            break;
+        case Op::late: done = cards[op.who]->fault("late", ns, now); break;
+        case Op::miss_edges: done = cards[op.who]->fault("miss_edge", static_cast<double>(op.a), now); break;
+        case Op::jitter: done = cards[op.who]->fault("jitter", ns, now); break;
+        case Op::no_latch: done = decoder->fault("no_latch", static_cast<double>(op.a), now); break;
+        case Op::force: kernel.force(wire(op.line, op.bit), static_cast<int>(op.a)); break;
+        case Op::release: kernel.release(wire(op.line, op.bit)); break;
+        case Op::claim: control("CLAIM"); break;
+        case Op::give_back: control("RELEASE"); break;
+        case Op::clear: control("CLEAR_ERRORS"); break;
+    }
+    MOTIONRACK_ASSERT(done);
+    settle();
+}
+
+void World::look(Outcome& out, Ticks at) const {
+    std::string text = row({at});
+    for (int line = 0; line < line_count; ++line) text.append(row({bus.level(static_cast<grating_bus::Line>(line))}));
+    out.looks.push_back(text);
+    for (std::size_t i = 0; i < cards.size(); ++i) {
+        const Card& card = *cards[i];
+        const auto two = [&card](std::uint32_t where) { return card.peek(where) | std::int64_t{card.peek(where + 2)} << 16; };
+        const std::uint16_t status = card.peek(offset("STATUS"));
+        text = row({at, static_cast<std::int64_t>(i), status & 1, status >> 1 & 1, status >> 2 & 1, status >> 4 & 1, status >> 5 & 1,
+                    card.peek(offset("STATE")) & 15, two(offset("FRAMES_L"))});
+        for (std::uint32_t where = offset("BROKEN"); where <= offset("OVERRUN"); where += 2) text.append(row({card.peek(where)}));
+        const std::int64_t words = card.peek(offset("WORDS"));
+        text.append(row({two(offset("SEQUENCE_L")), two(offset("TIME_0")) | two(offset("TIME_2")) << 32, words, two(offset("CRC_L"))}));
+        for (std::uint32_t k = 0; k < words; ++k) text.append(row({two(counts_at + 4 * k)}));
+        out.looks.push_back(text);
+    }
+}
+
+}  // namespace
+
+Outcome on_cards(const Program& program, Watch watch, std::size_t snapshot_at) {
+    World world(program);
+    std::vector<std::pair<sim::WireId, int>> at_start;
+    for (const sim::WireId wire : world.wires) at_start.emplace_back(wire, world.kernel.level(wire));
+    Changes changes(at_start);
+    if (watch == Watch::everybody) {
+        world.watcher.watch(true);
+        world.kernel.observe_wires(&changes);
+    }
+    Outcome out;
+    for (std::size_t i = 0; i < program.ops.size(); ++i) {
+        const Op& op = program.ops[i];
+        world.run_to(std::max(world.kernel.now(), Instant{op.at - static_cast<std::int64_t>(i % 3)}));
+        world.run_to(Instant{op.at});
+        if (watch == Watch::now_and_then && op.kind == Op::look) world.watcher.watch(op.a != 0);
+        world.carry_out(op);
+        world.look(out, op.at);
+        if (i != snapshot_at) continue;
+        std::vector<std::vector<Heard>> heard;
+        for (const auto& ear : world.ears) heard.push_back(ear->heard);
+        const Changes changed = changes;
+        const sim::Snapshot saved = world.kernel.snapshot();
+        world.carry_out({op.at, Op::force, 0, 1, hold, -1});
+        world.run_to(world.kernel.now() + microseconds(3));
+        world.kernel.restore(saved);
+        changes = changed;
+        for (std::size_t card = 0; card < heard.size(); ++card) world.ears[card]->heard = heard[card];
+    }
+    for (std::size_t i = 0; i < world.cards.size(); ++i)
+        for (const Heard& heard : world.ears[i]->heard) {
+            const Frame& frame = heard.frame;
+            std::string text = row({static_cast<std::int64_t>(i), heard.at.count(), frame.sequence, frame.time, frame.words, frame.crc});
+            for (const std::uint32_t count : frame.positions()) text.append(row({count}));
+            out.frames.push_back(text);
+        }
+    for (const sim::Condition& c : world.kernel.conditions())
+        for (std::size_t i = 0; i < world.cards.size(); ++i)
+            if (c.device == world.cards[i]->id() && (c.code == 2 || c.code == 5)) out.reports.push_back(row({static_cast<std::int64_t>(i), c.at.count(), c.code}));
+    std::sort(out.reports.begin(), out.reports.end());
+    const Lines& lines = world.bus.lines();
+    out.conflict_count = lines.all_conflicts();
+    std::vector<grating_bus::Conflict> conflicts;
+    for (std::uint64_t n = lines.all_conflicts() - std::min<std::uint64_t>(lines.all_conflicts(), Lines::kept); n < lines.all_conflicts(); ++n)
+        conflicts.push_back(lines.conflict(n));
+    std::stable_sort(conflicts.begin(), conflicts.end(),
+                     [](const auto& a, const auto& b) { return std::tie(a.begin, a.line) < std::tie(b.begin, b.line); });
+    const std::size_t forgotten = out.conflict_count - conflicts.size();
+    for (std::size_t i = first_compared(out.conflict_count) - forgotten; i < conflicts.size(); ++i) {
+        const grating_bus::Conflict& c = conflicts[i];
+        out.conflicts.push_back(row({c.begin.count(), c.end.count(), static_cast<std::int64_t>(c.line), static_cast<std::int64_t>(c.high), static_cast<std::int64_t>(c.low)}));
+    }
+    for (std::size_t i = 0; watch == Watch::everybody && i < world.wires.size(); ++i) changes.put(out.changes, world.wires[i], static_cast<std::int64_t>(i));
+    return out;
+}
+
+}  // namespace motionrack::grating_bus::twin

@@ -1,0 +1,128 @@
+// What a random program shows on the twin.
+#include <algorithm>
+#include <motionrack/cards/grating_bus/model/lines.hpp>
+#include <motionrack/cards/grating_bus/test/outcome.hpp>
+#include <tuple>
+
+namespace motionrack::grating_bus::twin {
+
+namespace {
+
+/// Changes of one wire: the last level of an instant, and only what differs from before.
+class Wave {
+  public:
+    explicit Wave(std::int64_t level) : last_(level) {}
+    void add(Ticks at, std::int64_t level) {
+        if (!changes_.empty() && changes_.back().first == at)
+            changes_.back().second = level;
+        else
+            changes_.emplace_back(at, level);
+    }
+    void put(std::vector<std::string>& out, std::int64_t wire) {
+        for (const auto& [at, level] : changes_)
+            if (level != last_) out.push_back(row({wire, at, last_ = level}));
+    }
+
+  private:
+    std::int64_t last_;
+    std::vector<std::pair<Ticks, std::int64_t>> changes_;
+};
+
+void put_changes(Outcome& out, const Twin& twin, std::size_t cards) {
+    std::int64_t wire = 0;
+    for (int line = 0; line < line_count; ++line)
+        for (int bit = 0; bit < width[line]; ++bit) {
+            Wave wave(rest[line] >> bit & 1);
+            for (const LevelChange& change : twin.changes())
+                if (change.line == line) wave.add(change.at, change.level >> bit & 1);
+            wave.put(out.changes, wire++);
+        }
+    for (std::size_t card = 0; card < cards; ++card) {
+        Wave state(0), done(0);
+        for (const StateChange& change : twin.states(static_cast<int>(card))) state.add(change.at, change.state), done.add(change.at, change.state == 12);
+        state.put(out.changes, wire++);
+        done.put(out.changes, wire++);
+    }
+}
+
+/// Conflicts of a line's bits become one from where the first bit differs to where none does.
+void put_conflicts(Outcome& out, const Twin& twin) {
+    struct Whole {
+        Ticks begin, end;
+        int line;
+        std::uint64_t high, low;
+    };
+    std::vector<Whole> all;
+    std::vector<Conflict> of_bits = twin.conflicts();
+    std::stable_sort(of_bits.begin(), of_bits.end(), [](const Conflict& a, const Conflict& b) { return std::tie(a.line, a.begin) < std::tie(b.line, b.begin); });
+    for (const Conflict& bit : of_bits) {
+        const Ticks end = bit.end == lasting ? INT64_MAX : bit.end;
+        if (all.empty() || all.back().line != bit.line || all.back().end < bit.begin) all.push_back({bit.begin, end, bit.line, 0, 0});
+        all.back().end = std::max(all.back().end, end);
+        for (const int driver : bit.high) all.back().high |= std::uint64_t{1} << driver;
+        for (const int driver : bit.low) all.back().low |= std::uint64_t{1} << driver;
+    }
+    all.erase(std::remove_if(all.begin(), all.end(), [](const Whole& w) { return w.begin == w.end; }), all.end());
+    std::stable_sort(all.begin(), all.end(), [](const Whole& a, const Whole& b) { return std::tie(a.begin, a.line) < std::tie(b.begin, b.line); });
+    out.conflict_count = all.size();
+    for (std::size_t i = first_compared(all.size()); i < all.size(); ++i)
+        out.conflicts.push_back(row({all[i].begin, all[i].end, all[i].line, static_cast<std::int64_t>(all[i].high), static_cast<std::int64_t>(all[i].low)}));
+}
+
+void look(Outcome& out, const Twin& twin, Ticks at, std::size_t cards) {
+    std::string text = row({at});
+    for (int line = 0; line < line_count; ++line) text.append(row({twin.levels()[static_cast<std::size_t>(line)]}));
+    out.looks.push_back(text);
+    for (std::size_t i = 0; i < cards; ++i) {
+        const int card = static_cast<int>(i);
+        const Counters& c = twin.counters(card);
+        text = row({at, card, twin.fresh(card), twin.claimed(card), twin.stale(card), twin.state(card) != 0, twin.off(card), twin.state(card), c.frames,
+                    c.broken, c.missed_words, c.alien, c.lines, c.missed_edges, c.overrun});
+        const Frame frame = twin.claimed_frame(card);
+        text.append(row({frame.sequence, frame.time, frame.words, frame.crc}));
+        for (const std::uint32_t count : frame.positions()) text.append(row({count}));
+        out.looks.push_back(text);
+    }
+}
+
+}  // namespace
+
+std::size_t first_compared(std::size_t conflicts) {
+    return conflicts <= Lines::kept ? 0 : conflicts - Lines::kept / 2;
+}
+
+std::string row(std::initializer_list<std::int64_t> numbers) {
+    std::string out;
+    for (const std::int64_t number : numbers) out.append(std::to_string(number)).append(" ");
+    return out;
+}
+
+Outcome on_twin(const Program& program) {
+    Twin twin = twin_of(program);
+    Outcome out;
+    for (const Op& op : program.ops) {
+        carry_out(twin, op);
+        look(out, twin, op.at, program.cards.size());
+    }
+    for (std::size_t i = 0; i < program.cards.size(); ++i) {
+        const int card = static_cast<int>(i);
+        for (const Published& published : twin.frames(card)) {
+            const Frame& frame = published.frame;
+            std::string text = row({card, published.at, frame.sequence, frame.time, frame.words, frame.crc});
+            for (const std::uint32_t count : frame.positions()) text.append(row({count}));
+            out.frames.push_back(text);
+        }
+        const Ticks two = 2 * program.cards[i].period;
+        const bool any = !twin.frames(card).empty() && twin.frames(card)[0].at <= two;
+        if (!any && two <= program.end) out.reports.push_back(row({card, two, 5}));
+        for (const StaleChange& change : twin.stale_changes(card))
+            if (change.stale) out.reports.push_back(row({card, change.at, 5}));
+        for (const Ticks at : twin.broken_rows(card)) out.reports.push_back(row({card, at, 2}));
+    }
+    std::sort(out.reports.begin(), out.reports.end());
+    put_conflicts(out, twin);
+    put_changes(out, twin, program.cards.size());
+    return out;
+}
+
+}  // namespace motionrack::grating_bus::twin
