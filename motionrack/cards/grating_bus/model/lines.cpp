@@ -41,14 +41,14 @@ unsigned Lines::note_conflicts(std::size_t i, Instant now) {
     const bool again = (in_conflict_ & bit) == 0 && ended_now(i, now);  // at this instant: the same one
     const bool begins = (in_conflict_ & bit) == 0 && !again;
     in_conflict_ |= bit;
-    if (again) list_[open_[i] % kept].end = never;
+    if (again) list_[open_[i] % slots].end = never;
     if (begins) {
         open_[i] = count_++;
         ++told_[i];
-        list_[open_[i] % kept] = {now, never, 0, 0, i};
+        list_[open_[i] % slots] = {now, never, 0, 0, i};
     }
     if (!listed(open_[i])) return 0;
-    Conflict& conflict = list_[open_[i] % kept];
+    Conflict& conflict = list_[open_[i] % slots];
     for (std::uint64_t left = driving_[i]; left != 0; left &= left - 1) {
         const int driver = std::countr_zero(left);
         const std::uint32_t value = value_[i][static_cast<std::size_t>(driver)];
@@ -60,21 +60,21 @@ unsigned Lines::note_conflicts(std::size_t i, Instant now) {
 
 bool Lines::ended_now(std::size_t i, Instant now) const {
     if (told_[i] == 0 || open_[i] >= count_ || !listed(open_[i])) return false;
-    const Conflict& last = list_[open_[i] % kept];
+    const Conflict& last = list_[open_[i] % slots];
     return last.line == i && last.end == now;
 }
 
 void Lines::end_conflict(std::size_t i, Instant now) {
     if (!listed(open_[i])) return;
-    Conflict& conflict = list_[open_[i] % kept];
+    Conflict& conflict = list_[open_[i] % slots];
     if (conflict.begin < now) {
         conflict.end = now;
         return;
     }
     // Of no length: none. Those that began after it, at this instant too, move up.
     for (std::uint64_t n = open_[i] + 1; n < count_; ++n) {
-        list_[(n - 1) % kept] = list_[n % kept];
-        open_[list_[n % kept].line] = n - 1;
+        list_[(n - 1) % slots] = list_[n % slots];
+        open_[list_[n % slots].line] = n - 1;
     }
     --count_;
     --told_[i];

@@ -67,9 +67,11 @@ class Lines {
     std::uint64_t conflicts(Line line) const { return told_[at(line)]; }
     std::uint64_t all_conflicts() const { return count_; }
     /// Conflict number `n` (all_conflicts() - kept .. all_conflicts() - 1).
-    const Conflict& conflict(std::uint64_t n) const { return list_[n % kept]; }
+    const Conflict& conflict(std::uint64_t n) const { return list_[n % slots]; }
 
   private:
+    static constexpr std::size_t slots = kept + line_count;  // those of no length, which are taken back, push nothing out
+
     static constexpr std::size_t at(Line line) { return static_cast<std::size_t>(line); }
     /// All levels that are driven, and-ed; `any`: or-ed.
     std::uint32_t driven(std::size_t i, std::uint32_t& any) const;
@@ -89,7 +91,7 @@ class Lines {
     std::array<std::uint64_t, line_count> told_{};
     std::array<std::uint64_t, line_count> open_{};  // number of the conflict that lasts
     std::uint64_t count_ = 0;
-    std::array<Conflict, kept> list_{};
+    std::array<Conflict, slots> list_{};
 };
 
 }  // namespace motionrack::grating_bus

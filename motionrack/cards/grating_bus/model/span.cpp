@@ -74,7 +74,8 @@ void Bus::interrupt_span(Instant now) {
     decoder.state_.out = output.out;
     decoder.state_.valid = state_.start + decoder.settings().latch;
     const Duration since = std::max(Duration{0}, now - state_.start - host().timing.t1);  // the first address
-    decoder.state_.asked = state_.start + host().timing.t1 + std::min<std::int64_t>(since / host().timing.word_time(), host().scales - 1) * host().timing.word_time();
+    const std::int64_t word = std::min<std::int64_t>(since / host().timing.word_time(), host().scales - 1);
+    decoder.state_.asked = state_.start + host().timing.t1 + word * host().timing.word_time();
     const bool owes = lines.read_n == 0 && output.next == decoder.state_.asked + decoder.settings().output;
     decoder.state_.output = owes ? output.next : never;
     decoder.state_.hold = decoder.state_.frozen = lines.hold;

@@ -60,11 +60,18 @@ grating_bus::CardSettings settings_of(const CardSettings& from, std::uint32_t se
     return out;
 }
 
+std::string text_of(const Frame& frame) {
+    std::string out = row({frame.sequence, frame.time, frame.words, frame.crc});
+    for (const std::uint32_t count : frame.positions()) out.append(row({count}));
+    return out;
+}
+
 /// The program's cards, then its decoder.
 struct World {
     explicit World(const Program& program) {
         for (std::size_t i = 0; i < program.cards.size(); ++i) {
-            cards.push_back(std::make_unique<Card>(kernel, std::string("c").append(std::to_string(i)), bus, settings_of(program.cards[i], program.seeds[i])));
+            const std::string name = std::string("c").append(std::to_string(i));
+            cards.push_back(std::make_unique<Card>(kernel, name, bus, settings_of(program.cards[i], program.seeds[i])));
             ears.push_back(std::make_unique<Ear>());
             cards.back()->add_listener(*ears.back());
         }
@@ -79,7 +86,7 @@ struct World {
         for (int line = 0; line < line_count; ++line)
             for (int bit = 0; bit < width[line]; ++bit) wires.push_back(wire(static_cast<Line>(line), width[line] > 1 ? bit : -1));
         for (std::size_t i = 0; i < cards.size(); ++i)
-            for (const char* pin : {".state", ".frame_done"}) wires.push_back(kernel.find_wire("c" + std::to_string(i) + pin));
+            for (const char* pin : {".state", ".frame_done"}) wires.push_back(kernel.find_wire(std::string("c").append(std::to_string(i)).append(pin)));
         watcher.connect();
         kernel.start();
     }
@@ -186,15 +193,12 @@ Outcome on_cards(const Program& program, Watch watch, std::size_t snapshot_at) {
         for (std::size_t card = 0; card < heard.size(); ++card) world.ears[card]->heard = heard[card];
     }
     for (std::size_t i = 0; i < world.cards.size(); ++i)
-        for (const Heard& heard : world.ears[i]->heard) {
-            const Frame& frame = heard.frame;
-            std::string text = row({static_cast<std::int64_t>(i), heard.at.count(), frame.sequence, frame.time, frame.words, frame.crc});
-            for (const std::uint32_t count : frame.positions()) text.append(row({count}));
-            out.frames.push_back(text);
-        }
+        for (const Heard& heard : world.ears[i]->heard)
+            out.frames.push_back(row({static_cast<std::int64_t>(i), heard.at.count()}).append(text_of(heard.frame)));
     for (const sim::Condition& c : world.kernel.conditions())
         for (std::size_t i = 0; i < world.cards.size(); ++i)
-            if (c.device == world.cards[i]->id() && (c.code == 2 || c.code == 5)) out.reports.push_back(row({static_cast<std::int64_t>(i), c.at.count(), c.code}));
+            if (c.device == world.cards[i]->id() && (c.code == 2 || c.code == 5))
+                out.reports.push_back(row({static_cast<std::int64_t>(i), c.at.count(), c.code}));
     std::sort(out.reports.begin(), out.reports.end());
     const Lines& lines = world.bus.lines();
     out.conflict_count = lines.all_conflicts();
@@ -206,9 +210,11 @@ Outcome on_cards(const Program& program, Watch watch, std::size_t snapshot_at) {
     const std::size_t forgotten = out.conflict_count - conflicts.size();
     for (std::size_t i = first_compared(out.conflict_count) - forgotten; i < conflicts.size(); ++i) {
         const grating_bus::Conflict& c = conflicts[i];
-        out.conflicts.push_back(row({c.begin.count(), c.end.count(), static_cast<std::int64_t>(c.line), static_cast<std::int64_t>(c.high), static_cast<std::int64_t>(c.low)}));
+        const auto number = [](std::uint64_t n) { return static_cast<std::int64_t>(n); };
+        out.conflicts.push_back(row({c.begin.count(), c.end.count(), number(c.line), number(c.high), number(c.low)}));
     }
-    for (std::size_t i = 0; watch == Watch::everybody && i < world.wires.size(); ++i) changes.put(out.changes, world.wires[i], static_cast<std::int64_t>(i));
+    for (std::size_t i = 0; watch == Watch::everybody && i < world.wires.size(); ++i)
+        changes.put(out.changes, world.wires[i], static_cast<std::int64_t>(i));
     return out;
 }
 

@@ -39,7 +39,8 @@ void put_changes(Outcome& out, const Twin& twin, std::size_t cards) {
         }
     for (std::size_t card = 0; card < cards; ++card) {
         Wave state(0), done(0);
-        for (const StateChange& change : twin.states(static_cast<int>(card))) state.add(change.at, change.state), done.add(change.at, change.state == 12);
+        for (const StateChange& change : twin.states(static_cast<int>(card)))
+            state.add(change.at, change.state), done.add(change.at, change.state == 12);
         state.put(out.changes, wire++);
         done.put(out.changes, wire++);
     }
@@ -54,7 +55,8 @@ void put_conflicts(Outcome& out, const Twin& twin) {
     };
     std::vector<Whole> all;
     std::vector<Conflict> of_bits = twin.conflicts();
-    std::stable_sort(of_bits.begin(), of_bits.end(), [](const Conflict& a, const Conflict& b) { return std::tie(a.line, a.begin) < std::tie(b.line, b.begin); });
+    std::stable_sort(of_bits.begin(), of_bits.end(),
+                     [](const Conflict& a, const Conflict& b) { return std::tie(a.line, a.begin) < std::tie(b.line, b.begin); });
     for (const Conflict& bit : of_bits) {
         const Ticks end = bit.end == lasting ? INT64_MAX : bit.end;
         if (all.empty() || all.back().line != bit.line || all.back().end < bit.begin) all.push_back({bit.begin, end, bit.line, 0, 0});
