@@ -4,6 +4,7 @@
 
 #include <motionrack/cards/rtc5/model/engine.hpp>
 #include <motionrack/cards/rtc5/test/twin.hpp>
+#include <motionrack/sim/parts/marking_station.hpp>
 
 namespace {
 
@@ -92,6 +93,38 @@ void run_twin(benchmark::State& state, Work work, Correction correction) {
         benchmark::Counter(10'000.0 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
+/// Card, mirrors, lens, laser and work piece together.
+class Station final : public Sink {
+  public:
+    explicit Station(const parts::StationSettings& settings) : station_(*parts::MarkingStation::make(settings)) {}
+    void samples(const Samples& b) override { station_.block(b.first, b.x, b.y); }
+    void laser(std::int64_t half_us, bool on) override { station_.laser(half_us, on); }
+
+  private:
+    parts::MarkingStation station_;
+};
+
+void run_recorded(benchmark::State& state, Work work, bool real_mirrors, bool lens) {
+    Engine card({.list_memory = 3 * list_size, .list1 = list_size, .list2 = list_size});
+    for (int list = 1; list <= 2; ++list) {
+        (void)card.set_start_list(list);
+        for (const Command& c : list_of(work, Correction::encoder)) (void)card.put(c);
+    }
+    (void)card.simulate_encoder(1);
+    (void)card.load_correction(table_of(lens_file()), 1);
+    (void)card.select_cor_table(lens ? 1 : 0, 0);
+    card.start_loop();
+    (void)card.execute_list(1);
+    parts::StationSettings settings;
+    settings.galvo.ideal = !real_mirrors;
+    if (lens) settings.lens = sim::ScanLens{};
+    settings.workpiece.greatest_points = 100'000;
+    Station station(settings);
+    for (auto _ : state) card.run_until(card.tick() + 100'000, &station);
+    state.counters["ticks/s"] =
+        benchmark::Counter(1e5 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+}
+
 BENCHMARK_CAPTURE(run_card, micro_vectors_plain, Work::micro_vectors, Correction::none, false, true);
 BENCHMARK_CAPTURE(run_card, micro_vectors_fly, Work::micro_vectors, Correction::encoder, false, true);
 BENCHMARK_CAPTURE(run_card, micro_vectors_table, Work::micro_vectors, Correction::none, true, true);
@@ -101,6 +134,9 @@ BENCHMARK_CAPTURE(run_card, long_marks_fly_table, Work::long_marks, Correction::
 BENCHMARK_CAPTURE(run_card, long_marks_rotary_table, Work::long_marks, Correction::rotary, true, true);
 BENCHMARK_CAPTURE(run_card, short_marks_unseen, Work::short_marks, Correction::encoder, true, false);
 BENCHMARK_CAPTURE(run_card, long_marks_unseen, Work::long_marks, Correction::encoder, true, false);
+BENCHMARK_CAPTURE(run_recorded, short_marks_ideal, Work::short_marks, false, false);
+BENCHMARK_CAPTURE(run_recorded, short_marks_mirrors, Work::short_marks, true, false);
+BENCHMARK_CAPTURE(run_recorded, short_marks_mirrors_lens, Work::short_marks, true, true);
 BENCHMARK_CAPTURE(run_twin, micro_vectors_fly_table, Work::micro_vectors, Correction::encoder);
 BENCHMARK_CAPTURE(run_twin, long_marks_fly_table, Work::long_marks, Correction::encoder);
 

@@ -1,0 +1,54 @@
+// Two scan mirrors behind a card: where they are for what they are told every 10 us.
+//
+//   told ──► dead time ──► second-order lag ──► speed limit ──► position at the end of the 10 us
+//
+// Ideal mirrors are at the end of a tick where they were told to be at its begin: the micro-step takes its 10 us.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/base/result.hpp>
+#include <span>
+#include <vector>
+
+namespace motionrack::parts {
+
+struct GalvoSettings {
+    bool ideal = true;
+    double dead_us = 0;              ///< 0 .. 10000, rounded down to 10 us
+    double natural_hz = 2000;        ///< 10 .. 20000
+    double damping = 0.8;            ///< 0.1 .. 10; 1: no overshoot
+    double greatest_speed = 800000;  ///< bits/ms, 1 .. 1e9
+};
+
+/// Ranges and finite numbers.
+Result<void> check(const GalvoSettings& settings);
+
+class GalvoPair {
+  public:
+    /// `settings` must pass check().
+    explicit GalvoPair(const GalvoSettings& settings = {});
+
+    /// Positions at the ends of consecutive ticks, bits. The spans are of one length.
+    void run(std::span<const std::int32_t> x, std::span<const std::int32_t> y, std::span<double> to_x,
+             std::span<double> to_y);
+    /// Stands still at (x, y).
+    void reset(double x, double y);
+    /// How long the mirrors are behind a steady movement, us; to be set as the tracking error.
+    double lag_us() const;
+
+  private:
+    struct Mirror {
+        double position = 0, speed = 0;  ///< bits, bits/tick
+        std::size_t head = 0;
+        std::vector<double> late;  ///< what was told, the dead time ago
+    };
+    double step(Mirror& mirror, double told) const;
+
+    GalvoSettings settings_;
+    std::array<double, 4> over_tick_{};  ///< (position, speed) relative to the target, one tick later
+    double limit_ = 0;                   ///< bits/tick
+    std::array<Mirror, 2> mirrors_;
+};
+
+}  // namespace motionrack::parts

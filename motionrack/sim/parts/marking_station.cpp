@@ -1,0 +1,71 @@
+// From a card's output to marks on a part.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/sim/parts/marking_station.hpp>
+
+namespace motionrack::parts {
+
+namespace {
+
+constexpr double tick_s = 1e-5;
+
+}  // namespace
+
+Result<MarkingStation> MarkingStation::make(const StationSettings& settings) {
+    MOTIONRACK_CHECK(check(settings.galvo));
+    if (settings.lens) MOTIONRACK_CHECK(sim::check(*settings.lens));
+    if (!(settings.bits_per_mm >= 1 && settings.bits_per_mm <= 1e6))
+        return fail(Trouble::refused, fmt::format("{} bits/mm: 1 to 1000000 are possible", settings.bits_per_mm));
+    if (!(settings.workpiece.tolerance_mm >= 0 && settings.workpiece.tolerance_mm <= 10))
+        return fail(Trouble::refused,
+                    fmt::format("a tolerance of {} mm: 0 to 10 are possible", settings.workpiece.tolerance_mm));
+    MOTIONRACK_TRY(Track track, Track::make(settings.track));
+    MOTIONRACK_TRY(LaserGate gate, LaserGate::make(settings.laser));
+    return MarkingStation(settings, std::move(track), std::move(gate));
+}
+
+sim::Spot MarkingStation::spot(sim::Spot bits) const {
+    if (settings_.lens) return sim::spot_of(*settings_.lens, bits);
+    return {bits.x / settings_.bits_per_mm, bits.y / settings_.bits_per_mm};
+}
+
+void MarkingStation::block(std::int64_t first_tick, std::span<const std::int32_t> x, std::span<const std::int32_t> y) {
+    for (std::size_t at = 0; at < x.size(); at += chunk) {
+        const std::size_t n = std::min(chunk, x.size() - at);
+        galvo_.run(x.subspan(at, n), y.subspan(at, n), {x_.data(), n}, {y_.data(), n});
+        sim::Spot from_mm;
+        std::int64_t known = -1;  // the tick whose end from_mm is
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::int64_t tick = first_tick + static_cast<std::int64_t>(at + i);
+            const sim::Spot bits{x_[i], y_[i]};
+            if (!gate_.dark(tick)) {
+                if (known != tick - 1 || i == 0) from_mm = spot(last_);
+                const sim::Spot to_mm = spot(bits);
+                mark(tick, from_mm, to_mm);
+                from_mm = to_mm;
+                known = tick;
+            }
+            last_ = bits;
+        }
+    }
+}
+
+/// A tick in which the laser shines, for some of it; straight in the field, and the part goes on under it.
+void MarkingStation::mark(std::int64_t tick, sim::Spot from, sim::Spot to) {
+    const double begin_s = static_cast<double>(tick) * tick_s;
+    gate_.shine(tick, [&](LaserGate::Light light) {
+        const auto at = [&](double part) {
+            const sim::Spot field{from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)};
+            return track_.on_part(field, begin_s + part * tick_s);
+        };
+        // The end of a tick is the begin of the next one, to the bit, or a stroke would break: both are computed from
+        // the next tick's begin.
+        const sim::Spot first = at(light.from);
+        const sim::Spot last =
+            light.to == 1 ? track_.on_part(to, static_cast<double>(tick + 1) * tick_s) : at(light.to);
+        workpiece_.add(first, last, gate_.power_w() * (light.to - light.from) * tick_s, begin_s + light.from * tick_s);
+    });
+}
+
+}  // namespace motionrack::parts

@@ -1,0 +1,35 @@
+// A source of position words for a card's serial input: it reads a track now and then and sends what it read, late.
+//
+//   read at n * period ──► delay ──► word complete        one axis: 32 bits; two axes: X low, Y high 16 bits
+#pragma once
+
+#include <cstdint>
+#include <motionrack/base/result.hpp>
+#include <motionrack/sim/parts/track.hpp>
+#include <span>
+
+namespace motionrack::parts {
+
+struct SenderSettings {
+    double bits_per_mm = 1000;  ///< resolution, +-1e-6 .. 1e9; of a rotary table: bits a degree
+    double period_us = 10;      ///< between readings, 1 .. 1e6
+    double delay_us = 0;        ///< from a reading to its word, 0 .. 1e6
+    bool two_axes = false;      ///< X and Y of a belt's movement in one word
+};
+
+class PositionSender {
+  public:
+    /// `track` must live as long. Refused: numbers that are none or out of range.
+    static Result<PositionSender> make(const Track& track, const SenderSettings& settings);
+    /// The latest complete word at ticks of 10 us: first, first + 1, ..; 0 before the first.
+    void words(std::int64_t first_tick, std::span<std::uint32_t> out) const;
+
+  private:
+    std::uint32_t word_at(double t_s) const;
+
+    const Track* track_ = nullptr;
+    SenderSettings settings_;
+    double cosine_ = 1, sine_ = 0;
+};
+
+}  // namespace motionrack::parts

@@ -1,0 +1,115 @@
+// Travel of belts and rotary tables, and what their encoder counts.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/sim/parts/track.hpp>
+
+namespace motionrack::parts {
+
+namespace {
+
+constexpr double tick_s = 1e-5;
+
+/// -1 .. 1, the same for the same tick.
+double tremble(std::int64_t tick) {
+    auto z = static_cast<std::uint64_t>(tick) + 0x9E3779B97F4A7C15ull;
+    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9ull;
+    z = (z ^ z >> 27) * 0x94D049BB133111EBull;
+    return static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-52 - 1;
+}
+
+sim::Spot turned(sim::Spot p, sim::Spot centre, double degrees) {
+    const SinCos t = sin_cos(degrees * (pi / 180));
+    const double dx = p.x - centre.x, dy = p.y - centre.y;
+    return {centre.x + (t.cos * dx - t.sin * dy), centre.y + (t.sin * dx + t.cos * dy)};
+}
+
+bool within(double v, double least, double greatest) {
+    return v >= least && v <= greatest;
+}
+
+}  // namespace
+
+Result<Track> Track::make(const TrackSettings& s) {
+    const auto refuse = [](std::string why) { return fail(Trouble::refused, std::move(why)); };
+    if (s.profile.empty()) return refuse("a track without a speed: its profile needs a point at least");
+    for (std::size_t i = 0; i < s.profile.size(); ++i) {
+        const SpeedPoint& p = s.profile[i];
+        if (!within(p.at_s, 0, 1e6) || (i > 0 && p.at_s <= s.profile[i - 1].at_s))
+            return refuse(fmt::format("point {} of the speed profile is at {} s: times are 0 to 1000000 s and rise",
+                                      i + 1, p.at_s));
+        if (!within(p.speed, -1e5, 1e5))
+            return refuse(fmt::format("point {} of the speed profile has the speed {}: -100000 to 100000 are possible",
+                                      i + 1, p.speed));
+    }
+    if (!within(std::abs(s.counts_per_unit), 1e-6, 1e9))
+        return refuse(fmt::format("an encoder with {} counts a unit: 0.000001 to 1e9 are possible, or negative",
+                                  s.counts_per_unit));
+    if (!within(s.slip, -0.5, 0.5)) return refuse(fmt::format("a slip of {}: -0.5 to 0.5 are possible", s.slip));
+    if (!within(s.jitter_counts, 0, 1000))
+        return refuse(fmt::format("a jitter of {} counts: 0 to 1000 are possible", s.jitter_counts));
+    if (!within(s.direction_deg, -3600, 3600))
+        return refuse(fmt::format("a direction of {} degrees: -3600 to 3600 are possible", s.direction_deg));
+    if (!within(s.centre_mm.x, -1e5, 1e5) || !within(s.centre_mm.y, -1e5, 1e5))
+        return refuse(
+            fmt::format("a centre at ({}, {}) mm: -100000 to 100000 are possible", s.centre_mm.x, s.centre_mm.y));
+    Track out;
+    out.settings_ = s;
+    const SinCos t = sin_cos(s.direction_deg * (pi / 180));
+    out.cosine_ = t.cos, out.sine_ = t.sin;
+    double sum = s.profile[0].speed * s.profile[0].at_s;
+    out.travelled_.push_back(sum);
+    for (std::size_t i = 1; i < s.profile.size(); ++i) {
+        const SpeedPoint &a = s.profile[i - 1], &b = s.profile[i];
+        sum += (a.speed + b.speed) / 2 * (b.at_s - a.at_s);
+        out.travelled_.push_back(sum);
+    }
+    return out;
+}
+
+double Track::speed(double t_s) const {
+    const auto& p = settings_.profile;
+    const auto above =
+        std::upper_bound(p.begin(), p.end(), t_s, [](double t, const SpeedPoint& q) { return t < q.at_s; });
+    if (above == p.begin()) return p.front().speed;
+    if (above == p.end()) return p.back().speed;
+    const SpeedPoint &a = *(above - 1), &b = *above;
+    return a.speed + (b.speed - a.speed) * ((t_s - a.at_s) / (b.at_s - a.at_s));
+}
+
+double Track::travel(double t_s) const {
+    const auto& p = settings_.profile;
+    if (t_s <= p.front().at_s) return p.front().speed * t_s;
+    const auto above =
+        std::upper_bound(p.begin(), p.end(), t_s, [](double t, const SpeedPoint& q) { return t < q.at_s; });
+    const auto i = static_cast<std::size_t>(above - p.begin()) - 1;
+    const double dt = t_s - p[i].at_s;
+    if (above == p.end()) return travelled_[i] + p[i].speed * dt;
+    return travelled_[i] + (p[i].speed + (above->speed - p[i].speed) / (above->at_s - p[i].at_s) * (dt / 2)) * dt;
+}
+
+void Track::counts(std::int64_t first_tick, std::span<std::int32_t> out) const {
+    const double per_unit = settings_.counts_per_unit * (1 - settings_.slip);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const std::int64_t tick = first_tick + static_cast<std::int64_t>(i);
+        double count = travel(static_cast<double>(tick) * tick_s) * per_unit;
+        if (settings_.jitter_counts > 0) count += settings_.jitter_counts * tremble(tick);
+        out[i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(count))));
+    }
+}
+
+sim::Spot Track::on_part(sim::Spot field, double t_s) const {
+    const double way = travel(t_s);
+    if (settings_.rotary) return turned(field, settings_.centre_mm, -way);
+    return {field.x - way * cosine_, field.y - way * sine_};
+}
+
+sim::Spot Track::in_field(sim::Spot part, double t_s) const {
+    const double way = travel(t_s);
+    if (settings_.rotary) return turned(part, settings_.centre_mm, way);
+    return {part.x + way * cosine_, part.y + way * sine_};
+}
+
+}  // namespace motionrack::parts

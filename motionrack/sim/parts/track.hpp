@@ -1,0 +1,52 @@
+// What moves the part under a scan head: a belt or a rotary table with a speed profile and an encoder on it.
+//
+//   speed  ___                     travel(t) is the integral, in closed form; the encoder sees travel * (1 - slip) and
+//   trembles
+//      ___/   \___
+#pragma once
+
+#include <cstdint>
+#include <motionrack/base/result.hpp>
+#include <motionrack/sim/blocks/scan_lens.hpp>
+#include <span>
+#include <vector>
+
+namespace motionrack::parts {
+
+struct SpeedPoint {
+    double at_s = 0,
+           speed = 0;  ///< mm/s or degrees/s; straight between points, constant before the first and after the last
+};
+
+struct TrackSettings {
+    bool rotary = false;
+    double direction_deg = 0;  ///< belt: where it goes, from +X counter-clockwise
+    sim::Spot centre_mm{};       ///< rotary: about this, counter-clockwise when the speed is positive
+    std::vector<SpeedPoint> profile{{0, 100}};
+    double counts_per_unit = 1000;  ///< counts (x4) a mm or degree, +-1e-6 .. 1e9; negative counts the other way
+    double slip = 0;                ///< of the encoder's wheel, -0.5 .. 0.5: it sees 1 - slip of the travel
+    double jitter_counts = 0;       ///< 0 .. 1000: each reading is off by up to so much, evenly, the same in every run
+};
+
+class Track {
+  public:
+    /// Refused: no profile, times that do not rise, numbers that are none or out of range.
+    static Result<Track> make(const TrackSettings& settings);
+
+    /// mm or degrees since 0 s; speed then.
+    double travel(double t_s) const;
+    double speed(double t_s) const;
+    /// The encoder's counts (wrapping) at ticks of 10 us: first, first + 1, ..
+    void counts(std::int64_t first_tick, std::span<std::int32_t> out) const;
+    /// The place on the part that is at `field` mm, and back. Part and field are one at travel 0.
+    sim::Spot on_part(sim::Spot field, double t_s) const;
+    sim::Spot in_field(sim::Spot part, double t_s) const;
+    const TrackSettings& settings() const { return settings_; }
+
+  private:
+    TrackSettings settings_;
+    std::vector<double> travelled_;  ///< at the profile's points, from 0 s
+    double cosine_ = 1, sine_ = 0;
+};
+
+}  // namespace motionrack::parts

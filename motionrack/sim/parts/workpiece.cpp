@@ -1,0 +1,173 @@
+// Collecting marks into strokes, and comparing them with a drawing.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <motionrack/sim/parts/workpiece.hpp>
+
+namespace motionrack::parts {
+
+namespace {
+
+double length_of(sim::Spot v) {
+    return std::sqrt(v.x * v.x + v.y * v.y);
+}
+sim::Spot minus(sim::Spot a, sim::Spot b) {
+    return {a.x - b.x, a.y - b.y};
+}
+constexpr double joined_mm = 1e-9;
+
+}  // namespace
+
+void Workpiece::add(sim::Spot from, sim::Spot to, double joules, double begun_s) {
+    const sim::Spot piece = minus(to, from);
+    const double mm = length_of(piece);
+    length_ += mm;
+    energy_ += joules;
+    const bool joined = collecting_ && length_of(minus(from, end_)) <= joined_mm;
+    if (joined && mm <= joined_mm) {
+        dwell_j_ += joules;
+        return;
+    }
+    if (joined && dwell_j_ == 0) {
+        const sim::Spot all = minus(to, start_);
+        const double along = all.x * way_.x + all.y * way_.y, off = all.x * way_.y - all.y * way_.x;
+        // Even: as long as the energy says, but for the steps of the card's output.
+        const double expected = collected_j_ > 0 ? joules * (collected_mm_ / collected_j_) : mm;
+        const bool even = std::abs(mm - expected) <= std::max(0.01 * expected, 2 * settings_.tolerance_mm);
+        const bool onwards = piece.x * way_.x + piece.y * way_.y >= 0;
+        if (even && onwards && along > 0 && std::abs(off) <= settings_.tolerance_mm) {
+            end_ = to;
+            collected_j_ += joules;
+            collected_mm_ += mm;
+            return;
+        }
+    }
+    flush();
+    chained_ = joined;
+    collecting_ = true;
+    start_ = from, end_ = to;
+    way_ = mm > 0 ? sim::Spot{piece.x / mm, piece.y / mm} : sim::Spot{};
+    const bool stands = mm <= joined_mm;
+    collected_j_ = stands ? 0 : joules, collected_mm_ = stands ? 0 : mm;
+    dwell_j_ = stands ? joules : 0;
+    begun_s_ = begun_s;
+}
+
+void Workpiece::keep(const MarkedPoint& point) {
+    if (points_.size() < settings_.greatest_points)
+        points_.push_back(point);
+    else
+        ++lost_;
+}
+
+void Workpiece::flush() {
+    if (!collecting_) return;
+    if (!chained_) keep({start_, 0, 0, begun_s_, true});
+    keep({end_, collected_mm_ > 0 ? collected_j_ / collected_mm_ : 0, dwell_j_, begun_s_, false});
+    collecting_ = false;
+}
+
+void Workpiece::finish() {
+    flush();
+}
+
+Deviation Workpiece::compare(std::span<const Segment> drawing, double step_mm, double near_mm) const {
+    Deviation out;
+    std::vector<Segment> marked;
+    const Nearest wanted(drawing);
+    double weights = 0, squares = 0;
+    for (std::size_t i = 1; i < points_.size(); ++i) {
+        if (points_[i].first) continue;
+        const Segment s{points_[i - 1].at, points_[i].at};
+        marked.push_back(s);
+        const sim::Spot way = minus(s.to, s.from);
+        const double mm = length_of(way);
+        const double looks = std::ceil(mm / step_mm) + 1;
+        for (double k = 0; k < looks; ++k) {
+            const double part = looks > 1 ? k / (looks - 1) : 0;
+            const sim::Spot at{s.from.x + part * way.x, s.from.y + part * way.y};
+            const double off = wanted.distance(at);
+            weights += mm / looks;
+            squares += off * off * (mm / looks);
+            if (off > out.worst_mm) out.worst_mm = off, out.worst_at = at, out.worst_s = points_[i].begun_s;
+        }
+    }
+    if (weights > 0) out.rms_mm = std::sqrt(squares / weights);
+    const Nearest found(marked);
+    for (const Segment& s : drawing) {
+        const sim::Spot way = minus(s.to, s.from);
+        const double mm = length_of(way), looks = std::max(1.0, std::ceil(mm / step_mm));
+        for (double k = 0; k < looks; ++k) {
+            const double part = (k + 0.5) / looks;
+            if (found.distance({s.from.x + part * way.x, s.from.y + part * way.y}) > near_mm)
+                out.missing_mm += mm / looks;
+        }
+    }
+    return out;
+}
+
+Nearest::Nearest(std::span<const Segment> segments) : segments_(segments.begin(), segments.end()) {
+    if (segments_.empty()) return;
+    sim::Spot high = low_ = segments_[0].from;
+    double sum = 0;
+    for (const Segment& s : segments_) {
+        sum += length_of(minus(s.to, s.from));
+        for (const sim::Spot& p : {s.from, s.to}) {
+            low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+        }
+    }
+    const double width = high.x - low_.x, height = high.y - low_.y;
+    side_ = std::max({sum / static_cast<double>(segments_.size()), width / 500, height / 500, 1e-6});
+    columns_ = static_cast<std::int64_t>(width / side_) + 1;
+    rows_ = static_cast<std::int64_t>(height / side_) + 1;
+    const auto each_square = [&](auto&& f) {
+        for (std::size_t i = 0; i < segments_.size(); ++i) {
+            const Segment& s = segments_[i];
+            for (std::int64_t r = row(std::min(s.from.y, s.to.y)); r <= row(std::max(s.from.y, s.to.y)); ++r)
+                for (std::int64_t c = column(std::min(s.from.x, s.to.x)); c <= column(std::max(s.from.x, s.to.x)); ++c)
+                    f(static_cast<std::size_t>(r * columns_ + c), static_cast<std::uint32_t>(i));
+        }
+    };
+    begins_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+    each_square([&](std::size_t square, std::uint32_t) { ++begins_[square + 1]; });
+    for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
+    members_.resize(begins_.back());
+    std::vector<std::uint32_t> next(begins_.begin(), begins_.end() - 1);
+    each_square([&](std::size_t square, std::uint32_t i) { members_[next[square]++] = i; });
+}
+
+std::int64_t Nearest::column(double x) const {
+    return static_cast<std::int64_t>(std::clamp((x - low_.x) / side_, 0.0, static_cast<double>(columns_ - 1)));
+}
+std::int64_t Nearest::row(double y) const {
+    return static_cast<std::int64_t>(std::clamp((y - low_.y) / side_, 0.0, static_cast<double>(rows_ - 1)));
+}
+
+double Nearest::distance(sim::Spot p) const {
+    double best = std::numeric_limits<double>::infinity();
+    if (segments_.empty()) return best;
+    const std::int64_t c0 = column(p.x), r0 = row(p.y);
+    // A square of ring n is at least n - 1 sides away from the point's own; a point outside is further still.
+    for (std::int64_t ring = 0; ring <= std::max(columns_, rows_); ++ring) {
+        if (static_cast<double>(ring - 1) * side_ > best) break;
+        for (std::int64_t r = std::max<std::int64_t>(0, r0 - ring); r <= std::min(rows_ - 1, r0 + ring); ++r) {
+            const bool edge_row = r == r0 - ring || r == r0 + ring;
+            for (std::int64_t c = c0 - ring; c <= c0 + ring; c += edge_row || ring == 0 ? 1 : 2 * ring) {
+                if (c < 0 || c >= columns_) continue;
+                const auto square = static_cast<std::size_t>(r * columns_ + c);
+                for (std::uint32_t k = begins_[square]; k < begins_[square + 1]; ++k) {
+                    const Segment& s = segments_[members_[k]];
+                    const sim::Spot way = minus(s.to, s.from), to = minus(p, s.from);
+                    const double square_mm = way.x * way.x + way.y * way.y;
+                    const double part =
+                        square_mm > 0 ? std::clamp((to.x * way.x + to.y * way.y) / square_mm, 0.0, 1.0) : 0;
+                    best = std::min(best, length_of({to.x - part * way.x, to.y - part * way.y}));
+                }
+            }
+        }
+    }
+    return best;
+}
+
+}  // namespace motionrack::parts

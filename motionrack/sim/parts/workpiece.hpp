@@ -1,0 +1,90 @@
+// The part as it looks afterwards: where the spot went over it, in its own coordinates, and with how much energy a
+// millimetre.
+//
+//   add(from, to, J) ──► strokes: chains of points; straight stretches of even energy are one segment
+#pragma once
+
+#include <cstdint>
+#include <motionrack/base/result.hpp>
+#include <motionrack/sim/blocks/scan_lens.hpp>
+#include <span>
+#include <vector>
+
+namespace motionrack::parts {
+
+struct WorkpieceSettings {
+    double tolerance_mm = 0.0002;             ///< how far a segment may be off what was marked, 0 .. 10
+    std::size_t greatest_points = 4'000'000;  ///< more are counted, not kept
+};
+
+/// A point of a stroke and what was marked on the way to it.
+struct MarkedPoint {
+    sim::Spot at;         ///< mm
+    double j_per_mm = 0;  ///< of the segment that ends here; 0 in a stroke's first point
+    double dwell_j = 0;   ///< put into this very place, while the spot stood
+    double begun_s = 0;   ///< when the segment began; in a first point: the stroke
+    bool first = false;
+};
+
+/// A straight piece of a drawing, mm.
+struct Segment {
+    sim::Spot from, to;
+};
+
+/// How far what was marked is off a drawing.
+struct Deviation {
+    double worst_mm = 0, rms_mm = 0;  ///< over points along the marks, weighted by length
+    sim::Spot worst_at;               ///< on the part
+    double worst_s = 0;               ///< when that segment began
+    double missing_mm = 0;            ///< length of the drawing with no mark within `near_mm`
+};
+
+class Workpiece {
+  public:
+    explicit Workpiece(const WorkpieceSettings& settings = {}) : settings_(settings) {}
+
+    /// The spot went straight from -> to in `seconds` from `begun_s` on, with `joules` in all.
+    void add(sim::Spot from, sim::Spot to, double joules, double begun_s);
+    /// What is being collected becomes points. Before reading.
+    void finish();
+
+    std::span<const MarkedPoint> points() const { return points_; }
+    std::uint64_t lost_points() const { return lost_; }
+    double length_mm() const { return length_; }
+    double energy_j() const { return energy_; }
+    /// Marked points against the drawing and the drawing against them, looked at every `step_mm`.
+    Deviation compare(std::span<const Segment> drawing, double step_mm = 0.05, double near_mm = 0.1) const;
+
+  private:
+    void keep(const MarkedPoint& point);
+    void flush();
+
+    WorkpieceSettings settings_;
+    std::vector<MarkedPoint> points_;
+    std::uint64_t lost_ = 0;
+    double length_ = 0, energy_ = 0;
+    // The segment being collected: from start_ to end_ along way_ (a unit vector).
+    sim::Spot start_, end_, way_;
+    double collected_j_ = 0, collected_mm_ = 0, begun_s_ = 0, dwell_j_ = 0;
+    bool collecting_ = false, chained_ = false;
+};
+
+/// Finds the nearest of many segments; their places are sorted into squares.
+class Nearest {
+  public:
+    explicit Nearest(std::span<const Segment> segments);
+    /// mm from `p` to the nearest segment; infinity if there is none.
+    double distance(sim::Spot p) const;
+
+  private:
+    std::int64_t column(double x) const;
+    std::int64_t row(double y) const;
+
+    std::vector<Segment> segments_;
+    sim::Spot low_;
+    double side_ = 1;
+    std::int64_t columns_ = 1, rows_ = 1;
+    std::vector<std::uint32_t> begins_, members_;
+};
+
+}  // namespace motionrack::parts
