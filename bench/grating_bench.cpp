@@ -121,7 +121,7 @@ void frames_of_cards(benchmark::State& state, bool wires_watched, bool claims) {
     }
     std::vector<std::unique_ptr<Card>> cards;
     for (const CardSettings& settings : crew(slaves, words))
-        cards.push_back(std::make_unique<Card>(kernel, "c" + std::to_string(cards.size()), bus, settings));
+        cards.push_back(std::make_unique<Card>(kernel, std::string("c").append(std::to_string(cards.size())), bus, settings));
     watcher.connect();
     kernel.start();
     watcher.watch(wires_watched);

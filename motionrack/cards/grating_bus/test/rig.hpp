@@ -75,7 +75,7 @@ struct Crate {
         }
         for (const CardSettings& s : settings) {
             ears.push_back(std::make_unique<Ear>());
-            cards.push_back(std::make_unique<Card>(kernel, "c" + std::to_string(cards.size()), bus, s));
+            cards.push_back(std::make_unique<Card>(kernel, std::string("c").append(std::to_string(cards.size())), bus, s));
             cards.back()->add_listener(*ears.back());
         }
         watcher.connect();
