@@ -1,9 +1,8 @@
-// The publishing loop.
+// Waiting for a frame's time, and the loop.
 #include <sys/prctl.h>
 
 #include <algorithm>
 #include <motionrack/dds/clock.hpp>
-#include <motionrack/dds/pacer.hpp>
 #include <motionrack/dds/publishing.hpp>
 
 namespace motionrack::dds {
@@ -18,29 +17,37 @@ void wait_until(Instant due, const std::atomic<bool>* stop) {
 
 }  // namespace
 
-Result<Published> publish_frames(Publisher& publisher, FrameSource& source, const PublishingSettings& settings) {
+Publishing::Publishing(Publisher& publisher, const PublishingSettings& settings)
+    : publisher_(publisher), settings_(settings), pacer_(settings.speed, settings.pace) {
     // Linux may add 50 us to a thread's sleeps, a quarter of the usual period.
     ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
-    Pacer pacer(settings.speed, settings.pace);
-    Published out;
-    Frame frame;
-    for (std::uint64_t number = 0; settings.most == 0 || number < settings.most; ++number) {
-        MOTIONRACK_TRY(const bool more, source.next(frame));
-        if (!more) break;
-        const Instant due = pacer.due(frame.instant(), monotonic_now());
-        wait_until(due, settings.stop);
-        out.stopped = settings.stop && settings.stop->load();
-        if (out.stopped) break;
-        publisher.publish(frame);
-        publisher.look();
-        if (settings.report)
-            for (Event event; publisher.next_event(event);) settings.report(event);
-        if (settings.progress) settings.progress(publisher.sent(), monotonic_now() - due);
+}
+
+bool Publishing::put(const Frame& frame) {
+    const Instant due = pacer_.due(frame.instant(), monotonic_now());
+    wait_until(due, settings_.stop);
+    outcome_.stopped = settings_.stop && settings_.stop->load();
+    if (outcome_.stopped) return false;
+    if (frame.words != 0) {
+        publisher_.publish(frame);
+        ++frames_;
     }
-    out.late = pacer.late();
-    out.slips = pacer.slips();
-    out.worst = pacer.worst();
-    return out;
+    publisher_.look();
+    if (settings_.report)
+        for (Event event; publisher_.next_event(event);) settings_.report(event);
+    if (settings_.progress) settings_.progress(publisher_.sent(), monotonic_now() - due);
+    outcome_.late = pacer_.late();
+    outcome_.slips = pacer_.slips();
+    outcome_.worst = pacer_.worst();
+    return settings_.most == 0 || frames_ < settings_.most;
+}
+
+Result<Published> publish_frames(Publisher& publisher, FrameSource& source, const PublishingSettings& settings) {
+    Publishing publishing(publisher, settings);
+    for (Frame frame;;) {
+        MOTIONRACK_TRY(const bool more, source.next(frame));
+        if (!more || !publishing.put(frame)) return publishing.outcome();
+    }
 }
 
 }  // namespace motionrack::dds

@@ -138,6 +138,13 @@ int ending(const SubscribeOptions& options, const dds::FrameJudge& judge, bool e
     return exit_done;
 }
 
+/// How long it may take until something has to be looked at, be it that nothing comes.
+Duration until_stale(const dds::FrameJudge& judge, Instant now) {
+    static constexpr Duration at_most = milliseconds(50);
+    if (!judge.joined() || judge.stale()) return at_most;
+    return std::clamp(2 * judge.pace() - judge.age(now) + Duration{1}, Duration{0}, at_most);
+}
+
 int listen(const SubscribeOptions& options, dds::Subscriber& subscriber, CsvFile& csv) {
     const Instant start = subscriber.poll(nullptr);
     Display display(options, start);
@@ -147,7 +154,7 @@ int listen(const SubscribeOptions& options, dds::Subscriber& subscriber, CsvFile
     std::uint64_t used = 0;
     const auto enough = [&] { return options.count != 0 && used >= options.count; };
     while (!stop_asked.load() && now < end && !enough()) {
-        subscriber.wait(std::min({next - now, end - now, milliseconds(50)}));
+        subscriber.wait(std::min({next - now, end - now, until_stale(subscriber.judge(), now)}));
         now = subscriber.poll([&](const dds::Sample& sample, dds::Verdict verdict, Instant received) {
             if (verdict != dds::Verdict::used || enough()) return;
             ++used;
