@@ -1,4 +1,5 @@
 // Commands of the pipeline: corrections on and off, waits, conditions, parking.
+#include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/cards/rtc5/model/engine.hpp>
@@ -264,7 +265,7 @@ Point Engine::fly_of(Point p, bool backwards) const {
         }
     }
     if (f.kind == FlyKind::encoder_rot || f.kind == FlyKind::mcbsp_rot) {
-        const SinCos t = sin_cos(2 * pi / f.resolution * value[0]);
+        const SinCos t = sin_cos(turn_of(value[0], f.resolution));
         const double s = backwards ? -t.sin : t.sin, c = t.cos;
         const Point d = p - state_.rot_center;
         return {state_.rot_center.x + (c * d.x - s * d.y), state_.rot_center.y + (s * d.x + c * d.y)};
@@ -279,7 +280,7 @@ Point Engine::fly_of(Point p, bool backwards) const {
 void Engine::move_by_fly(bool backwards) {
     if (!state_.fly.on()) return;
     const Point g = through(state_.global, state_.p), way = fly_of(g, backwards) - g;
-    state_.p = state_.p + way;
+    state_.p = {std::clamp(state_.p.x + way.x, -8388608.0, 8388607.0), std::clamp(state_.p.y + way.y, -8388608.0, 8388607.0)};
 }
 
 void Engine::leave_fly() {

@@ -56,52 +56,50 @@ Extent extent(const double* x, const double* y, std::size_t n) {
 
 namespace {
 
-inline double into(double v, double least, double greatest) {
-    v = v < least ? least : v;
-    return v > greatest ? greatest : v;
-}
-
-}  // namespace
-
-void clip(const double* __restrict x, const double* __restrict y, double* __restrict to_x, double* __restrict to_y,
-          std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) to_x[i] = into(x[i], field_least, field_greatest);
-    for (std::size_t i = 0; i < n; ++i) to_y[i] = into(y[i], field_least, field_greatest);
-}
-
-namespace {
-
-/// Both coordinates of a node at once: two doubles are one register everywhere.
+/// Both coordinates at once: two doubles are one register everywhere.
 using Pair = double __attribute__((vector_size(16)));
+using Whole = std::int64_t __attribute__((vector_size(16)));
 
-inline Pair pair(const Table::Node& node) {
-    return Pair{static_cast<double>(node.x), static_cast<double>(node.y)};
+inline Pair node(const Table::Node& n) {
+    return Pair{static_cast<double>(n.x), static_cast<double>(n.y)};
+}
+inline double into_field(double v) {
+    v = v > field_least ? v : field_least;
+    return v < field_greatest ? v : field_greatest;
+}
+
+template <bool corrected>
+void head_loop(const double* __restrict x, const double* __restrict y, std::int32_t* __restrict to_x,
+               std::int32_t* __restrict to_y, std::size_t n, const Table* table, Pair gain, Pair offset) {
+    // Added to this number, a double keeps the nearest whole number (half to even) in its low bits.
+    constexpr Pair whole = {6755399441055744.0, 6755399441055744.0};
+    for (std::size_t i = 0; i < n; ++i) {
+        Pair v = {into_field(x[i]), into_field(y[i])};
+        if constexpr (corrected) {
+            const Pair u = (v + grid_zero) * (1 / grid_step);
+            const int column = static_cast<int>(u[0]), row = static_cast<int>(u[1]);
+            const double fx = u[0] - column, fy = u[1] - row;
+            const Table::Node *const low = table->nodes.data() + row * grid_side + column, *const high = low + grid_side;
+            const Pair a = node(low[0]), c = node(high[0]);
+            const Pair below = a + (node(low[1]) - a) * fx, above = c + (node(high[1]) - c) * fx;
+            v = below + (above - below) * fy;
+        }
+        v = gain * v + offset;
+        const Whole bits = std::bit_cast<Whole>(Pair{into_field(v[0]), into_field(v[1])} + whole);
+        to_x[i] = static_cast<std::int32_t>(bits[0]);
+        to_y[i] = static_cast<std::int32_t>(bits[1]);
+    }
 }
 
 }  // namespace
 
-void correct(double* __restrict x, double* __restrict y, std::size_t n, const Table& table) {
-    const Table::Node* const nodes = table.nodes.data();
-    for (std::size_t i = 0; i < n; ++i) {
-        const double u = (x[i] + grid_zero) * (1 / grid_step), v = (y[i] + grid_zero) * (1 / grid_step);
-        const int column = static_cast<int>(u), row = static_cast<int>(v);
-        const double fx = u - column, fy = v - row;
-        const Table::Node *const low = nodes + row * grid_side + column, *const high = low + grid_side;
-        const Pair a = pair(low[0]), c = pair(high[0]);
-        const Pair below = a + (pair(low[1]) - a) * fx, above = c + (pair(high[1]) - c) * fx;
-        const Pair out = below + (above - below) * fy;
-        x[i] = out[0];
-        y[i] = out[1];
-    }
-}
-
-void out(const double* __restrict v, std::int32_t* __restrict to, std::size_t n, double gain, double offset) {
-    // Added to this number, a double keeps the nearest whole number (half to even) in its low bits.
-    constexpr double whole = 6755399441055744.0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const double rounded = into(gain * v[i] + offset, field_least, field_greatest) + whole;
-        to[i] = static_cast<std::int32_t>(std::bit_cast<std::int64_t>(rounded));
-    }
+void head(const double* x, const double* y, std::int32_t* to_x, std::int32_t* to_y, std::size_t n, const Table* table,
+          Point gain, Point offset) {
+    const Pair g = {gain.x, gain.y}, o = {offset.x, offset.y};
+    if (table != nullptr)
+        head_loop<true>(x, y, to_x, to_y, n, table, g, o);
+    else
+        head_loop<false>(x, y, to_x, to_y, n, table, g, o);
 }
 
 }  // namespace motionrack::rtc5::kernels

@@ -21,11 +21,8 @@ void hold(double* x, double* y, std::size_t n, Point p);
 void add_scaled(double* x, const double* counts, std::size_t n, double scale);
 void transform(double* x, double* y, std::size_t n, const Transform& t);
 Extent extent(const double* x, const double* y, std::size_t n);
-/// Into the field of 20 bits, from (x, y) to (to_x, to_y).
-void clip(const double* x, const double* y, double* to_x, double* to_y, std::size_t n);
-/// Inside the field, in place.
-void correct(double* x, double* y, std::size_t n, const Table& table);
-/// gain * v + offset, rounded, clipped.
-void out(const double* v, std::int32_t* to, std::size_t n, double gain, double offset);
+/// The last steps of a head: into the field of 20 bits, through the table (nullptr: none), gain * v + offset, rounded, clipped.
+void head(const double* x, const double* y, std::int32_t* to_x, std::int32_t* to_y, std::size_t n, const Table* table,
+          Point gain, Point offset);
 
 }  // namespace motionrack::rtc5::kernels

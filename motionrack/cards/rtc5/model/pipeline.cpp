@@ -42,9 +42,8 @@ void Engine::apply_fly(std::size_t n) {
     }
     if (turns) {
         const Point centre = state_.rot_center;
-        const double per_count = 2 * pi / f.resolution;
         for (std::size_t i = 0; i < n; ++i) {
-            const SinCos t = sin_cos(per_count * b.ec[0][i]);
+            const SinCos t = sin_cos(turn_of(b.ec[0][i], f.resolution));
             const double dx = b.x[i] - centre.x, dy = b.y[i] - centre.y;
             b.x[i] = centre.x + (t.cos * dx - t.sin * dy);
             b.y[i] = centre.y + (t.sin * dx + t.cos * dy);
@@ -129,14 +128,9 @@ void Engine::run_head(std::size_t number, std::size_t n) {
         std::copy_n(x, n, b.head_x.data());
         std::copy_n(y, n, b.head_y.data());
         kernels::transform(b.head_x.data(), b.head_y.data(), n, head.transform);
-        for (Doubles* v : {&b.head_x, &b.head_y})
-            for (std::size_t i = 0; i < n; ++i) (*v)[i] = std::clamp((*v)[i], field_least, field_greatest);
-    } else {
-        kernels::clip(x, y, b.head_x.data(), b.head_y.data(), n);
+        x = b.head_x.data(), y = b.head_y.data();
     }
-    if (const Table* const t = table(head.table)) kernels::correct(b.head_x.data(), b.head_y.data(), n, *t);
-    kernels::out(b.head_x.data(), b.out[2 * number].data(), n, head.gain.x, head.offset.x);
-    kernels::out(b.head_y.data(), b.out[2 * number + 1].data(), n, head.gain.y, head.offset.y);
+    kernels::head(x, y, b.out[2 * number].data(), b.out[2 * number + 1].data(), n, table(head.table), head.gain, head.offset);
 }
 
 /// What the last of n ticks put out.

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <motionrack/base/trig.hpp>
 #include <motionrack/cards/rtc5/map.hpp>
 
 namespace motionrack::rtc5 {
@@ -13,6 +15,12 @@ struct Point {
     friend constexpr Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
     friend constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 };
+
+/// Radians of a rotary correction: whole turns are left out, so that any count has an angle.
+inline double turn_of(double value, double resolution) {
+    const double turns = value / resolution;
+    return 2 * pi * (turns - std::floor(turns));
+}
 
 /// x' = m11 x + m12 y + ox. Matrix = Scale * Angle * Matrix.
 struct Transform {

@@ -16,6 +16,7 @@ double JobMaker::count_scale() {
 }
 
 double JobMaker::value_of(Op op, const ParamInfo& param) {
+    if (one_of(60)) return one_of(2) ? kind_info(param.kind).least : kind_info(param.kind).greatest;
     switch (param.kind) {
         case Kind::coordinate:
             return coordinate();

@@ -192,7 +192,7 @@ Xy Twin::corrected(Xy g, bool backwards) const {
             break;
     }
     if (fly.kind == Kind::turn || fly.kind == Kind::mcbsp_turn) {
-        const SinCos t = sin_cos(2 * pi / fly.resolution * a);
+        const SinCos t = sin_cos(2 * pi * (a / fly.resolution - std::floor(a / fly.resolution)));
         const double s = backwards ? -t.sin : t.sin, dx = g.x - centre.x, dy = g.y - centre.y;
         return {centre.x + (t.cos * dx - s * dy), centre.y + (s * dx + t.cos * dy)};
     }

@@ -12,6 +12,9 @@ namespace {
 std::int64_t step_count(double length, double step) {
     return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / step * (1 - std::ldexp(1.0, -40)))));
 }
+double clip24(double v) {
+    return std::clamp(v, -8388608.0, 8388607.0);
+}
 bool any_of(Op op, std::initializer_list<Op> ops) {
     return std::find(ops.begin(), ops.end(), op) != ops.end();
 }
@@ -271,7 +274,7 @@ bool Twin::wait_over() const {
 
 void Twin::leave() {
     const Xy g = global.of(p), q = corrected(g, false);
-    if (fly.kind != Kind::off) p = {p.x + (q.x - g.x), p.y + (q.y - g.y)};
+    if (fly.kind != Kind::off) p = {clip24(p.x + (q.x - g.x)), clip24(p.y + (q.y - g.y))};
     fly = paused = {};
     parked = false;
 }
@@ -357,7 +360,7 @@ void Twin::fly_command(const Command& c) {
                 fly = paused;
                 parked = false;
                 const Xy g = global.of(p), q = corrected(g, true);
-                p = {p.x + (q.x - g.x), p.y + (q.y - g.y)};
+                p = {clip24(p.x + (q.x - g.x)), clip24(p.y + (q.y - g.y))};
             }
             return jump(v[0] == 0 ? park_from : Xy{v[1], v[2]});
         default: return;
