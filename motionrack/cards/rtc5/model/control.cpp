@@ -245,8 +245,11 @@ Result<void> Engine::set_mcbsp_in(int mode, double scale) {
     return {};
 }
 
-void Engine::set_multi_mcbsp_in() {
+Result<void> Engine::set_multi_mcbsp_in(int port, std::int64_t factor, int mode) {
+    MOTIONRACK_CHECK(list_command(Op::set_multi_mcbsp_in_list,
+                                  {static_cast<double>(port), static_cast<double>(factor), static_cast<double>(mode)}));
     McBsp& m = state_.mcbsp;
+    m.power_port = port, m.power_factor = factor, m.power_mode = mode;
     end_online();
     m.multi = 1;
     m.in_mode = 0;
@@ -255,6 +258,7 @@ void Engine::set_multi_mcbsp_in() {
     m.memory = {};
     state_.fly = Fly{FlyKind::multi, 1, 1};
     state_.fly.scale_x = state_.fly.scale_y = 1;
+    return {};
 }
 
 Result<void> Engine::set_mcbsp_online(double scale_x, double scale_y, double resolution) {
@@ -265,14 +269,26 @@ Result<void> Engine::set_mcbsp_online(double scale_x, double scale_y, double res
     m.online_scale_x = scale_x, m.online_scale_y = scale_y, m.online_resolution = resolution;
     const bool online = m.online_x || m.online_y || m.online_rot;
     const FlyKind kind = state_.fly.kind;
+    m.online_matrix = 0;
     if (!online) return {};
     m.in_mode = m.multi = 0;
     if (kind == FlyKind::mcbsp || kind == FlyKind::mcbsp_rot || kind == FlyKind::multi) state_.fly = {};
     return {};
 }
 
+void Engine::set_mcbsp_matrix() {
+    static_cast<void>(set_mcbsp_online(1, 0, 0));
+    state_.mcbsp.online_matrix = 1;
+}
+
 Result<void> Engine::apply_mcbsp(int head, int at_once) {
     const McBsp& m = state_.mcbsp;
+    if (m.online_matrix) {
+        const std::int32_t coefficient = m.memory[1];
+        return change_transform(head, at_once, [&](Transform& t) {
+            t.matrix[static_cast<std::size_t>(coefficient & 3)] = static_cast<double>(coefficient >> 2) / 16777216;
+        });
+    }
     // With rotation, bit 31 tells the two kinds of words apart: 31 bits of offset or angle, or 15 bits each of x and y
     // (low, high).
     const auto word = static_cast<std::uint32_t>(m.memory[1]);
@@ -312,6 +328,17 @@ std::uint32_t Engine::status() const {
     const Lists& l = state_.lists;
     return (l.running ? status_bit("BUSY") : 0) | (l.moving_alone ? status_bit("INTERNAL_BUSY") : 0) |
            (l.paused ? status_bit("PAUSED") : 0);
+}
+
+std::array<std::int32_t, 2> Engine::read_encoder(int pos) const {
+    const std::size_t at = pos == 0 ? 0 : 2;
+    return {static_cast<std::int32_t>(state_.stored[at]), static_cast<std::int32_t>(state_.stored[at + 1])};
+}
+
+std::int64_t Engine::multi_power() const {
+    const McBsp& m = state_.mcbsp;
+    if (m.power_mode == 0) return m.typed[3];
+    return m.power_factor * m.typed[3] / 16384;
 }
 
 std::uint32_t Engine::get_marking_info() {

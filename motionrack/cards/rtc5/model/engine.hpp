@@ -96,9 +96,12 @@ class Engine {
     void load_fly_2d_table(std::shared_ptr<const FlyTable> table) { fly_table_ = std::move(table); }
     void init_fly_2d(std::int32_t offset_x, std::int32_t offset_y);
     Result<void> set_mcbsp_in(int mode, double scale);
-    void set_multi_mcbsp_in();
+    /// Words carry their type; those of type 3 are the laser's power (see multi_power).
+    Result<void> set_multi_mcbsp_in(int port, std::int64_t factor, int mode);
     /// Online positioning: scale 0 is off, resolution under 100 too.
     Result<void> set_mcbsp_online(double scale_x, double scale_y, double resolution);
+    /// Online positioning of matrix coefficients: words of (M * 2^24) * 4 + 2 i + j, |M| < 32.
+    void set_mcbsp_matrix();
     Result<void> apply_mcbsp(int head, int at_once);
 
     // ---- what comes from outside
@@ -129,6 +132,10 @@ class Engine {
     std::int32_t read_multi_mcbsp(int type) const { return state_.mcbsp.typed[static_cast<std::size_t>(type & 7)]; }
     /// Reads and clears as the rules say.
     std::uint32_t get_marking_info();
+    /// Both counts of store_encoder, `pos` 0 or 1.
+    std::array<std::int32_t, 2> read_encoder(int pos) const;
+    /// What set_multi_mcbsp_in puts to the port: the value of type 3 (mode 0), factor * value / 16384 (mode 1).
+    std::int64_t multi_power() const;
     std::uint32_t get_startstop_info();
     /// Counts/ms behind the filters; 0 while not watched.
     double encoder_speed() const;

@@ -86,7 +86,7 @@ void Engine::control_command(const Command& c) {
             mcbsp_in(static_cast<int>(c.p[0]), c.p[1]);
             return;
         case Op::set_multi_mcbsp_in_list:
-            set_multi_mcbsp_in();
+            static_cast<void>(set_multi_mcbsp_in(static_cast<int>(whole(0)), whole(1), static_cast<int>(whole(2))));
             return;
         default:
             return;
@@ -212,7 +212,7 @@ void Engine::mcbsp_in(int mode, double scale) {
 /// Positioning and correction by McBSP exclude each other.
 void Engine::end_online() {
     McBsp& m = state_.mcbsp;
-    m.online_x = m.online_y = m.online_rot = 0;
+    m.online_x = m.online_y = m.online_rot = m.online_matrix = 0;
 }
 
 void Engine::zero_encoder(std::size_t encoder) {

@@ -73,6 +73,8 @@ struct McBsp {
     std::int64_t to_zero = 0;  ///< location 0 is kept filled
     std::int64_t in_mode = 0, multi = 0, round = 0;
     std::int64_t online_x = 0, online_y = 0, online_rot = 0;
+    std::int64_t online_matrix = 0;
+    std::int64_t power_port = 0, power_factor = 0, power_mode = 0;  ///< of set_multi_mcbsp_in
     double online_scale_x = 0, online_scale_y = 0, online_resolution = 0;
 };
 

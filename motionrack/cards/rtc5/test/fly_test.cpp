@@ -132,15 +132,45 @@ TEST(Rtc5Fly, SetMcbspInUsesLocations1To3AndMultiWritesRoundRobin) {
     EXPECT_EQ(rig.card.read_mcbsp(0), 0);
     EXPECT_EQ(rig.card.read_mcbsp(1), 3);
     EXPECT_EQ(rig.card.read_mcbsp(2), -2);
-    rig.card.set_multi_mcbsp_in();
+    ASSERT_TRUE(rig.card.set_multi_mcbsp_in(0, 8192, 1));
+    rig.card.receive(1000u << 3 | 3);
     rig.card.receive(100u << 3 | 0);
     rig.card.receive(static_cast<std::uint32_t>(-50) << 3 | 1);
     rig.run(1);
     EXPECT_EQ(rig.last_x(), 100);
     EXPECT_EQ(rig.last_y(), -50);
-    EXPECT_EQ(rig.card.read_mcbsp(0), 800);
-    EXPECT_EQ(rig.card.read_mcbsp(1), -399);
+    EXPECT_EQ(rig.card.read_mcbsp(1), 800);
+    EXPECT_EQ(rig.card.read_mcbsp(2), -399);
+    EXPECT_EQ(rig.card.multi_power(), 500);
     EXPECT_EQ(rig.card.read_multi_mcbsp(1), -50);
+}
+
+TEST(Rtc5Fly, OnlinePositioningUsesLocations1And2AndMovesWhenApplied) {
+    Rig rig;
+    ASSERT_TRUE(rig.card.set_mcbsp_online(2, 3, 0));
+    rig.card.receive(0xFFFE0003);
+    rig.run(1);
+    EXPECT_EQ(rig.last_x(), 0);
+    EXPECT_EQ(rig.card.read_mcbsp(1), static_cast<std::int32_t>(0xFFFE0003));
+    ASSERT_TRUE(rig.card.apply_mcbsp(1, 1));
+    rig.run(1);
+    EXPECT_EQ(rig.last_x(), 6);
+    EXPECT_EQ(rig.last_y(), -6);
+    EXPECT_EQ(rig.card.read_mcbsp(0), 0);
+    ASSERT_TRUE(rig.card.set_mcbsp_online(1, 0, 3600));
+    rig.card.receive(1000);
+    rig.card.receive(0x80000000u | 900);
+    rig.run(1);
+    rig.card.receive(1000);
+    rig.run(1);
+    ASSERT_TRUE(rig.card.apply_mcbsp(1, 1));
+    EXPECT_DOUBLE_EQ(rig.card.state().heads[0].transform.angle_deg, 90);
+    EXPECT_EQ(rig.card.state().heads[0].transform.offset.x, 1000);
+    rig.card.set_mcbsp_matrix();
+    rig.card.receive(static_cast<std::uint32_t>(-(1 << 23)) << 2 | 2);  // M21 = -0.5
+    rig.run(1);
+    ASSERT_TRUE(rig.card.apply_mcbsp(4, 1));
+    EXPECT_EQ(rig.card.state().global.matrix[2], -0.5);
 }
 
 TEST(Rtc5Fly, TheRotaryCorrectionTurnsCounterClockwiseAboutItsCentre) {
@@ -239,6 +269,18 @@ TEST(Rtc5Fly, WhatRunsOutOfTheFieldIsClippedFlaggedAndToldWhen) {
     EXPECT_EQ(rig.card.state().flag_tick[1], 1000);
     EXPECT_EQ(decoded(rig.card.get_marking_info(), map::marking_info_bits),
               std::vector<std::string>{"FLY_X_OVERFLOW: the corrected X was above 524287"});
+}
+
+TEST(Rtc5Fly, StoredEncodersAreReadAndSpeedIsSmoothed) {
+    Rig rig;
+    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    rig.put(Op::set_encoder_speed, {0, 1000, 0.5});
+    rig.put(Op::store_encoder, {1});
+    rig.put(Op::long_delay, {200});
+    rig.go();
+    EXPECT_EQ(rig.card.read_encoder(1)[0], 10);
+    EXPECT_EQ(rig.card.read_encoder(0)[0], 0);
+    EXPECT_NEAR(rig.card.encoder_speed(), 1000, 1e-6);
 }
 
 TEST(Rtc5Fly, FlyReturnJumpsFromWhereTheCorrectionHadTheSpot) {

@@ -234,7 +234,7 @@ class Pair {
                     t.set_mcbsp_in(static_cast<int>(pick(4)), a.v[0] * 3);
                 return;
             case Act::multi:
-                c.set_multi_mcbsp_in(), t.set_multi();
+                static_cast<void>(c.set_multi_mcbsp_in(0, 0, 0)), t.set_multi();
                 return;
             case Act::online: {
                 const double x = pick(2) ? 1 : 0, y = pick(3) ? 0 : 2, r = pick(5) ? 0 : 4000;

@@ -1,0 +1,34 @@
+// Any number to any command, many times; what must always hold is in card_fuzz.hpp.
+//
+// MOTIONRACK_SEED and MOTIONRACK_JOBS in the environment choose another and a longer run.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <motionrack/cards/rtc5/test/card_fuzz.hpp>
+
+namespace motionrack::rtc5 {
+namespace {
+
+std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+    const char* const text = std::getenv(name);
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+TEST(Rtc5Fuzz, AnyNumbersLeaveTheCardAlive) {
+    const std::uint64_t seed = from_environment("MOTIONRACK_SEED", 1), jobs = from_environment("MOTIONRACK_JOBS", 60);
+    std::cout << "MOTIONRACK_SEED=" << seed << ", " << jobs << " jobs" << std::endl;
+    fuzz::Verdict verdict;
+    for (std::uint64_t i = 0; i < jobs && verdict.problem.empty(); ++i) {
+        motionrack::fuzz::Random random(seed * 1'000'003 + i);
+        fuzz::run(random, 600, verdict);
+        EXPECT_EQ(verdict.problem, "") << "job " << i;
+    }
+    std::cout << verdict.commands << " commands, " << verdict.refused << " refused, " << verdict.ticks << " ticks, "
+              << verdict.files << " files" << std::endl;
+    EXPECT_GT(verdict.commands - verdict.refused, 4'000);
+    EXPECT_GT(verdict.refused, 10'000);
+}
+
+}  // namespace
+}  // namespace motionrack::rtc5
