@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <motionrack/cards/grating_bus/map.hpp>
 #include <motionrack/cards/ioflex02/map.hpp>
+#include <motionrack/rack/grating.hpp>
 #include <motionrack/rack/card_types.hpp>
 
 namespace motionrack::rack {
@@ -193,17 +195,19 @@ std::optional<CardFlaw> databoard4002_flaw(const RackCard& card, std::span<const
                                               most == 0 ? "0" : fmt::format("0 .. {}", most))};
 }
 
+/// The card's own list of pins; `volts`: of those whose names begin with "vout".
+template <std::size_t n>
+constexpr std::array<PinType, n> own_pins(const PinInfo* pins) {
+    std::array<PinType, n> out{};
+    for (std::size_t i = 0; i < n; ++i)
+        out[i] = {pins[i].name, pins[i].direction == motionrack::PinDirection::input ? input : output, pins[i].meaning,
+                  pins[i].name.substr(0, 4) == "vout" ? 1e-6 : 0};
+    return out;
+}
+
 // ---- ioflex02 ---------------------------------------------------------------------------------------------------
 
-/// The card's own list of pins.
-constexpr auto ioflex02_pins = [] {
-    std::array<PinType, std::size(ioflex02::map::pins)> out{};
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const PinInfo& pin = ioflex02::map::pins[i];
-        out[i] = {pin.name, pin.direction == motionrack::PinDirection::input ? input : output, pin.meaning};
-    }
-    return out;
-}();
+constexpr auto ioflex02_pins = own_pins<std::size(ioflex02::map::pins)>(ioflex02::map::pins);
 
 constexpr std::array<Field, 5> ioflex02_settings = {
     field<&Ioflex02Settings::base_address>("base_address", 0, 0xFF00, "", "where it answers on the host's bus: a multiple of 256"),
@@ -232,7 +236,48 @@ std::optional<CardFlaw> ioflex02_flaw(const RackCard& card, std::span<const Rack
                                                 card.ioflex02.base_address, card.ioflex02.base_address / 256 * 256)};
 }
 
-constexpr std::array<CardType, 3> table = {{
+// ---- grating_bus, grating_decoder -----------------------------------------------------------------------------------
+
+constexpr auto grating_bus_pins = own_pins<std::size(grating_bus::map::pins)>(grating_bus::map::pins);
+constexpr auto grating_decoder_pins = own_pins<std::size(grating_bus::map::decoder_pins)>(grating_bus::map::decoder_pins.data());
+
+constexpr std::array<std::string_view, 3> grating_roles = {"first is host", "host", "slave"};
+constexpr std::array<std::string_view, 3> shifter_ways = {"as role", "out", "in"};
+
+constexpr std::array<Field, 14> grating_bus_settings = {
+    with_choices(field<&GratingBusSettings::role>("role", 0, 0, "", "the host gives clock and addresses, slaves only listen; the first card of the rack "
+                                                                    "is the host unless it is said"), grating_roles),
+    field<&GratingBusSettings::scales>("scales", 1, 255, "", "scales of a frame"),
+    field<&GratingBusSettings::first>("first", 0, 254, "", "address of the first scale"),
+    field<&GratingBusSettings::t1_ns>("t1_ns", 0.1, 6'000, "ns", "wait until the decoder has latched"),
+    field<&GratingBusSettings::t2_ns>("t2_ns", 0.1, 6'000, "ns", "wait from the address to stable data"),
+    field<&GratingBusSettings::t3_ns>("t3_ns", 0.1, 6'000, "ns", "wait until the data are latched"),
+    field<&GratingBusSettings::clock_ns>("clock_ns", 0.1, 6'000, "ns", "period of the logic's clock"),
+    field<&GratingBusSettings::period_us>("period_us", 1, 100'000, "us", "from one frame to the next"),
+    field<&GratingBusSettings::offset_ns>("offset_ns", 0, 1e8, "ns", "when a host's first frame comes, at most a period"),
+    with_choices(field<&GratingBusSettings::clock_shifter>("clock_shifter", 0, 0, "", "way of the level shifter of clk, hold and read_n"), shifter_ways),
+    with_choices(field<&GratingBusSettings::address_shifter>("address_shifter", 0, 0, "", "way of the level shifter of addr"), shifter_ways),
+    field<&GratingBusSettings::checks>("checks", 0, 0, "", "frames during which the lines were not as they should be are not published"),
+    field<&GratingBusSettings::seed>("seed", 0, 2'147'483'647, "", "of the jitter that can be injected"),
+    field<&GratingBusSettings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns", "time that one access of the processor takes"),
+};
+
+constexpr std::array<Field, 4> grating_decoder_settings = {
+    field<&GratingDecoderSettings::scales>("scales", 1, 255, "", "scales that it counts; its pins a0 b0 a1 b1 .. are that many pairs"),
+    field<&GratingDecoderSettings::latch_ns>("latch_ns", 0, 6'000, "ns", "from HOLD to valid counts"),
+    field<&GratingDecoderSettings::output_ns>("output_ns", 0.1, 6'000, "ns", "from the address to valid data"),
+    field<&GratingDecoderSettings::bus_access_ns>("bus_access_ns", 0, 100'000, "ns", "time that one access of the host takes"),
+};
+
+void* grating_bus_of(RackCard& card) {
+    return &card.grating_bus;
+}
+
+void* grating_decoder_of(RackCard& card) {
+    return &card.grating_decoder;
+}
+
+constexpr std::array<CardType, 5> table = {{
     {"mcx314", "four-axis pulse chip with interpolation", "xyzu", mcx314_channel_pins, mcx314_chip_pins, mcx314_wires,
      "emgn", mcx314_settings, mcx314_of, mcx314_pulse_hz, mcx314_accel_hz_s, mcx314_encoder_hz, 2'147'483'647,
      mcx314_stops, mcx314_stops},
@@ -244,6 +289,12 @@ constexpr std::array<CardType, 3> table = {{
      databoard4002_references, databoard4002_zeros, true, databoard4002_flaw},
     {"ioflex02", "position card for four encoders with calibration and time; it moves no axis, and its lines are wires", "", {},
      ioflex02_pins, {}, "", ioflex02_settings, ioflex02_of, nothing, nothing, nothing, 8'388'607, {}, {}, false, ioflex02_flaw},
+    {"grating_bus", "motion card of a grating bus: all such cards of a rack read the same scales at the same instant, one as host, the others listening", "", {},
+     grating_bus_pins, {}, "", grating_bus_settings, grating_bus_of, nothing, nothing, nothing, 2'147'483'647, {}, {}, false, grating_bus_flaw},
+    {"grating_decoder", "decoder card of the grating bus: counts up to 255 scales and freezes them at HOLD; a rack of grating_bus cards without one gets one "
+     "called `decoder`", "", {},
+     grating_decoder_pins, {}, "", grating_decoder_settings, grating_decoder_of, nothing, nothing, nothing, 2'147'483'647, {}, {}, false, grating_decoder_flaw,
+     grating_decoder_pin_count},
 }};
 
 }  // namespace
@@ -256,6 +307,14 @@ const CardType* find_card_type(std::string_view name) {
     const auto found =
         std::find_if(table.begin(), table.end(), [&](const CardType& type) { return type.name == name; });
     return found != table.end() ? &*found : nullptr;
+}
+
+std::vector<Pin> pins_of(const RackCard& card) {
+    const CardType* type = find_card_type(card.type);
+    if (type == nullptr) return {};
+    CardType own = *type;
+    if (type->chip_pin_count != nullptr) own.chip_pins = own.chip_pins.first(type->chip_pin_count(card));
+    return pins_of(own);
 }
 
 std::vector<Pin> pins_of(const CardType& type) {

@@ -61,6 +61,8 @@ struct CardType {
     bool position_loop = false;  ///< it positions an axis by itself with its encoder, which the axis needs then
     /// What no single key can tell; `before`: the cards before it in the file. May be nullptr.
     std::optional<CardFlaw> (*flaw)(const RackCard& card, std::span<const RackCard> before) = nullptr;
+    /// Of cards whose settings say how many of the chip pins there are. May be nullptr: all of them.
+    std::size_t (*chip_pin_count)(const RackCard& card) = nullptr;
 
     int channel_count() const { return channels.empty() ? (channel_pins.empty() ? 0 : 1) : static_cast<int>(channels.size()); }
     /// "x"; empty for the one channel without a letter.
@@ -84,5 +86,7 @@ struct Pin {
     PinKind kind;
 };
 std::vector<Pin> pins_of(const CardType& type);
+/// Those that this card has; none if its type is unknown.
+std::vector<Pin> pins_of(const RackCard& card);
 
 }  // namespace motionrack::rack

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <motionrack/cards/databoard4002/map.hpp>
+#include <motionrack/cards/grating_bus/map.hpp>
 #include <motionrack/cards/ioflex02/map.hpp>
 #include <motionrack/cards/mcx314/axes/axes.hpp>
 #include <motionrack/cards/mcx314/axes/single_axis.hpp>
@@ -170,6 +171,8 @@ constexpr CardKind kinds[] = {
     {"mcx314", &mcx314::card_map, &make_mcx314, &view_mcx314},
     {"databoard4002", &databoard4002::card_map, &make_databoard4002},
     {"ioflex02", &ioflex02::card_map, &make_ioflex02},
+    {"grating_bus", &grating_bus::card_map, &make_grating_bus},
+    {"grating_decoder", &grating_bus::decoder_map, &make_grating_decoder},
 };
 
 }  // namespace

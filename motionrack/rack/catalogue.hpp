@@ -60,6 +60,10 @@ class Card {
     /// What can be broken on the card itself. `fault`: false if it knows no such fault or value.
     virtual std::span<const std::string_view> fault_names() const { return {}; }
     virtual bool fault(std::string_view, double, Instant) { return false; }
+    /// Wires by their full names that it shares with other cards ("bus.clk"); from outside they can be driven like its own.
+    virtual std::span<const std::string> shared_wires() const { return {}; }
+    /// All cards of the rack are there. Once, before the kernel starts.
+    virtual void complete() {}
     /// The host's side: time and the interrupt line.
     virtual sim::VirtualHost& host() = 0;
     /// Its bus of 16-bit registers; nullptr if it has none.
@@ -122,6 +126,10 @@ tl::unexpected<Error> no_such_value(const Card& card, std::string_view name, std
 
 std::unique_ptr<Card> make_ioflex02(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
                                     std::span<const std::unique_ptr<Card>> before);
+std::unique_ptr<Card> make_grating_bus(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
+                                       std::span<const std::unique_ptr<Card>> before);
+std::unique_ptr<Card> make_grating_decoder(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
+                                           std::span<const std::unique_ptr<Card>> before);
 std::unique_ptr<Card> make_databoard4002(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
                                          std::span<const std::unique_ptr<Card>> before);
 

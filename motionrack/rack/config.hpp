@@ -63,6 +63,34 @@ struct Ioflex02Settings {
     std::int64_t bus_access_ns = 500;     ///< 0 .. 100,000 ns
 };
 
+/// What a card of a grating bus is: the first one of a rack is the host unless it is said.
+enum class GratingRole : std::uint8_t { first_is_host, host, slave };
+/// Which way a level shifter of such a card works.
+enum class GratingShifter : std::uint8_t { as_role, out, in };
+
+/// Settings of a card of type grating_bus; the model's are in cards/grating_bus/model/settings.hpp.
+struct GratingBusSettings {
+    GratingRole role = GratingRole::first_is_host;
+    std::int64_t scales = 4;          ///< 1 .. 255 scales of a frame
+    std::int64_t first = 0;           ///< 0 .. 254: address of the first one
+    double t1_ns = 20, t2_ns = 30, t3_ns = 30, clock_ns = 10;  ///< 0.1 .. 6,000 ns
+    double period_us = 200;           ///< 1 .. 100,000 us
+    double offset_ns = 0;             ///< 0 .. 1e8 ns, at most a period
+    GratingShifter clock_shifter = GratingShifter::as_role;
+    GratingShifter address_shifter = GratingShifter::as_role;
+    bool checks = true;
+    std::int64_t seed = 1;            ///< 0 .. 2^31 - 1
+    std::int64_t bus_access_ns = 40;  ///< 0 .. 100,000 ns
+};
+
+/// Settings of a card of type grating_decoder.
+struct GratingDecoderSettings {
+    std::int64_t scales = 4;           ///< 1 .. 255
+    double latch_ns = 10;              ///< 0 .. 6,000 ns
+    double output_ns = 20;             ///< 0.1 .. 6,000 ns
+    std::int64_t bus_access_ns = 500;  ///< 0 .. 100,000 ns
+};
+
 /// One card; only the settings of its own type mean something. Defaults of the members are the rack file's defaults.
 struct RackCard {
     std::string name;             ///< as the wires call it: letters, digits, '_'
@@ -71,6 +99,8 @@ struct RackCard {
     Mcx314Settings mcx314;
     Databoard4002Settings databoard4002;
     Ioflex02Settings ioflex02;
+    GratingBusSettings grating_bus;
+    GratingDecoderSettings grating_decoder;
 };
 
 // ---- Axes -------------------------------------------------------------------------------------------------------

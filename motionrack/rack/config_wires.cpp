@@ -87,7 +87,7 @@ class WireResolver {
             unjudged_.push_back(card.name);
             return;
         }
-        for (Pin& pin : pins_of(*type)) {
+        for (Pin& pin : pins_of(card)) {
             known_[card.name + "." + pin.name] = {{EndOwner::card, index, pin.name}, pin.direction, pin.volts > 0, {}};
         }
     }

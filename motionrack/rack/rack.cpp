@@ -29,6 +29,7 @@ void Rack::build_cards() {
         MOTIONRACK_ASSERT(kind != nullptr);  // read_rack knows the same types
         cards_.push_back(kind->make(kernel_, card, log_, cards_));
     }
+    for (const auto& card : cards_) card->complete();
 }
 
 namespace {
@@ -156,7 +157,7 @@ sim::WireId Rack::output_wire(const WireEnd& end) {
 
 bool Rack::is_contact(const WireEnd& end) const {
     if (end.owner != EndOwner::card) return false;
-    for (const Pin& pin : pins_of(*find_card_type(config_.cards[static_cast<std::size_t>(end.index)].type)))
+    for (const Pin& pin : pins_of(config_.cards[static_cast<std::size_t>(end.index)]))
         if (pin.name == end.pin) return pin.kind == PinKind::contact;
     return false;
 }

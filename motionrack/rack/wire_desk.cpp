@@ -22,7 +22,7 @@ WireDesk::WireDesk(Rack& rack) : rack_(rack) {
 
 void WireDesk::add_cards() {
     for (const RackCard& card : rack_.config().cards)
-        for (const Pin& pin : pins_of(*find_card_type(card.type))) {
+        for (const Pin& pin : pins_of(card)) {
             const std::string name = card.name + "." + pin.name;
             Wire wire{Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, {}};
             if (pin.volts > 0) wire.unit = pin.volts;
@@ -30,6 +30,8 @@ void WireDesk::add_cards() {
                 wire.refused = fmt::format("{} is an output of the card; inputs, switches and the emergency stop can be driven", name);
             wires_[name] = std::move(wire);
         }
+    for (const auto& card : rack_.cards())
+        for (const std::string& name : card->shared_wires()) wires_[name] = {Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, {}};
 }
 
 void WireDesk::add_axes() {
@@ -62,7 +64,7 @@ void WireDesk::add_encoders() {
         if (!joined.link || joined.to.owner != EndOwner::card) continue;
         const auto& card = config.cards[static_cast<std::size_t>(joined.to.index)];
         int channel = -1;
-        for (const Pin& pin : pins_of(*find_card_type(card.type)))
+        for (const Pin& pin : pins_of(card))
             if (pin.name == joined.to.pin) channel = pin.channel;
         for (const EncoderLink& link : config.encoder_links) {
             if (link.card != joined.to.index || link.channel != channel) continue;

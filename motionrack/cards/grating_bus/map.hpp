@@ -9,6 +9,7 @@
 //  100h .. 4FBh  the claimed frame: count of its word k at 100h + 4k (low) and 102h + 4k (high)
 #pragma once
 
+#include <array>
 #include <motionrack/base/card_map.hpp>
 #include <motionrack/base/time.hpp>
 #include <motionrack/cards/grating_bus/frame.hpp>
@@ -110,8 +111,47 @@ inline constexpr PinInfo pins[] = {
     {"state", PinDirection::output, false, "number of the state, 0 .. 12"},
     {"frame_done", PinDirection::output, false, "pulse of one clock: a frame is complete"},
     {"int_n", PinDirection::output, true, "low while STATUS.FRAME"},
+    {"vout0", PinDirection::output, false, "analog output 0 of the processor, V"},
+    {"vout1", PinDirection::output, false, "analog output 1"},
+    {"vout2", PinDirection::output, false, "analog output 2"},
+    {"vout3", PinDirection::output, false, "analog output 3"},
 };
 static_assert(declared<pins_flaw(pins)>());
+
+// ---- the decoder card -------------------------------------------------------------------------------------------------------
+
+inline constexpr RegisterInfo decoder_registers[] = {
+    {"SIGNATURE", 0x00, 16, r, false, "", "4744h: the decoder of a grating bus", {}},
+    {"SCALES", 0x02, 16, r, false, "", "scales that it counts", {}},
+    {"COUNT_L", 0x100, 16, r, false, "", "count of scale 0 now, low; reading it keeps the high word for the next read; of scale n 4n bytes on", {}},
+    {"COUNT_H", 0x102, 16, r, false, "", "the high word of the count whose low word was read last", {}},
+};
+static_assert(declared<registers_flaw(decoder_registers)>());
+
+/// Names of numbered pins: "a0" .. "a254".
+struct PinName {
+    char text[5] = {};
+    constexpr std::string_view view() const { return text[2] == 0 ? std::string_view(text, 2) : text[3] == 0 ? std::string_view(text, 3) : std::string_view(text, 4); }
+};
+consteval std::array<PinName, 2 * most_scales> scale_pin_names() {
+    std::array<PinName, 2 * most_scales> out;
+    for (int i = 0; i < 2 * most_scales; ++i) {
+        const int n = i / 2;
+        char* at = out[static_cast<std::size_t>(i)].text;
+        *at++ = i % 2 == 0 ? 'a' : 'b';
+        for (const int unit : {100, 10, 1})
+            if (n >= unit || unit == 1) *at++ = static_cast<char>('0' + n / unit % 10);
+    }
+    return out;
+}
+inline constexpr std::array<PinName, 2 * most_scales> scale_pins = scale_pin_names();
+inline constexpr std::array<PinInfo, 2 * most_scales> decoder_pins = [] {
+    std::array<PinInfo, 2 * most_scales> out;
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = {scale_pins[i].view(), PinDirection::input, false, i % 2 == 0 ? "scale, line A" : "scale, line B"};
+    return out;
+}();
+
+inline constexpr CardMap decoder = {"grating_decoder", "Decoder card that counts up to 255 scales and freezes all of them at one instant", decoder_registers, {}, {}, decoder_pins};
 
 inline constexpr CardMap card = {"grating_bus", "Motion card that reads all scales of one instant over a shared bus, as its host or as a listener",
                                  registers,     {}, machines, pins};
@@ -119,11 +159,16 @@ inline constexpr CardMap card = {"grating_bus", "Motion card that reads all scal
 }  // namespace map
 
 inline constexpr std::uint16_t signature = 0x4742;
+inline constexpr std::uint16_t decoder_signature = 0x4744;
+inline constexpr int output_count = 4;             ///< analog outputs of a motion card
 inline constexpr std::uint32_t counts_at = 0x100;  ///< offset of the first count
 
 /// A register's offset by its name; names that are not declared do not compile.
 consteval std::uint32_t offset(std::string_view name) {
     return register_named(map::registers, name).offset;
+}
+consteval std::uint32_t decoder_offset(std::string_view name) {
+    return register_named(map::decoder_registers, name).offset;
 }
 /// A field of a register: field("STATUS", "STALE").
 consteval Field field(std::string_view reg, std::string_view name) {
@@ -136,6 +181,9 @@ enum class State : std::uint8_t { S0, S1, S2, S3, S4, S5, S6, S7, S8, S9, S10, S
 /// The whole map, for documents, inspectors and traces.
 inline const CardMap& card_map() {
     return map::card;
+}
+inline const CardMap& decoder_map() {
+    return map::decoder;
 }
 
 }  // namespace motionrack::grating_bus

@@ -32,6 +32,8 @@ class Bus final : public sim::Device {
     const std::vector<Decoder*>& decoders() const { return decoders_; }
     /// The name of driver `n` as the kernel has it.
     const std::string& driver_name(int n) const;
+    /// "bus.clk", "bus.addr3" .. of all its wires.
+    const std::vector<std::string>& wire_names() const { return wire_names_; }
     /// A line's level now.
     std::uint32_t level(Line line) const;
     const Lines& lines() const { return state_.lines; }
@@ -97,6 +99,7 @@ class Bus final : public sim::Device {
     sim::Kernel& kernel_;
     sim::DeviceId id_{};
     std::array<sim::WireId, pin_count> wires_{};
+    std::vector<std::string> wire_names_;
     std::vector<Card*> cards_;
     std::vector<Decoder*> decoders_;
     std::vector<sim::DeviceId> drivers_;

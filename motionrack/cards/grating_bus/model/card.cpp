@@ -11,6 +11,7 @@ Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSet
     state_wire_ = kernel.add_wire(name + ".state", 0);
     done_wire_ = kernel.add_wire(name + ".frame_done", 0);
     int_wire_ = kernel.add_wire(name + ".int_n", 1);
+    for (int n = 0; n < output_count; ++n) outputs_[static_cast<std::size_t>(n)] = kernel.add_wire(name + ".vout" + std::to_string(n), 0);
     kernel.drive_lazily(state_wire_, id_, state_pin);
     kernel.drive_lazily(done_wire_, id_, done_pin);
     state_.stale_at = 2 * settings.period;
@@ -27,6 +28,10 @@ int Card::level_at(int pin, Instant) const {
 
 void Card::wanted_changed(int, bool wanted, Instant now) {
     bus_.wanted(wanted, now);
+}
+
+void Card::put_out(int output, int microvolts) {
+    kernel_.set_wire(outputs_[static_cast<std::size_t>(output)], std::clamp(microvolts, -10'000'000, 10'000'000));
 }
 
 void Card::show() {

@@ -55,6 +55,9 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     enum Counter { broken, missed_words, alien, line_faults, missed_edges, overrun, counter_count };
     std::uint16_t counter(Counter which) const { return state_.counters[which]; }
 
+    /// The processor puts an analog output (0 .. 3) to `microvolts`, +-10 V at most.
+    void put_out(int output, int microvolts);
+
     void add_listener(FrameListener& listener) { listeners_.push_back(&listener); }
 
     void act(Instant) override {}
@@ -142,6 +145,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     Bus& bus_;
     sim::DeviceId id_{};
     sim::WireId state_wire_{}, done_wire_{}, int_wire_{};
+    std::array<sim::WireId, output_count> outputs_{};
     std::vector<FrameListener*> listeners_;
     Data state_{};
 };

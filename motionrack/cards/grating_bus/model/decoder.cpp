@@ -11,6 +11,7 @@ Decoder::Decoder(sim::Kernel& kernel, const std::string& name, Bus& bus, const D
     for (int n = 0; n < settings.scales; ++n)
         for (const int line : {0, 1})
             kernel.listen(kernel.add_wire(name + (line == 0 ? ".a" : ".b") + std::to_string(n), 0), id_, 2 * n + line);
+    int_wire_ = kernel.add_wire(name + ".int_n", 1);
     bus.plug(*this);
 }
 
@@ -61,6 +62,25 @@ void Decoder::follow(Lines& lines, int driver, Instant now) {
         s.out = s.frozen != 0 ? s.latched[addr] : count(static_cast<int>(addr), now);
     }
     lines.drive(Line::data, driver, s.out);
+}
+
+// ---- the host's bus ---------------------------------------------------------------------------------------------------------
+
+std::uint16_t Decoder::peek(std::uint32_t at) const {
+    if (is_count(at)) return static_cast<std::uint16_t>(at % 4 != 0 ? state_.high : count(static_cast<int>(at - counts_at) / 4, kernel_.now()));
+    if (at == decoder_offset("SIGNATURE")) return decoder_signature;
+    if (at == decoder_offset("SCALES")) return static_cast<std::uint16_t>(settings_.scales);
+    return 0xFFFF;
+}
+
+std::uint16_t Decoder::read(std::uint32_t at) {
+    if (is_count(at) && at % 4 == 0) state_.high = count(static_cast<int>(at - counts_at) / 4, kernel_.now()) >> 16;
+    if (!is_count(at) && at > decoder_offset("SCALES")) kernel_.report(id_, static_cast<std::uint16_t>(BusCondition::no_register), at, -1);
+    return peek(at);
+}
+
+void Decoder::write(std::uint32_t at, std::uint16_t value) {
+    kernel_.report(id_, static_cast<std::uint16_t>(BusCondition::no_register), at, value);
 }
 
 bool Decoder::fault(std::string_view name, double value, Instant now) {

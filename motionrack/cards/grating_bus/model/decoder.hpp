@@ -7,17 +7,19 @@
 #pragma once
 
 #include <array>
+#include <motionrack/cards/grating_bus/map.hpp>
 #include <motionrack/cards/grating_bus/model/lines.hpp>
 #include <motionrack/cards/grating_bus/model/settings.hpp>
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
 #include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/register_device.hpp>
 #include <string>
 
 namespace motionrack::grating_bus {
 
 class Bus;
 
-class Decoder final : public sim::Device {
+class Decoder final : public sim::Device, public sim::RegisterDevice {
   public:
     /// Adds the card, its wires NAME.a0, NAME.b0 .. and itself to the bus, before the kernel starts. `settings` must pass check().
     Decoder(sim::Kernel& kernel, const std::string& name, Bus& bus, const DecoderSettings& settings = {});
@@ -28,8 +30,15 @@ class Decoder final : public sim::Device {
     std::int64_t position(int n, Instant now) const;
     std::uint32_t count(int n, Instant now) const { return static_cast<std::uint32_t>(position(n, now)); }
 
+    // ---- the host's bus: offsets of the map
+    std::uint16_t read(std::uint32_t offset) override;
+    void write(std::uint32_t offset, std::uint16_t value) override;
+    std::uint16_t peek(std::uint32_t offset) const override;
+
     const DecoderSettings& settings() const { return settings_; }
     sim::DeviceId id() const { return id_; }
+    /// It has no interrupt: always 1.
+    sim::WireId interrupt_wire() const { return int_wire_; }
 
     void act(Instant) override {}
     void on_wire(int pin, int level, Instant now) override;
@@ -47,6 +56,7 @@ class Decoder final : public sim::Device {
         Instant output = never;         // when the addressed count comes out
         std::uint32_t hold = 0, read_n = 1, addr = 0xFF;  // as it reacted to them last
         std::uint32_t frozen = 0;       // a latch is being held
+        std::uint32_t high = 0;         // high word kept by a read of a low one
         std::uint32_t lines[most_scales] = {}; // bit 0: A, bit 1: B
         std::array<sim::QuadratureDecoder, most_scales> counters;
     };
@@ -57,11 +67,13 @@ class Decoder final : public sim::Device {
     /// Follows hold, read_n and addr.
     void follow(Lines& lines, int driver, Instant now);
     void ask(Instant now);
+    bool is_count(std::uint32_t at) const { return at >= counts_at && at < counts_at + 4u * static_cast<std::uint32_t>(settings_.scales) && at % 2 == 0; }
 
     sim::Kernel& kernel_;
     DecoderSettings settings_;
     Bus& bus_;
     sim::DeviceId id_{};
+    sim::WireId int_wire_{};
     std::array<sim::Motion*, most_scales> scales_{};
     State state_{};
 };

@@ -1,0 +1,188 @@
+// The grating bus in a rack: motion cards and decoder share one bus, which the first of them brings.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <motionrack/rack/grating.hpp>
+#include <motionrack/rack/grating_card.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+namespace gb = grating_bus;
+
+/// What is the same for a motion card and a decoder.
+class Member : public Card {
+  public:
+    Member(const RackCard& config, std::shared_ptr<gb::Bus> bus) : name_(config.name), bus_(std::move(bus)) {}
+    const std::shared_ptr<gb::Bus>& bus() const { return bus_; }
+
+    const std::string& name() const override { return name_; }
+    std::span<const int> bus_widths() const override {
+        static constexpr int words[] = {16};
+        return words;
+    }
+    std::span<const std::string> shared_wires() const override { return bus_->wire_names(); }
+    bool speaks_for(sim::DeviceId id) const override { return id == device() || id == bus_->id(); }
+    std::string describe(const sim::Condition& condition) const override {
+        return condition.device == bus_->id() ? gb::describe(condition, *bus_) : gb::describe(condition, name_);
+    }
+
+  protected:
+    /// The number in front of ".COUNT", if it is one below `scales`; else -1.
+    static int scale_of(std::string_view name, int scales) {
+        int n = -1;
+        const auto [end, bad] = std::from_chars(name.data(), name.data() + name.size(), n);
+        const bool whole = bad == std::errc() && std::string_view(end, name.data() + name.size()) == ".COUNT";
+        return whole && n >= 0 && n < scales ? n : -1;
+    }
+
+    std::string name_;
+    std::shared_ptr<gb::Bus> bus_;
+};
+
+class GratingCard final : public Member {
+  public:
+    GratingCard(sim::Kernel& kernel, const RackCard& config, const gb::CardSettings& settings, sim::InputLog& log, std::shared_ptr<gb::Bus> bus)
+        : Member(config, std::move(bus)),
+          kernel_(kernel),
+          card_(kernel, config.name, *bus_, settings),
+          port_(kernel, card_, card_.id(), card_.interrupt_wire(), nanoseconds(config.grating_bus.bus_access_ns), &log) {}
+
+    gb::Card& card() { return card_; }
+
+    sim::DeviceId device() const override { return card_.id(); }
+    const CardMap& map() const override { return gb::card_map(); }
+    sim::RegisterDevice* registers() override { return &card_; }
+    std::uint32_t bus_read(int, std::uint32_t address) override { return port_.read(address); }
+    void bus_write(int, std::uint32_t address, std::uint32_t value) override { port_.write(address, static_cast<std::uint16_t>(value)); }
+
+    Result<std::int64_t> inspect(std::string_view name) const override {
+        static constexpr std::string_view more[] = {"0.COUNT ..", "SEQUENCE", "TIME"};
+        const gb::Frame* frame = card_.last();
+        if (name == "SEQUENCE") return frame ? frame->sequence : 0;
+        if (name == "TIME") return frame ? frame->time : 0;
+        if (const int n = scale_of(name, card_.settings().scales); n >= 0) return count(n);
+        for (const RegisterInfo& reg : map().registers)
+            if (reg.name == name && reg.access != Access::write) return card_.peek(reg.offset);
+        return no_such_value(*this, name, more);
+    }
+    std::vector<CardCounter> counters() const override {
+        std::vector<CardCounter> out;
+        for (int n = 0; n < card_.settings().scales; ++n) out.push_back({"scale" + std::to_string(n), n, true});
+        return out;
+    }
+    std::int64_t counter(const CardCounter& which) override { return count(which.channel); }
+
+    std::vector<std::string_view> quantity_names() const override { return {"age_us", "sequence", "stale"}; }
+    std::optional<double> quantity(std::string_view name) const override {
+        const gb::Frame* frame = card_.last();
+        if (name == "stale") return card_.stale() ? 1 : 0;
+        if (name == "sequence") return frame ? frame->sequence : -1;
+        if (name == "age_us") return frame ? to_seconds(kernel_.now() - frame->instant()) * 1e6 : -1;
+        return std::nullopt;
+    }
+    std::span<const std::string_view> fault_names() const override {
+        static constexpr std::string_view names[] = {"off", "reset", "late", "miss_edge", "jitter"};
+        return names;
+    }
+    bool fault(std::string_view name, double value, Instant now) override { return card_.fault(name, value, now); }
+
+    void complete() override {
+        if (!bus_->decoders().empty()) return;
+        const bool taken = kernel_.find_wire("decoder.a0") != sim::WireId::none;
+        gb::DecoderSettings settings;
+        settings.scales = card_.settings().first + card_.settings().scales;
+        own_decoder_ = std::make_unique<gb::Decoder>(kernel_, taken ? name_ + ".decoder" : "decoder", *bus_, settings);
+    }
+
+    sim::VirtualHost& host() override { return port_; }
+    sim::VirtualPort* port() override { return &port_; }
+
+  private:
+    std::int64_t count(int n) const {
+        const gb::Frame* frame = card_.last();
+        return frame ? static_cast<std::int32_t>(frame->counts[static_cast<std::size_t>(n)]) : 0;
+    }
+
+    sim::Kernel& kernel_;
+    gb::Card card_;
+    sim::VirtualPort port_;
+    std::unique_ptr<gb::Decoder> own_decoder_;  // of a rack whose file has none
+};
+
+class DecoderCard final : public Member {
+  public:
+    DecoderCard(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log, std::shared_ptr<gb::Bus> bus)
+        : Member(config, std::move(bus)),
+          kernel_(kernel),
+          decoder_(kernel, config.name, *bus_, decoder_settings(config)),
+          port_(kernel, decoder_, decoder_.id(), decoder_.interrupt_wire(), nanoseconds(config.grating_decoder.bus_access_ns), &log) {}
+
+    gb::Decoder& decoder() { return decoder_; }
+
+    sim::DeviceId device() const override { return decoder_.id(); }
+    const CardMap& map() const override { return gb::decoder_map(); }
+    sim::RegisterDevice* registers() override { return &decoder_; }
+    std::uint32_t bus_read(int, std::uint32_t address) override { return port_.read(address); }
+    void bus_write(int, std::uint32_t address, std::uint32_t value) override { port_.write(address, static_cast<std::uint16_t>(value)); }
+
+    Result<std::int64_t> inspect(std::string_view name) const override {
+        static constexpr std::string_view more[] = {"0.COUNT .."};
+        if (const int n = scale_of(name, decoder_.settings().scales); n >= 0) return decoder_.position(n, kernel_.now());
+        for (const RegisterInfo& reg : map().registers)
+            if (reg.name == name && reg.access != Access::write) return decoder_.peek(reg.offset);
+        return no_such_value(*this, name, more);
+    }
+    std::vector<CardCounter> counters() const override {
+        std::vector<CardCounter> out;
+        for (int n = 0; n < decoder_.settings().scales; ++n) out.push_back({"scale" + std::to_string(n), n, true});
+        return out;
+    }
+    std::int64_t counter(const CardCounter& which) override { return decoder_.position(which.channel, kernel_.now()); }
+    std::span<const std::string_view> fault_names() const override {
+        static constexpr std::string_view names[] = {"no_latch"};
+        return names;
+    }
+    bool fault(std::string_view name, double value, Instant now) override { return decoder_.fault(name, value, now); }
+
+    sim::VirtualHost& host() override { return port_; }
+    sim::VirtualPort* port() override { return &port_; }
+
+  private:
+    sim::Kernel& kernel_;
+    gb::Decoder decoder_;
+    sim::VirtualPort port_;
+};
+
+std::shared_ptr<gb::Bus> bus_of(sim::Kernel& kernel, std::span<const std::unique_ptr<Card>> before) {
+    for (const auto& other : before)
+        if (const auto* member = dynamic_cast<const Member*>(other.get())) return member->bus();
+    return std::make_shared<gb::Bus>(kernel);
+}
+
+}  // namespace
+
+std::unique_ptr<Card> make_grating_bus(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
+                                       std::span<const std::unique_ptr<Card>> before) {
+    const bool first = std::none_of(before.begin(), before.end(), [](const auto& card) { return dynamic_cast<GratingCard*>(card.get()); });
+    return std::make_unique<GratingCard>(kernel, config, grating_settings(config, first), log, bus_of(kernel, before));
+}
+
+std::unique_ptr<Card> make_grating_decoder(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
+                                           std::span<const std::unique_ptr<Card>> before) {
+    return std::make_unique<DecoderCard>(kernel, config, log, bus_of(kernel, before));
+}
+
+gb::Bus* grating_bus_of(Rack& rack) {
+    for (const auto& card : rack.cards())
+        if (const auto* member = dynamic_cast<const Member*>(card.get())) return member->bus().get();
+    return nullptr;
+}
+
+gb::Card* grating_card_of(Rack& rack, std::string_view name) {
+    auto* card = dynamic_cast<GratingCard*>(rack.card(name));
+    return card ? &card->card() : nullptr;
+}
+
+}  // namespace motionrack::rack

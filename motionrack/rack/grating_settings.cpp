@@ -1,0 +1,88 @@
+// Settings of the grating bus' cards, and what does not fit between them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/rack/grating.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+namespace gb = grating_bus;
+
+bool is_grating(const RackCard& card) { return card.type == "grating_bus"; }
+bool is_decoder(const RackCard& card) { return card.type == "grating_decoder"; }
+
+Duration ns(double value) { return from_seconds(value * 1e-9); }
+
+gb::Shifter shifter(GratingShifter way) { return static_cast<gb::Shifter>(way); }
+
+gb::CardSettings settings_among(const RackCard& card, std::span<const RackCard> before) {
+    return grating_settings(card, std::none_of(before.begin(), before.end(), is_grating));
+}
+
+/// A decoder that cannot serve a card, if so.
+std::optional<CardFlaw> no_fit(const RackCard& card, const gb::CardSettings& settings, const RackCard& decoder) {
+    const Result<void> fits = gb::check(settings, decoder_settings(decoder));
+    if (fits) return std::nullopt;
+    return CardFlaw{"type", fmt::format("Card {} cannot work with the decoder {}: {}", card.name, decoder.name, fits.error().message)};
+}
+
+}  // namespace
+
+gb::CardSettings grating_settings(const RackCard& card, bool first) {
+    const GratingBusSettings& s = card.grating_bus;
+    gb::CardSettings out;
+    out.role = s.role == GratingRole::host || (s.role == GratingRole::first_is_host && first) ? gb::Role::host : gb::Role::slave;
+    out.scales = static_cast<int>(s.scales);
+    out.first = static_cast<int>(s.first);
+    out.timing = {ns(s.t1_ns), ns(s.t2_ns), ns(s.t3_ns), ns(s.clock_ns)};
+    out.period = from_seconds(s.period_us * 1e-6);
+    out.offset = ns(s.offset_ns);
+    out.clock_shifter = shifter(s.clock_shifter);
+    out.address_shifter = shifter(s.address_shifter);
+    out.checks = s.checks;
+    out.seed = static_cast<std::uint32_t>(s.seed);
+    return out;
+}
+
+gb::DecoderSettings decoder_settings(const RackCard& card) {
+    const GratingDecoderSettings& s = card.grating_decoder;
+    return {static_cast<int>(s.scales), ns(s.latch_ns), ns(s.output_ns)};
+}
+
+std::optional<CardFlaw> grating_bus_flaw(const RackCard& card, std::span<const RackCard> before) {
+    const gb::CardSettings own = settings_among(card, before);
+    if (const Result<void> good = gb::check(own); !good) return CardFlaw{"scales", fmt::format("Card {}: {}", card.name, good.error().message)};
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const RackCard& other = before[i];
+        if (is_decoder(other))
+            if (const auto flaw = no_fit(card, own, other)) return flaw;
+        if (!is_grating(other)) continue;
+        const gb::CardSettings its = settings_among(other, before.first(i));
+        if (own.scales != its.scales || own.first != its.first)
+            return CardFlaw{"scales", fmt::format("Card {} reads the scales {} to {} and card {} the scales {} to {}; all cards of a bus take the same ones, "
+                                                  "as the host addresses them.",
+                                                  other.name, its.first, its.first + its.scales - 1, card.name, own.first, own.first + own.scales - 1)};
+        if (own.period != its.period)
+            return CardFlaw{"period_us", fmt::format("Card {} has a period of {} us and card {} one of {} us; a bus has one.", other.name,
+                                                     other.grating_bus.period_us, card.name, card.grating_bus.period_us)};
+    }
+    return std::nullopt;
+}
+
+std::optional<CardFlaw> grating_decoder_flaw(const RackCard& card, std::span<const RackCard> before) {
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (is_decoder(before[i]))
+            return CardFlaw{"type", fmt::format("The rack has two decoders, {} and {}; a bus has one, with all scales.", before[i].name, card.name)};
+        if (!is_grating(before[i])) continue;
+        if (const auto flaw = no_fit(before[i], settings_among(before[i], before.first(i)), card)) return flaw;
+    }
+    return std::nullopt;
+}
+
+std::size_t grating_decoder_pin_count(const RackCard& card) {
+    return 2 * static_cast<std::size_t>(std::clamp<std::int64_t>(card.grating_decoder.scales, 1, gb::most_scales));
+}
+
+}  // namespace motionrack::rack
