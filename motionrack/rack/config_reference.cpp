@@ -48,9 +48,11 @@ std::string card_type_text(const CardType& type) {
         out += fmt::format("| `{}{}` | {} | {} | {} |\n", type.channel_name(0), pin.name, direction(pin), pin.doc,
                            wired.empty() ? "-" : wired);
     }
-    for (const PinType& pin : type.chip_pins) {
-        out += fmt::format("| `{}` | {} | {} | {} |\n", pin.name, direction(pin), pin.doc,
-                           pin.name == type.estop_pin ? "`estop`" : "-");
+    for (std::size_t i = 0; i < type.chip_pins.size(); ++i) {
+        const PinType& pin = type.chip_pins[i];
+        if (type.chip_pin_count != nullptr && i >= 2) continue;  // as many as the settings say, all of two kinds
+        const std::string more = type.chip_pin_count != nullptr ? fmt::format(" .. `{}`", type.chip_pins[type.chip_pins.size() - 2 + i].name) : "";
+        out += fmt::format("| `{}`{} | {} | {} | {} |\n", pin.name, more, direction(pin), pin.doc, pin.name == type.estop_pin ? "`estop`" : "-");
     }
     if (type.channels.empty()) return out + '\n';
     return out + fmt::format(

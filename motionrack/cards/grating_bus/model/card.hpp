@@ -23,10 +23,13 @@ class Card;
 /// How much later pulse `n` of a host comes, 0 .. most, that has this seed: the same on every machine.
 std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t most);
 
-/// Hears of every frame that a card publishes, at that instant; what it does there runs in virtual time.
+/// Hears of every frame of a card; what it does there runs in virtual time.
 class FrameListener {
   public:
     virtual ~FrameListener() = default;
+    /// The card enters S1: `now` is the frame's time.
+    virtual void began(const Card& card, Instant now) { (void)card, (void)now; }
+    /// The card enters S12 and has published `frame`.
     virtual void published(const Card& card, const Frame& frame, Instant now) = 0;
 };
 
@@ -118,6 +121,9 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     void begin(Instant now);
     void drive(Lines& lines, int driver) const;
 
+    void tell_begin(Instant now) {
+        for (FrameListener* listener : listeners_) listener->began(*this, now);
+    }
     /// A pulse or an edge: sequence and what was missed.
     void note_edge(Instant now);
     void begin_frame(Instant now);

@@ -115,6 +115,7 @@ void Card::overrun_edge() {
 void Card::begin(Instant now) {
     state_.starts = never;
     begin_frame(now);
+    tell_begin(now);
     enter(State::S1, now);
 }
 

@@ -29,6 +29,7 @@ void Bus::begin_span(Instant now) {
         card->note_edge(now);
         if (card->is_host()) card->next_pulse();
         card->check_stale(now);
+        card->tell_begin(now);
     }
 }
 

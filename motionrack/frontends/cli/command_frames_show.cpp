@@ -1,0 +1,203 @@
+// frames RACK: runs a rack with a grating bus and shows live what every card holds, who disturbs whom, and one frame as a picture.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <motionrack/dds/clock.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/frames.hpp>
+#include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/rack/fault_plan.hpp>
+#include <motionrack/rack/frame_watch.hpp>
+#include <motionrack/rack/job.hpp>
+#include <motionrack/rack/wave_recorder.hpp>
+
+namespace motionrack::cli {
+
+namespace {
+
+std::atomic<bool> stop_asked{false};
+
+void on_interrupt(int) { stop_asked.store(true); }
+
+struct ShowOptions {
+    std::string rack, program, vcd, picture;
+    std::vector<std::string> faults;
+    double seconds = 0.1, every = 0.02;
+    bool json = false, quiet = false, real_time = false;
+};
+
+/// The table on the screen, rewritten in place on a terminal.
+class Screen {
+  public:
+    Screen(const rack::FrameWatch& watch, const ShowOptions& options)
+        : watch_(watch), options_(options), live_(is_terminal(1) && !options.json && !options.quiet), begun_(dds::monotonic_now()) {}
+
+    /// The rack's time is `now`: shows it if it is time to.
+    void look(Instant now) {
+        if (now < next_) return;
+        next_ = now + from_seconds(options_.every);
+        if (options_.real_time)
+            while (!stop_asked.load() && dds::monotonic_now() < begun_ + now) dds::sleep_until(std::min(begun_ + now, dds::monotonic_now() + milliseconds(100)));
+        if (live_) show(now);
+    }
+    void show(Instant now) {
+        if (live_ && lines_ > 0) fmt::print("\033[{}A\033[J", lines_);
+        const std::string table = frames_table(watch_, now);
+        lines_ = std::count(table.begin(), table.end(), '\n');
+        fmt::print("{}", table);
+        std::fflush(stdout);
+    }
+
+  private:
+    const rack::FrameWatch& watch_;
+    const ShowOptions& options_;
+    bool live_;
+    Instant begun_, next_{};
+    std::ptrdiff_t lines_ = 0;
+};
+
+/// A running rack with all that looks at it.
+struct Show {
+    rack::Rack& rack;
+    rack::FaultPlan& faults;
+    rack::WaveRecorder* recorder;
+    Screen& screen;
+
+    void between_runs() {
+        faults.apply_due();
+        if (recorder) recorder->drain();
+        screen.look(rack.kernel().now());
+    }
+};
+
+void run_for(Show& show, Duration time) {
+    sim::Kernel& kernel = show.rack.kernel();
+    const Instant end = kernel.now() + time;
+    while (kernel.now() < end && !stop_asked.load()) {
+        kernel.run_until(std::min(end, kernel.now() + milliseconds(1)));
+        show.between_runs();
+    }
+}
+
+int run_program(Show& show, const ShowOptions& options) {
+    const Result<ProgramText> program = load_program(options.program);
+    if (!program) return report(program.error());
+    const control::gcode::Settings settings = reader_settings(show.rack.config(), false);
+    if (const int bad = print_problems(control::gcode::check_program(program->text, settings, 20, program->name), program->name); bad != exit_done) return bad;
+    rack::JobSettings job_settings;
+    job_settings.program = program->text;
+    job_settings.program_name = program->name;
+    job_settings.stop = &stop_asked;
+    job_settings.on_slice = [&show] { show.between_runs(); };
+    rack::Job job(show.rack, job_settings);
+    show.rack.start();
+    if (show.recorder) show.recorder->begin();
+    show.faults.begin();
+    const rack::JobOutcome outcome = job.run();
+    return outcome.ended ? static_cast<int>(exit_done) : report(outcome.ended.error());
+}
+
+int finish(Show& show, const rack::FrameWatch& watch, const ShowOptions& options) {
+    int code = exit_done;
+    const auto wrote = [&](const Result<void>& done, const std::string& path) {
+        if (!done)
+            code = report(done.error());
+        else if (!options.json && !options.quiet)
+            fmt::print("written: {}\n", path);
+    };
+    if (options.json)
+        fmt::print("{}\n", frames_json(watch, show.rack.kernel().now()));
+    else
+        show.screen.show(show.rack.kernel().now());
+    if (!options.json) {
+        fmt::print("{}", conflicts_text(watch.bus(), 12));
+        static constexpr std::size_t most_told = 12;
+        const auto conditions = show.rack.kernel().conditions();
+        for (std::size_t i = 0; i < std::min(most_told, conditions.size()); ++i) print_warning(show.rack.describe(conditions[i]));
+        if (conditions.size() > most_told) print_warning(fmt::format("{} more things were reported", conditions.size() - most_told));
+    }
+    if (show.recorder) wrote(show.recorder->finish(), options.vcd);
+    if (!options.picture.empty()) {
+        const Result<std::string> picture = rack::frame_picture(show.rack.config());
+        wrote(picture ? write_text(options.picture, *picture) : Result<void>(tl::unexpected(picture.error())), options.picture);
+    }
+    if (code != exit_done) return code;
+    return frames_agree(watch) ? exit_done : exit_machine;
+}
+
+int show_frames(const ShowOptions& options) {
+    if (!(options.seconds >= 0 && options.seconds <= 1e5) || !(options.every > 0 && options.every <= 1e3)) {
+        print_error(fmt::format("--for is {:g} s and --every {:g} s; they must be 0 to 1e5, and more than 0 up to 1000. Nothing was run.", options.seconds,
+                                options.every));
+        return exit_usage;
+    }
+    int code = exit_done;
+    const auto config = load_rack(options.rack, code);
+    if (!config) return code;
+    rack::Rack rack(*config);
+    if (rack::grating_bus_of(rack) == nullptr) {
+        print_error("The rack has no card of type grating_bus, so there are no frames. Nothing was run. See examples/13_stage for one that has.");
+        return exit_usage;
+    }
+    rack::FrameWatch watch(rack);
+    std::unique_ptr<rack::WireTap> tap;
+    std::unique_ptr<rack::WaveRecorder> recorder;
+    if (!options.vcd.empty()) {
+        tap = std::make_unique<rack::WireTap>(rack.kernel());
+        rack::WaveSettings settings;
+        settings.path = options.vcd;
+        settings.signals = {"bus.*", "*.state", "*.frame_done"};
+        settings.timescale = Duration{10};
+        settings.tap = tap.get();
+        auto made = rack::WaveRecorder::create(rack, settings);
+        if (!made) return report(made.error());
+        recorder = std::move(*made);
+    }
+    const auto faults = rack::FaultPlan::create(rack, options.faults);
+    if (!faults) return report(faults.error());
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    Screen screen(watch, options);
+    Show show{rack, **faults, recorder.get(), screen};
+    if (!options.program.empty()) {
+        if (code = run_program(show, options); code != exit_done) return code;
+    } else {
+        rack.start();
+        if (recorder) recorder->begin();
+        (*faults)->begin();
+        run_for(show, from_seconds(options.seconds));
+    }
+    code = finish(show, watch, options);
+    return stop_asked.load() ? static_cast<int>(exit_stopped) : code;
+}
+
+}  // namespace
+
+void add_frames_show(CLI::App& frames, Action& chosen) {
+    auto options = std::make_shared<ShowOptions>();
+    frames.add_option("RACK", options->rack, "rack file with cards of a grating bus");
+    frames.add_option("PROGRAM", options->program, "part program that the rack's axes drive meanwhile");
+    frames.add_option("--for", options->seconds, "virtual seconds to run, without a program")->capture_default_str();
+    frames.add_option("--every", options->every, "virtual seconds between two tables")->capture_default_str();
+    frames.add_flag("--real-time", options->real_time, "not faster than the clock");
+    frames.add_option("--fault", options->faults, "break something on the way, NAME=VALUE@TIME: c2.late=40@0.01s, bus.hold=0@0.02s, c1.off@0.05s")->allow_extra_args(false);
+    frames.add_option("--vcd", options->vcd, "write states and lines of all frames as a VCD file; keep --for short");
+    frames.add_option("--picture", options->picture, "draw one frame as an SVG file");
+    frames.add_flag("--json", options->json, "print the last table as JSON");
+    frames.add_flag("-q,--quiet", options->quiet, "only the last table");
+    frames.footer("Example: motionrack frames stage.toml\n"
+                  "Example: motionrack frames stage.toml --for 0.002 --vcd frames.vcd --picture frame.svg\n"
+                  "Example: motionrack frames stage.toml --fault c1.off@0.05s\n"
+                  "Exit code 4: cards do not agree, frames were not true, data are stale, or there were conflicts.");
+    frames.callback([options, &chosen, &frames] {
+        if (!frames.get_subcommands().empty()) return;
+        chosen = [options] { return show_frames(*options); };
+    });
+}
+
+}  // namespace motionrack::cli

@@ -1,0 +1,63 @@
+// Counting what agrees.
+#include <algorithm>
+#include <motionrack/rack/frame_watch.hpp>
+
+namespace motionrack::rack {
+
+namespace gb = grating_bus;
+
+FrameWatch::FrameWatch(Rack& rack) : rack_(rack), bus_(*grating_bus_of(rack)) {
+    MOTIONRACK_ASSERT(!rack.started());
+    for (gb::Card* card : bus_.cards()) {
+        Watched& watched = cards_.emplace_back();
+        watched.card = card;
+        watched.name = rack.kernel().device_name(card->id());
+        card->add_listener(*this);
+    }
+}
+
+FrameWatch::Watched& FrameWatch::watched(const gb::Card& card) {
+    return *std::find_if(cards_.begin(), cards_.end(), [&](const Watched& one) { return one.card == &card; });
+}
+
+void FrameWatch::began(const gb::Card& card, Instant now) {
+    Watched& own = watched(card);
+    const int first = card.settings().first;
+    for (int k = 0; k < card.settings().scales; ++k)
+        own.truth[static_cast<std::size_t>(k)] = bus_.decoders().empty() ? 0 : bus_.decoders()[0]->count(first + k, now);
+}
+
+void FrameWatch::published(const gb::Card& card, const gb::Frame& frame, Instant) {
+    ++published_;
+    Watched& own = watched(card);
+    ++own.frames;
+    own.untrue += !std::equal(frame.positions().begin(), frame.positions().end(), own.truth.begin());
+    const Duration apart = frame.instant() - first_.instant();
+    if (first_.words == 0 || apart > card.settings().period / 2 || apart < -card.settings().period / 2)
+        first_ = frame;
+    else
+        own.unlike += !gb::same(frame, first_);
+}
+
+std::vector<FrameRow> FrameWatch::rows() const {
+    std::vector<FrameRow> out;
+    const Instant now = rack_.kernel().now();
+    for (const Watched& own : cards_) {
+        FrameRow& row = out.emplace_back();
+        row.card = own.name;
+        row.host = own.card->is_host();
+        row.stale = own.card->stale();
+        row.off = own.card->off();
+        row.frame = own.card->last();
+        row.age_us = row.frame ? to_seconds(now - row.frame->instant()) * 1e6 : 0;
+        row.frames = own.frames;
+        row.broken = own.card->counter(gb::Card::broken);
+        row.untrue = own.untrue;
+        row.unlike = own.unlike;
+        const gb::Frame* of_first = out.front().frame;
+        row.agrees = row.frame && of_first ? gb::same(*row.frame, *of_first) : row.frame == of_first;
+    }
+    return out;
+}
+
+}  // namespace motionrack::rack
