@@ -83,7 +83,7 @@ Result<std::string> frame_picture(const RackConfig& config, int frame) {
     for (int k = 0; k < settings.scales; k += every) marks.push_back({to_seconds(settings.timing.sample_at(k)), fmt::format("word {}", k)});
     const std::string title = fmt::format("Frame of {} scales, {} card{}: {:.0f} ns", settings.scales, bus->cards().size(), bus->cards().size() == 1 ? "" : "s",
                                           to_seconds(length) * 1e9);
-    return trace::svg_waves(title, waves, marks, -to_seconds(settings.timing.clock), to_seconds(end - from), {1100, 0, true});
+    return trace::svg_waves(title, waves, marks, -to_seconds(settings.timing.clock), to_seconds(end - from), {1300, 0, true});
 }
 
 }  // namespace motionrack::rack

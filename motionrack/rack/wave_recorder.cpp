@@ -156,6 +156,10 @@ void WaveRecorder::choose_axes() {
     }
 }
 
+std::uint64_t WaveRecorder::shown(sim::WireId wire, int level) const {
+    return rack_.kernel().wire_bits(wire) > 1 ? static_cast<std::uint32_t>(level) : level != 0;
+}
+
 void WaveRecorder::choose_wires() {
     const sim::Kernel& kernel = rack_.kernel();
     wire_signals_.assign(kernel.wire_count(), -1);
@@ -170,8 +174,9 @@ void WaveRecorder::choose_wires() {
         const std::size_t dot = name.find('.');
         const bool plain = dot == std::string::npos;
         wire_signals_[i] = static_cast<std::int64_t>(add(plain ? "rack" : name.substr(0, dot),
-                                                         plain ? name : name.substr(dot + 1), 1,
-                                                         kernel.level(wire) != 0));
+                                                         plain ? name : name.substr(dot + 1), kernel.wire_bits(wire),
+                                                         shown(wire, kernel.level(wire))));
+        signals_.back().is_signed = false;
     }
 }
 
@@ -203,7 +208,7 @@ void WaveRecorder::push(Instant at, std::size_t signal, std::uint64_t value) {
 
 void WaveRecorder::wire_changed(sim::WireId wire, int level, Instant now) {
     const std::int64_t signal = wire_signals_[sim::Kernel::index(wire)];
-    if (signal >= 0) push(now, static_cast<std::size_t>(signal), level != 0);
+    if (signal >= 0) push(now, static_cast<std::size_t>(signal), shown(wire, level));
 }
 
 void WaveRecorder::act(Instant now) {

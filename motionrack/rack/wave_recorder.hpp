@@ -84,6 +84,8 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     WaveRecorder(Rack& rack, const WaveSettings& settings);
     bool wanted(const std::string& name) const;
     std::size_t add(const std::string& scope, const std::string& name, int bits, std::uint64_t initial);
+    /// What is recorded of a wire's level.
+    std::uint64_t shown(sim::WireId wire, int level) const;
     void choose_axes();
     void choose_wires();
     void choose_counters();

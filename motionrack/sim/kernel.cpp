@@ -18,9 +18,9 @@ DeviceId Kernel::add(Device& device, Phase phase, std::string name) {
     return static_cast<DeviceId>(devices_.size() - 1);
 }
 
-WireId Kernel::add_wire(std::string name, int level) {
+WireId Kernel::add_wire(std::string name, int level, int bits) {
     MOTIONRACK_ASSERT(!started_ && find_wire(name) == WireId::none);
-    wires_.push_back({std::move(name), {}, {}, -1});
+    wires_.push_back({std::move(name), {}, {}, -1, static_cast<std::int16_t>(bits)});
     wire_state_.push_back({level, level, 0, 0});
     return static_cast<WireId>(wires_.size() - 1);
 }

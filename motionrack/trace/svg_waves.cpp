@@ -11,7 +11,7 @@ namespace motionrack::trace {
 
 namespace {
 
-constexpr double left = 96, right = 16, heading = 44, each = 26, swing = 14, foot = 26, letter = 6.4;
+constexpr double left = 96, right = 16, heading = 44, each = 26, swing = 14, foot = 26, letter = 6.2;
 
 /// Where seconds stand in the picture.
 struct Scale {

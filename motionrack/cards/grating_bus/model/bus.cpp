@@ -30,7 +30,8 @@ Bus::Bus(sim::Kernel& kernel, const std::string& name) : kernel_(kernel), id_(ke
         const std::string line(line_types[static_cast<std::size_t>(part.line)].name);
         const std::string wire = pin == conflict_pin ? "conflict" : pin < vector_pins ? line : line + std::to_string(part.shift);
         wire_names_.push_back(name + "." + wire);
-        wires_[at] = kernel.add_wire(wire_names_.back(), static_cast<int>(wire_level(pin, Instant{0})));
+        wires_[at] = kernel.add_wire(wire_names_.back(), static_cast<int>(wire_level(pin, Instant{0})),
+                                     pin < vector_pins ? line_types[static_cast<std::size_t>(pin)].bits : 1);
         kernel.drive_lazily(wires_[at], id_, pin);
     }
     kernel.schedule(id_, Instant{0});

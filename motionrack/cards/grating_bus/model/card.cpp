@@ -8,7 +8,7 @@ namespace motionrack::grating_bus {
 Card::Card(sim::Kernel& kernel, const std::string& name, Bus& bus, const CardSettings& settings)
     : kernel_(kernel), settings_(settings), bus_(bus), id_(kernel.add(*this, sim::Phase::cards, name)) {
     MOTIONRACK_ASSERT(check(settings).has_value());
-    state_wire_ = kernel.add_wire(name + ".state", 0);
+    state_wire_ = kernel.add_wire(name + ".state", 0, 4);
     done_wire_ = kernel.add_wire(name + ".frame_done", 0);
     int_wire_ = kernel.add_wire(name + ".int_n", 1);
     for (int n = 0; n < output_count; ++n) outputs_[static_cast<std::size_t>(n)] = kernel.add_wire(name + ".vout" + std::to_string(n), 0);

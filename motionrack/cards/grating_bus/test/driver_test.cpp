@@ -16,7 +16,7 @@ constexpr Duration period = microseconds(200);
 
 /// A crate with a processor at each card.
 struct Bench : Crate {
-    explicit Bench(const std::vector<CardSettings>& settings, int scales = 4, Duration access = nanoseconds(40)) : Crate(settings, scales) {
+    explicit Bench(const std::vector<CardSettings>& settings, int scales = 4, Duration access = nanoseconds(40)) : Crate(settings, scales, {}, false) {
         for (auto& card : cards) {
             ports.push_back(std::make_unique<sim::VirtualPort>(kernel, *card, card->id(), card->interrupt_wire(), access));
             libraries.push_back(std::make_unique<GratingCard>(*ports.back(), *ports.back()));

@@ -65,7 +65,7 @@ class Watcher final : public sim::Device {
 };
 
 struct Crate {
-    explicit Crate(const std::vector<CardSettings>& settings, int scales = 4, const DecoderSettings& decoder_settings = {}) {
+    explicit Crate(const std::vector<CardSettings>& settings, int scales = 4, const DecoderSettings& decoder_settings = {}, bool hear = true) {
         DecoderSettings own = decoder_settings;
         own.scales = scales;
         decoder = std::make_unique<Decoder>(kernel, "decoder", bus, own);
@@ -76,7 +76,7 @@ struct Crate {
         for (const CardSettings& s : settings) {
             ears.push_back(std::make_unique<Ear>());
             cards.push_back(std::make_unique<Card>(kernel, std::string("c").append(std::to_string(cards.size())), bus, s));
-            cards.back()->add_listener(*ears.back());
+            if (hear) cards.back()->add_listener(*ears.back());
         }
         watcher.connect();
         kernel.start();
