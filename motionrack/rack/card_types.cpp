@@ -239,7 +239,11 @@ std::optional<CardFlaw> ioflex02_flaw(const RackCard& card, std::span<const Rack
 // ---- grating_bus, grating_decoder -----------------------------------------------------------------------------------
 
 constexpr auto grating_bus_pins = own_pins<std::size(grating_bus::map::pins)>(grating_bus::map::pins);
-constexpr auto grating_decoder_pins = own_pins<std::size(grating_bus::map::decoder_pins)>(grating_bus::map::decoder_pins.data());
+constexpr auto grating_decoder_pins = [] {
+    std::array<PinType, std::size(grating_bus::map::scale_pins)> out{};
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = {grating_bus::map::scale_pins[i].view(), input, grating_bus::map::decoder_pins[i % 2].meaning};
+    return out;
+}();
 
 constexpr std::array<std::string_view, 3> grating_roles = {"first is host", "host", "slave"};
 constexpr std::array<std::string_view, 3> shifter_ways = {"as role", "out", "in"};

@@ -145,11 +145,11 @@ consteval std::array<PinName, 2 * most_scales> scale_pin_names() {
     return out;
 }
 inline constexpr std::array<PinName, 2 * most_scales> scale_pins = scale_pin_names();
-inline constexpr std::array<PinInfo, 2 * most_scales> decoder_pins = [] {
-    std::array<PinInfo, 2 * most_scales> out;
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = {scale_pins[i].view(), PinDirection::input, false, i % 2 == 0 ? "scale, line A" : "scale, line B"};
-    return out;
-}();
+/// Of each scale.
+inline constexpr PinInfo decoder_pins[] = {
+    {"a*", PinDirection::input, false, "scale n, line A"},
+    {"b*", PinDirection::input, false, "scale n, line B"},
+};
 
 inline constexpr CardMap decoder = {"grating_decoder", "Decoder card that counts up to 255 scales and freezes all of them at one instant", decoder_registers, {}, {}, decoder_pins};
 
