@@ -45,6 +45,8 @@ class Card {
     virtual std::span<const int> bus_widths() const = 0;
     /// Where the map's offset 0 is on the host's bus.
     virtual std::uint32_t bus_base() const { return 0; }
+    /// Whether the host can read more there than the map declares: a window of numbers that are alike, of which it has the first.
+    virtual bool in_window(std::uint32_t offset) const { return (void)offset, false; }
     /// One access of the host, of one of these widths and at bus_base() + an offset that the map declares; it takes the bus its time.
     virtual std::uint32_t bus_read(int bits, std::uint32_t address) = 0;
     virtual void bus_write(int bits, std::uint32_t address, std::uint32_t value) = 0;

@@ -29,6 +29,9 @@ class Member : public Card {
     }
 
   protected:
+    static bool in_counts(std::uint32_t offset, int scales) {
+        return offset >= gb::counts_at && offset < gb::counts_at + 4 * static_cast<std::uint32_t>(scales);
+    }
     /// The number in front of ".COUNT", if it is one below `scales`; else -1.
     static int scale_of(std::string_view name, int scales) {
         int n = -1;
@@ -54,6 +57,7 @@ class GratingCard final : public Member {
     sim::DeviceId device() const override { return card_.id(); }
     const CardMap& map() const override { return gb::card_map(); }
     sim::RegisterDevice* registers() override { return &card_; }
+    bool in_window(std::uint32_t offset) const override { return in_counts(offset, card_.settings().scales); }
     std::uint32_t bus_read(int, std::uint32_t address) override { return port_.read(address); }
     void bus_write(int, std::uint32_t address, std::uint32_t value) override { port_.write(address, static_cast<std::uint16_t>(value)); }
 
@@ -124,6 +128,7 @@ class DecoderCard final : public Member {
     sim::DeviceId device() const override { return decoder_.id(); }
     const CardMap& map() const override { return gb::decoder_map(); }
     sim::RegisterDevice* registers() override { return &decoder_; }
+    bool in_window(std::uint32_t offset) const override { return in_counts(offset, decoder_.settings().scales); }
     std::uint32_t bus_read(int, std::uint32_t address) override { return port_.read(address); }
     void bus_write(int, std::uint32_t address, std::uint32_t value) override { port_.write(address, static_cast<std::uint16_t>(value)); }
 

@@ -87,6 +87,7 @@ Result<Card*> Session::bus_of(std::string_view name, int bits, std::uint32_t add
                                 card->name(), card->map().name, fmt::join(widths, ", "), bits));
     const auto bytes = static_cast<std::uint32_t>(bits) / 8;
     const std::uint32_t base = card->bus_base();
+    if (!writing && address >= base && address % bytes == 0 && card->in_window(address - base)) return card;
     std::uint32_t first = ~0u, last = 0;
     for (const RegisterInfo& reg : card->map().registers) {
         if ((reg.access == Access::write) != writing) continue;
