@@ -227,6 +227,22 @@ TEST_F(Network, AFrozenSubscriberHoldsNobodyUp) {
     EXPECT_EQ(check_rows(rows("other")), 0);
 }
 
+TEST_F(Network, ARackOnOneMachineIsReadOnAnother) {
+    const std::string rack = (folder_ / "rack.toml").string();
+    std::ofstream(rack) << "[card.host]\ntype = \"grating_bus\"\nscales = 6\nperiod_us = 2000\n";
+    Child subscriber = network_->start(1, {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "stage", "--json", "--every", "0.02", "--scales", "6"});
+    Child publisher = network_->start(0, {MOTIONRACK_PROGRAM, "frames", "publish", rack, "--bus", "stage", "--json", "--fault", "host.off=1@1s",
+                                          "--fault", "host.off=0@2s", "--for", "3"});
+    ASSERT_TRUE(subscriber.wait_for([](const json& line) { return is_event(line, "joined"); })) << subscriber.said();
+    EXPECT_EQ(subscriber.last()["source"]["host"], "machine0");
+    EXPECT_TRUE(subscriber.wait_for([](const json& line) { return is_event(line, "stale"); })) << "the host is off: " << subscriber.said();
+    EXPECT_TRUE(subscriber.wait_for([](const json& line) { return line.value("stale", true) == false && line.value("time_s", 0.0) > 2; })) << subscriber.said();
+    EXPECT_EQ(subscriber.last()["positions"].size(), 6u);
+    EXPECT_EQ(count_in(subscriber.last(), "takeovers") + count_in(subscriber.last(), "restarts"), 0);
+    EXPECT_EQ(publisher.finish(), 0) << publisher.said();
+    EXPECT_GT(publisher.last().value("sent", 0), 500);
+}
+
 TEST_F(Network, SaysThatNoFrameCame) {
     Child subscriber = network_->start(0, {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "nobody", "--json", "--for", "0.1"});
     EXPECT_EQ(subscriber.finish(), 4);

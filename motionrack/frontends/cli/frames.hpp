@@ -38,6 +38,7 @@ std::string conflicts_text(const grating_bus::Bus& bus, std::size_t most);
 bool frames_agree(const rack::FrameWatch& watch);
 
 void add_frames_show(CLI::App& frames, Action& chosen);
+void add_frames_publish(CLI::App& frames, Action& chosen);
 void add_frames_subscribe(CLI::App& frames, Action& chosen);
 
 }  // namespace motionrack::cli

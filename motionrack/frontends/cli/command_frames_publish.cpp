@@ -1,0 +1,197 @@
+// frames publish: runs a rack in real time and publishes the frames of its grating bus for other computers.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <csignal>
+#include <memory>
+#include <motionrack/dds/clock.hpp>
+#include <motionrack/dds/publishing.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/frames.hpp>
+#include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/rack/fault_plan.hpp>
+#include <motionrack/rack/frame_tap.hpp>
+#include <motionrack/rack/job.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace motionrack::cli {
+
+namespace {
+
+std::atomic<bool> stop_asked{false};
+
+void on_interrupt(int) { stop_asked.store(true); }
+
+struct PublishOptions {
+    BusOptions bus;
+    std::string rack, program, card;
+    std::vector<std::string> faults;
+    double speed = 1, seconds = 0;
+    std::uint64_t count = 0;
+    bool json = false, quiet = false;
+};
+
+/// The frames of a rack's card.
+class RackFrames final : public dds::FrameSource {
+  public:
+    RackFrames(rack::FrameTap& tap, rack::FaultPlan& faults, Instant end) : tap_(tap), faults_(faults), end_(end) {}
+    Result<bool> next(dds::Frame& frame) override {
+        tap_.next(frame, [this] { faults_.apply_due(); });
+        return frame.instant() < end_;
+    }
+
+  private:
+    rack::FrameTap& tap_;
+    rack::FaultPlan& faults_;
+    Instant end_;
+};
+
+/// What the publisher did, and how well it kept its times.
+void tell(const dds::Publisher& publisher, const dds::Published& done, const PublishOptions& options) {
+    if (options.json) {
+        const nlohmann::ordered_json out = {{"bus", options.bus.name},      {"id", publisher.source().id_text()}, {"sent", publisher.sent()},
+                                            {"refused", publisher.refused()}, {"late", done.late},                  {"slips", done.slips},
+                                            {"worst_late_ms", to_seconds(done.worst) * 1e3}, {"foreign_frames", publisher.foreign_frames()}};
+        fmt::print("{}\n", out.dump());
+        return;
+    }
+    if (!options.quiet)
+        fmt::print("{} frames published on bus '{}', {} of them late, at worst by {:.3f} ms\n", publisher.sent(), options.bus.name, done.late,
+                   to_seconds(done.worst) * 1e3);
+    if (done.slips != 0)
+        print_warning(fmt::format("The rack was more than a second behind real time {} times and did not catch up: the computer is too slow for --speed {:g}.",
+                                  done.slips, options.speed));
+    if (publisher.refused() != 0) print_warning(fmt::format("{} frames were not taken by the network.", publisher.refused()));
+}
+
+/// Everything that runs while a rack publishes.
+struct Run {
+    const PublishOptions& options;
+    rack::Rack& rack;
+    rack::FrameTap& tap;
+    rack::FaultPlan& faults;
+    dds::Publisher& publisher;
+    dds::PublishingSettings settings;
+};
+
+/// Nothing moves but what moves by itself.
+Result<dds::Published> publish_standing(Run& run) {
+    run.rack.start();
+    run.faults.begin();
+    RackFrames source(run.tap, run.faults, run.options.seconds > 0 ? from_seconds(run.options.seconds) : never);
+    return publish_frames(run.publisher, source, run.settings);
+}
+
+/// The frames while a part program moves the rack's axes.
+Result<dds::Published> publish_program(Run& run, const ProgramText& program) {
+    dds::Publishing publishing(run.publisher, run.settings);
+    const Instant end = run.options.seconds > 0 ? from_seconds(run.options.seconds) : never;
+    bool enough = false;
+    rack::JobSettings job_settings;
+    job_settings.program = program.text;
+    job_settings.program_name = program.name;
+    job_settings.stop = &stop_asked;
+    dds::Frame frame;
+    job_settings.on_slice = [&] {
+        run.faults.apply_due();
+        if (enough || !run.tap.take(frame)) return;
+        enough = frame.instant() >= end || !publishing.put(frame);
+        if (enough) stop_asked.store(true);
+    };
+    rack::Job job(run.rack, job_settings);
+    run.rack.start();
+    run.faults.begin();
+    const rack::JobOutcome outcome = job.run();
+    // Enough frames end the program on its way, as asked.
+    const bool ended_here = enough && !publishing.outcome().stopped;
+    if (!outcome.ended && !(ended_here && outcome.ended.error().trouble == Trouble::stopped)) return tl::unexpected(outcome.ended.error());
+    return publishing.outcome();
+}
+
+int publish_rack(Run& run) {
+    const PublishOptions& options = run.options;
+    std::optional<ProgramText> program;
+    if (!options.program.empty()) {
+        auto loaded = load_program(options.program);
+        if (!loaded) return report(loaded.error());
+        const control::gcode::Settings settings = reader_settings(run.rack.config(), false);
+        if (const int bad = print_problems(control::gcode::check_program(loaded->text, settings, 20, loaded->name), loaded->name); bad != exit_done) return bad;
+        program = std::move(*loaded);
+    }
+    bool conflict = false;
+    const Instant start = dds::monotonic_now();
+    run.settings.report = [&](const dds::Event& event) {
+        conflict = conflict || event.kind == dds::EventKind::conflict;
+        if (options.json)
+            fmt::print("{}\n", event_json(event, start));
+        else
+            print_warning(dds::sentence(event));
+        std::fflush(stdout);
+    };
+    if (!options.json && !options.quiet)
+        fmt::print("bus {}: {}; {} positions every {:g} ms, Ctrl-C ends it\n", options.bus.name, run.publisher.source().text(),
+                   run.tap.card().settings().scales, to_seconds(run.settings.pace) * 1e3);
+    std::fflush(stdout);
+    const Result<dds::Published> done = program ? publish_program(run, *program) : publish_standing(run);
+    if (!done) return report(done.error());
+    tell(run.publisher, *done, options);
+    if (conflict) {
+        print_error("Another publisher was on the bus; listeners used only the frames of the one that they heard first.");
+        return exit_machine;
+    }
+    return done->stopped ? exit_stopped : exit_done;
+}
+
+int publish(const PublishOptions& options) {
+    if (!(options.speed >= 1e-6 && options.speed <= 1e3) || !(options.seconds >= 0 && options.seconds <= 1e8)) {
+        print_error(fmt::format("--speed is {:g} and --for {:g} s; they must be 1e-6 to 1000 and 0 to 1e8. Nothing was published.", options.speed, options.seconds));
+        return exit_usage;
+    }
+    if (const Result<void> done = use_config(options.bus); !done) return report(done.error());
+    int code = exit_done;
+    const auto config = load_rack(options.rack, code);
+    if (!config) return code;
+    rack::Rack rack(*config);
+    const auto tap = rack::FrameTap::create(rack, options.card);
+    if (!tap) return report(tap.error());
+    const auto faults = rack::FaultPlan::create(rack, options.faults);
+    if (!faults) return report(faults.error());
+    dds::PublishingSettings settings;
+    settings.speed = options.speed;
+    settings.pace = from_seconds(to_seconds((*tap)->period()) / options.speed);
+    settings.most = options.count;
+    settings.stop = &stop_asked;
+    const auto publisher = dds::Publisher::open({options.bus.name, options.bus.domain, (*tap)->period(), settings.pace});
+    if (!publisher) return report(publisher.error());
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    Run run{options, rack, **tap, **faults, **publisher, settings};
+    return publish_rack(run);
+}
+
+}  // namespace
+
+void add_frames_publish(CLI::App& frames, Action& chosen) {
+    auto options = std::make_shared<PublishOptions>();
+    CLI::App* command = frames.add_subcommand("publish", "Run a rack in real time and publish the frames of its grating bus");
+    command->add_option("RACK", options->rack, "rack file with a card of type grating_bus")->required();
+    command->add_option("PROGRAM", options->program, "part program that the rack's axes drive meanwhile; its end is the end");
+    add_bus_options(*command, options->bus);
+    command->add_option("--card", options->card, "the card whose frames are published (default: the bus' host)");
+    command->add_option("--speed", options->speed, "virtual seconds a second: 0.1 is ten times slower")->capture_default_str();
+    command->add_option("--count", options->count, "end after so many frames");
+    command->add_option("--for", options->seconds, "end after so many virtual seconds");
+    command->add_option("--fault", options->faults, "break something on the way, NAME=VALUE@TIME: host.off=1@2s")->allow_extra_args(false);
+    command->add_flag("--json", options->json, "print what is noticed, and the end, as lines of JSON");
+    command->add_flag("-q,--quiet", options->quiet, "print only what is wrong");
+    command->footer("Example: motionrack frames publish stage.toml --bus stage\n"
+                    "Example: motionrack frames publish stage.toml scan.ngc --bus stage --speed 0.1\n"
+                    "Ctrl-C ends it. Exit code 4: another publisher was on the bus.");
+    command->callback([options, &chosen] { chosen = [options] { return publish(*options); }; });
+}
+
+}  // namespace motionrack::cli
