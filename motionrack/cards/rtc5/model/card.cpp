@@ -7,14 +7,29 @@ namespace motionrack::rtc5 {
 namespace {
 
 /// Places of the pins in map::pins.
-enum Pin : int { enc0_a, enc0_b, enc1_a, enc1_b, start, stop, mcbsp_word, mcbsp_frame, laser_gate, head_x, head_y, busy, io };
+enum Pin : int {
+    enc0_a,
+    enc0_b,
+    enc1_a,
+    enc1_b,
+    start,
+    stop,
+    mcbsp_word,
+    mcbsp_frame,
+    laser_gate,
+    head_x,
+    head_y,
+    busy,
+    io
+};
 static_assert(map::pins[laser_gate].name == "laser" && map::pins[io].name == "io" && std::size(map::pins) == io + 1);
 
 constexpr Duration half_us = nanoseconds(500);
 
 }  // namespace
 
-Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& settings) : kernel_(kernel), engine_(settings) {
+Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& settings)
+    : kernel_(kernel), engine_(settings) {
     id_ = kernel.add(*this, sim::Phase::cards, name);
     lists_.bytes = std::as_writable_bytes(engine_.memory());
     inputs_.bytes = sim::bytes_of(lines_);
@@ -22,7 +37,8 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
     kernel.add(inputs_, sim::Phase::cards, name + ".lines");
     for (std::size_t i = 0; i < wires_.size(); ++i) {
         wires_[i] = kernel.add_wire(name + "." + std::string(map::pins[i].name), 0);
-        if (map::pins[i].direction == PinDirection::input && i != mcbsp_word) kernel.listen(wires_[i], id_, static_cast<int>(i));
+        if (map::pins[i].direction == PinDirection::input && i != mcbsp_word)
+            kernel.listen(wires_[i], id_, static_cast<int>(i));
     }
     for (const Pin pin : {head_x, head_y}) kernel.drive_lazily(wire(pin), id_, pin);
     kernel.schedule(id_, Instant{0});
@@ -62,7 +78,8 @@ void Card::sync(Instant now) {
 void Card::put_out() {
     Lines& l = lines_;
     std::int64_t done = 0;
-    for (; done < l.change_count && l.changes[static_cast<std::size_t>(done)] <= kernel_.now().count(); ++done) l.laser = !l.laser;
+    for (; done < l.change_count && l.changes[static_cast<std::size_t>(done)] <= kernel_.now().count(); ++done)
+        l.laser = !l.laser;
     if (done > 0) {
         std::copy(l.changes.begin() + done, l.changes.begin() + l.change_count, l.changes.begin());
         l.change_count -= done;
@@ -79,7 +96,8 @@ void Card::put_out() {
 void Card::plan(Instant now) {
     Instant next = lines_.change_count > 0 ? Instant{lines_.changes[0]} : never;
     const bool looked_at = kernel_.wanted(wire(head_x)) || kernel_.wanted(wire(head_y));
-    if (!engine_.at_rest() || (looked_at && engine_.state().fly.on())) next = std::min(next, (now / tick_time + 1) * tick_time);
+    if (!engine_.at_rest() || (looked_at && engine_.state().fly.on()))
+        next = std::min(next, (now / tick_time + 1) * tick_time);
     kernel_.schedule(id_, next);
 }
 
@@ -118,7 +136,8 @@ void Card::on_wire(int pin, int level, Instant now) {
 
 /// 00 - 01 - 11 - 10 (B A) counts up. Both lines at one instant are no step but an error.
 void Card::count_line(std::size_t encoder, std::int64_t bit, int level, Instant now) {
-    const std::int64_t before = lines_.levels[encoder], after = level != 0 ? before | 1 << bit : before & ~(std::int64_t{1} << bit);
+    const std::int64_t before = lines_.levels[encoder],
+                       after = level != 0 ? before | 1 << bit : before & ~(std::int64_t{1} << bit);
     if (before == after) return;
     lines_.levels[encoder] = after;
     const auto phase = [](std::int64_t l) { return l == 0 ? 0 : l == 1 ? 1 : l == 3 ? 2 : 3; };
@@ -143,7 +162,8 @@ void Card::tell() {
         for (std::int64_t bit = 0; bit < 32; ++bit)
             if (fresh >> bit & 1) report(CardCondition::flag_set, bit, s.flag_tick[static_cast<std::size_t>(bit)]);
     lines_.told_flags = s.marking_info;
-    if (s.lists.ended_unwritten > lines_.told_unwritten) report(CardCondition::unwritten_place, s.lists.current, s.tick - 1);
+    if (s.lists.ended_unwritten > lines_.told_unwritten)
+        report(CardCondition::unwritten_place, s.lists.current, s.tick - 1);
     lines_.told_unwritten = s.lists.ended_unwritten;
     const std::int64_t lost = s.startstop_info & startstop_bit("START_LOST");
     if (lost != 0 && lines_.told_lost == 0) report(CardCondition::start_lost, 0, s.tick - 1);

@@ -1,7 +1,8 @@
 // The RTC5 on the wires of a rack: Engine in virtual time.
 //
-//   enc0_a ─┐ enc0_b ─┐ ..   start ─┐ mcbsp_frame ─┐                    tick k is at k * 10 us; it sees what changed before that instant
-//   ────────▼─────────▼─────────────▼──────────────▼──┬──────────┬──    and puts x, y and the laser's changes of its 10 us out
+//   enc0_a ─┐ enc0_b ─┐ ..   start ─┐ mcbsp_frame ─┐                    tick k is at k * 10 us; it sees what changed
+//   before that instant ────────▼─────────▼─────────────▼──────────────▼──┬──────────┬──    and puts x, y and the
+//   laser's changes of its 10 us out
 //                                                   tick k    tick k+1
 //
 // While nothing moves and nobody wants x and y it does not act at all; ticks are worked off when somebody asks.
@@ -41,10 +42,11 @@ class Card final : public sim::Device, private Sink {
     };
     /// What the wires have done, and what the laser's wire has yet to do.
     struct Lines {
-        std::array<std::int64_t, encoder_count> levels{};      ///< A, B of an encoder as bits 0, 1
+        std::array<std::int64_t, encoder_count> levels{};  ///< A, B of an encoder as bits 0, 1
         std::array<std::int64_t, encoder_count> changed_at{-1, -1}, last_step{};
         std::int64_t change_count = 0;
-        std::array<std::int64_t, 2 * half_us_per_tick> changes{};  ///< ticks of the kernel; levels alternate from !laser
+        std::array<std::int64_t, 2 * half_us_per_tick>
+            changes{};  ///< ticks of the kernel; levels alternate from !laser
         std::int64_t laser = 0, told_unwritten = 0, told_flags = 0, told_lost = 0;
     };
 

@@ -11,10 +11,12 @@ namespace {
 std::string flag_sentence(std::int64_t number) {
     for (const BitInfo& bit : map::marking_info_bits)
         if (bit.bit == number)
-            return fmt::format("{}: {}. {}", bit.name, bit.meaning,
-                               number < 4 ? "The output is clipped to the field's edge, and the list goes on; the part runs too fast or the "
-                                            "drawing begins too late"
-                                          : "The list goes on");
+            return fmt::format(
+                "{}: {}. {}", bit.name, bit.meaning,
+                number < 4
+                    ? "The output is clipped to the field's edge, and the list goes on; the part runs too fast or the "
+                      "drawing begins too late"
+                    : "The list goes on");
     return fmt::format("bit {} of the marking info was set", number);
 }
 
@@ -26,7 +28,8 @@ std::string what_happened(const sim::Condition& c) {
             return "an external start was lost: a list was running, or eight starts were waiting";
         case CardCondition::unwritten_place:
             return fmt::format(
-                "the list ran into position {}, which nothing was put into, and ended; set_end_of_list is missing", c.a);
+                "the list ran into position {}, which nothing was put into, and ended; set_end_of_list is missing",
+                c.a);
     }
     return fmt::format("condition {} ({}, {})", c.code, c.a, c.b);
 }
@@ -34,7 +37,8 @@ std::string what_happened(const sim::Condition& c) {
 }  // namespace
 
 std::string describe(const sim::Condition& condition, std::string_view card) {
-    return fmt::format("card {}: at {:.5f} s {}", card, static_cast<double>(condition.b) * 1e-5, what_happened(condition));
+    return fmt::format("card {}: at {:.5f} s {}", card, static_cast<double>(condition.b) * 1e-5,
+                       what_happened(condition));
 }
 
 }  // namespace motionrack::rtc5

@@ -180,7 +180,11 @@ bool Engine::skip(std::int64_t limit) {
         if (n < 0) return false;
         if (n > limit) n = limit, over = false;
     }
-    if (s.fly.on() && !flags_cannot_change(a, n)) return false;
+    if (s.fly.on()) {
+        const std::optional<Extent> extent = steady_extent(a, n);
+        if (!extent) return false;
+        extent_.take(*extent);
+    }
     laser_until(s.tick + n);
     if (moves) s.p = position_of(a, a.done + n);
     if (moves || (a.kind == ActivityKind::hold && !s.lists.paused)) a.done += n;

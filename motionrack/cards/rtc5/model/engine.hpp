@@ -14,6 +14,7 @@
 #include <motionrack/cards/rtc5/model/kernels.hpp>
 #include <motionrack/cards/rtc5/model/settings.hpp>
 #include <motionrack/cards/rtc5/model/state.hpp>
+#include <optional>
 #include <string_view>
 
 namespace motionrack::rtc5 {
@@ -142,6 +143,10 @@ class Engine {
     /// x, y of head A in the last tick.
     const Output& output() const { return state_.output; }
     const State& state() const { return state_; }
+    /// How far the corrected position went (before clipping) while a correction was on, since clear_extent: whether a
+    /// job fits the field and by how much. No part of the state.
+    const Extent& extent() const { return extent_; }
+    void clear_extent() { extent_ = {}; }
     State& mutable_state() { return state_; }
     std::span<Command> memory() { return {memory_.get(), static_cast<std::size_t>(settings_.list_memory)}; }
     const Settings& settings() const { return settings_; }
@@ -239,7 +244,7 @@ class Engine {
     void keep_output(std::size_t n);
     void evaluate();
     const Table* table(std::int64_t number) const;
-    bool flags_cannot_change(const Activity& a, std::int64_t n) const;
+    std::optional<Extent> steady_extent(const Activity& a, std::int64_t n) const;
 
     // laser.cpp
     void switch_laser(std::int64_t half_us, bool on, std::int64_t tick);
@@ -263,7 +268,8 @@ class Engine {
     Sink* sink_ = nullptr;     // of the run
     std::int64_t filled_ = 0;  // the laser's samples are there up to this tick
     bool until_rest_ = false;  // the run ends when the card rests
-    bool evaluated_ = true;    // the output is that of the last tick
+    Extent extent_;
+    bool evaluated_ = true;  // the output is that of the last tick
 };
 
 }  // namespace motionrack::rtc5

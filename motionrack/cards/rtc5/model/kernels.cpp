@@ -79,7 +79,8 @@ void head_loop(const double* __restrict x, const double* __restrict y, std::int3
             const Pair u = (v + grid_zero) * (1 / grid_step);
             const int column = static_cast<int>(u[0]), row = static_cast<int>(u[1]);
             const double fx = u[0] - column, fy = u[1] - row;
-            const Table::Node *const low = table->nodes.data() + row * grid_side + column, *const high = low + grid_side;
+            const Table::Node *const low = table->nodes.data() + row * grid_side + column, *const high =
+                                                                                               low + grid_side;
             const Pair a = node(low[0]), c = node(high[0]);
             const Pair below = a + (node(low[1]) - a) * fx, above = c + (node(high[1]) - c) * fx;
             v = below + (above - below) * fy;

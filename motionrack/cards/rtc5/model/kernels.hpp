@@ -12,16 +12,13 @@ namespace motionrack::rtc5::kernels {
 /// Ticks of a block: what the arrays below have room for.
 inline constexpr std::size_t block = 512;
 
-struct Extent {
-    double least_x = 0, greatest_x = 0, least_y = 0, greatest_y = 0;
-};
-
 void line(double* x, double* y, std::size_t n, Point from, Point step, std::int64_t first);
 void hold(double* x, double* y, std::size_t n, Point p);
 void add_scaled(double* x, const double* counts, std::size_t n, double scale);
 void transform(double* x, double* y, std::size_t n, const Transform& t);
 Extent extent(const double* x, const double* y, std::size_t n);
-/// The last steps of a head: into the field of 20 bits, through the table (nullptr: none), gain * v + offset, rounded, clipped.
+/// The last steps of a head: into the field of 20 bits, through the table (nullptr: none), gain * v + offset, rounded,
+/// clipped.
 void head(const double* x, const double* y, std::int32_t* to_x, std::int32_t* to_y, std::size_t n, const Table* table,
           Point gain, Point offset);
 

@@ -72,7 +72,8 @@ void Engine::raise(std::uint32_t bits, std::int64_t tick) {
 
 void Engine::check_flags(std::size_t n) {
     const Scratch& b = *scratch_;
-    const kernels::Extent e = kernels::extent(b.x.data(), b.y.data(), n);
+    const Extent e = kernels::extent(b.x.data(), b.y.data(), n);
+    extent_.take(e);
     const auto& m = state_.limits;
     struct Bound {
         const Doubles* values;
@@ -130,7 +131,8 @@ void Engine::run_head(std::size_t number, std::size_t n) {
         kernels::transform(b.head_x.data(), b.head_y.data(), n, head.transform);
         x = b.head_x.data(), y = b.head_y.data();
     }
-    kernels::head(x, y, b.out[2 * number].data(), b.out[2 * number + 1].data(), n, table(head.table), head.gain, head.offset);
+    kernels::head(x, y, b.out[2 * number].data(), b.out[2 * number + 1].data(), n, table(head.table), head.gain,
+                  head.offset);
 }
 
 /// What the last of n ticks put out.
@@ -161,18 +163,18 @@ void Engine::evaluate() {
     keep_output(1);
 }
 
-/// Whether n ticks of the activity stay so far inside field and limits that no flag can be set: positions and counts
-/// are straight lines in time.
-bool Engine::flags_cannot_change(const Activity& a, std::int64_t n) const {
+/// Where n ticks of the activity are, if that is so far inside field and limits that no flag can be set: positions and
+/// counts are straight lines in time, and their ends say all.
+std::optional<Extent> Engine::steady_extent(const Activity& a, std::int64_t n) const {
     const Fly& f = state_.fly;
     const bool encoders = f.kind == FlyKind::encoder;
     if ((!encoders && f.kind != FlyKind::mcbsp) || f.z || a.kind == ActivityKind::arc || !state_.global.neutral ||
         inputs_ != nullptr)
-        return false;
+        return std::nullopt;
     for (const Encoder& e : state_.encoders)
         if (encoders && e.simulated && e.count() + simulated_counts * std::min<std::int64_t>(n, 1 << 29) > 2147483647)
-            return false;
-    if (n > 1 << 28) return false;
+            return std::nullopt;
+    if (n > 1 << 28) return std::nullopt;
     const bool moves = a.kind == ActivityKind::line && !state_.lists.paused;
     const auto inside = [&](double v, std::size_t axis) {
         const double least = std::max(field_least, static_cast<double>(state_.limits[2 * axis])) + 1;
@@ -187,13 +189,14 @@ bool Engine::flags_cannot_change(const Activity& a, std::int64_t n) const {
         const double each = e.simulated ? simulated_counts : 0;
         return e.count() + each * static_cast<double>(i) + each * static_cast<double>(state_.tracking_error[axis]);
     };
+    Extent out;
     for (const std::int64_t i : {std::int64_t{0}, std::min<std::int64_t>(1, n - 1), n - 1}) {
         const Point p = moves ? position_of(a, a.done + i + 1) : state_.p;
-        if (!inside(f.x ? p.x + f.scale_x * value(0, i) : p.x, 0) ||
-            !inside(f.y ? p.y + f.scale_y * value(1, i) : p.y, 1))
-            return false;
+        const Point q = {f.x ? p.x + f.scale_x * value(0, i) : p.x, f.y ? p.y + f.scale_y * value(1, i) : p.y};
+        if (!inside(q.x, 0) || !inside(q.y, 1)) return std::nullopt;
+        out.take({q.x, q.x, q.y, q.y});
     }
-    return true;
+    return out;
 }
 
 }  // namespace motionrack::rtc5

@@ -2,9 +2,11 @@
 // no padding that a snapshot's hash would see.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/cards/rtc5/map.hpp>
 
@@ -14,6 +16,18 @@ struct Point {
     double x = 0, y = 0;
     friend constexpr Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
     friend constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+};
+
+/// How far positions went; empty at first.
+struct Extent {
+    double least_x = std::numeric_limits<double>::infinity(), greatest_x = -std::numeric_limits<double>::infinity();
+    double least_y = std::numeric_limits<double>::infinity(), greatest_y = -std::numeric_limits<double>::infinity();
+
+    bool empty() const { return !(least_x <= greatest_x); }
+    void take(const Extent& e) {
+        least_x = std::min(least_x, e.least_x), greatest_x = std::max(greatest_x, e.greatest_x);
+        least_y = std::min(least_y, e.least_y), greatest_y = std::max(greatest_y, e.greatest_y);
+    }
 };
 
 /// Radians of a rotary correction: whole turns are left out, so that any count has an angle.

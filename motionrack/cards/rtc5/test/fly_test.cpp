@@ -283,6 +283,31 @@ TEST(Rtc5Fly, StoredEncodersAreReadAndSpeedIsSmoothed) {
     EXPECT_NEAR(rig.card.encoder_speed(), 1000, 1e-6);
 }
 
+TEST(Rtc5Fly, TheExtentSaysHowMuchRoomAJobLeavesWhetherOneLooksOrNot) {
+    const auto extent = [](double scale, bool looked_at) {
+        Rig rig;
+        EXPECT_TRUE(rig.card.simulate_encoder(1));
+        EXPECT_TRUE(rig.card.extent().empty());
+        rig.put(Op::set_fly_x, {scale});
+        rig.put(Op::set_mark_speed, {2592});
+        rig.put(Op::mark_abs, {0, -7000});
+        rig.put(Op::mark_abs, {20'000, 9000});
+        rig.put(Op::fly_return, {0, 0});
+        rig.put(Op::set_end_of_list);
+        EXPECT_TRUE(rig.card.execute_list(1));
+        EXPECT_TRUE(rig.card.run_to_rest(1'000'000, looked_at ? &rig : nullptr));
+        return rig.card.extent();
+    };
+    for (const double scale : {0.5, 100.0}) {
+        const Extent seen = extent(scale, true), unseen = extent(scale, false);
+        EXPECT_NEAR(seen.greatest_x, unseen.greatest_x, 1e-6);
+        EXPECT_NEAR(seen.least_y, unseen.least_y, 1e-6);
+        EXPECT_NEAR(seen.least_y, -7000, 1e-6);
+        EXPECT_EQ(seen.greatest_y, 9000);
+        EXPECT_EQ(seen.greatest_x > field_greatest, scale == 100.0);
+    }
+}
+
 TEST(Rtc5Fly, FlyReturnJumpsFromWhereTheCorrectionHadTheSpot) {
     Rig rig;
     ASSERT_TRUE(rig.card.simulate_encoder(1));
