@@ -87,6 +87,15 @@ TEST(Examples, TheCarriageInCppPrintsAndDrawsWhatItsPageShows) {
     std::filesystem::remove(picture);
 }
 
+TEST(Examples, TheStagePrintsAndDrawsWhatItsPageShows) {
+    const auto picture = std::filesystem::temp_directory_path() / "motionrack_stage_test.svg";
+    const Ran ran = run(examples / "13_stage", MOTIONRACK_STAGE_EXAMPLE " machine.toml '" + picture.string() + "'");
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.out, text_of(examples / "13_stage" / "expected.txt"));
+    EXPECT_EQ(text_of(picture), text_of(examples / "13_stage" / "stage.svg")) << "make it anew: example_stage machine.toml stage.svg";
+    std::filesystem::remove(picture);
+}
+
 TEST(Examples, ThePascalUnitRunsItsSourcesExampleAndCalibratesFourAxes) {
     const auto program = [](const char* name) {
         return std::string("LD_LIBRARY_PATH='" MOTIONRACK_C_LIBRARY_FOLDER "' '" MOTIONRACK_PASCAL_EXAMPLES "/") + name + "/" + name + "'";
