@@ -200,6 +200,60 @@ struct RackAxis {
 /// An axis of that letter with the rack file's defaults (positions 0 .. 300 mm or 0 .. 360 degrees).
 RackAxis default_axis(char letter);
 
+// ---- Stages -----------------------------------------------------------------------------------------------------
+
+/// The grating scale of a stage; see parts::LinearScaleSettings.
+struct RackScale {
+    double pitch_um = 20;                ///< 0.001 .. 1000 um, whole pm
+    std::int64_t interpolation = 4096;   ///< 4 .. 65,536, a multiple of 4: counts of a pitch
+    bool reversed = false;               ///< counts down where the stage goes up
+    double zero_mm = 0;                  ///< where it shows 0
+    double fastest_mhz = 20;             ///< 0.001 .. 1000 million counts a second
+    std::optional<double> index_mm;      ///< where the reference mark is
+    double dirt_at_mm = 0;               ///< where the dirt of the fault scale.dirt begins
+};
+
+/// Where a stage's servo brings it.
+enum class StageProfile : std::uint8_t { hold, scan, steps };
+
+/// The loop that the processor of a stage's card closes, and where it goes.
+struct RackStageServo {
+    double bandwidth_hz = 250;           ///< 1 .. 10,000 Hz: the open loop crosses 1
+    std::optional<double> p_v_um;        ///< gains; absent: they follow from the bandwidth
+    std::optional<double> i_v_um_s;
+    std::optional<double> d_v_s_um;
+    double limit_um = 100;               ///< 0 .. 1e6 um: a greater following error opens the loop; 0: none
+    double compute_us = 20;              ///< 0 .. 100,000 us from the frame to the voltage
+    StageProfile profile = StageProfile::hold;
+    double from_mm = 0, to_mm = 10;      ///< scan: it is at constant speed between
+    double step_mm = 1;                  ///< steps: not 0
+    std::int64_t steps = 4;              ///< steps: so many up, then as many down
+    double every_ms = 100;               ///< steps: at least as long as one takes
+    double speed_mm_s = 80;
+    double accel_mm_s2 = 8'000;
+    double jerk_mm_s3 = 1e6;
+    double delay_ms = 0;                 ///< the profile begins then
+};
+
+/// A linear motor stage with its scale, driven by a motion card's analog output; see parts::LinearStageSettings.
+struct RackStage {
+    std::string name;
+    std::string card;                    ///< of type grating_bus
+    std::int64_t output = 0;             ///< 0 .. 3: the card's analog output
+    std::int64_t input = 0;              ///< 0 .. 254: number of its scale at the decoder
+    double accel_per_volt_m_s2 = 5;
+    double top_accel_m_s2 = 50;
+    double top_speed_m_s = 2;
+    double viscous_per_s = 0;
+    double coulomb_m_s2 = 0;
+    double load = 0;
+    std::optional<double> start_mm;      ///< absent: where its servo's profile begins
+    double end_minus_mm = -1000;
+    double end_plus_mm = 1000;
+    RackScale scale;
+    std::optional<RackStageServo> servo; ///< absent: nobody drives it
+};
+
 // ---- Wires ------------------------------------------------------------------------------------------------------
 
 enum class EndOwner : std::uint8_t { card, axis, estop };
@@ -254,6 +308,7 @@ struct RackConfig {
     std::string name = "rack";
     std::vector<RackCard> cards;  ///< in the order of the file
     std::vector<RackAxis> axes;   ///< in the order X Y Z A B C
+    std::vector<RackStage> stages;  ///< in the order of the file
     std::vector<RackWire> wires;  ///< the default rule with the file's changes; sorted by `to`: cards, axes, pins
     std::vector<WireEnd> open;    ///< inputs of cards that the file leaves open; a contact's input is active then
     std::vector<PulseLink> pulse_links;  ///< follow from `wires`; an axis without one has a motor that nobody drives

@@ -22,6 +22,9 @@ std::span<const Field> motor_fields();       ///< [axis.X.motor] into RackMotor
 std::span<const Field> servo_fields();       ///< [axis.X.servo] into RackServo
 std::span<const Field> switch_fields();      ///< [axis.X.switches] into RackSwitches
 std::span<const Field> homing_fields();      ///< [axis.X.homing] into RackHoming
+std::span<const Field> stage_fields();       ///< [stage.NAME] into RackStage
+std::span<const Field> scale_fields();       ///< [stage.NAME.scale] into RackScale
+std::span<const Field> stage_servo_fields(); ///< [stage.NAME.servo] into RackStageServo
 std::span<const Field> controller_fields();  ///< [controller] into RackController
 
 /// An end of a wire at an axis' parts.
@@ -55,6 +58,12 @@ struct AxisSource {
 /// Checks what no single key can tell: axes against cards, positions against each other, speeds against chip and motor.
 /// `sources` goes with config.axes.
 void check_axes(const RackConfig& config, const std::vector<AxisSource>& sources, Problems& problems);
+
+/// Reads the sections [stage.NAME] into config.stages and checks them against the cards.
+void read_stages(const TomlNode& stages, RackConfig& config, Problems& problems);
+
+/// Whether wires, faults and reports can call something so: 1 to 32 letters, digits and '_', not beginning with a digit.
+bool is_name(std::string_view name);
 
 /// Sets the wires of `config`: the default rule, changed by the file's [wires] (may be nullptr); and their links.
 void resolve_wires(RackConfig& config, const TomlNode* wires, Problems& problems);

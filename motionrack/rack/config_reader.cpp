@@ -10,7 +10,7 @@
 namespace motionrack::rack {
 namespace {
 
-constexpr std::array<std::string_view, 5> top_level = {"rack", "card", "axis", "controller", "wires"};
+constexpr std::array<std::string_view, 6> top_level = {"rack", "card", "axis", "stage", "controller", "wires"};
 constexpr std::array<std::string_view, 4> axis_tables = {"motor", "servo", "switches", "homing"};
 
 class RackReader {
@@ -23,7 +23,7 @@ class RackReader {
             const std::string hint = problems_.wants_hints() ? did_you_mean(node.key, top_level) : std::string();
             problems_.error(node.key_place,
                             fmt::format("A rack file has no section {}{}", in_quotes(node.key),
-                                        hint.empty() ? ": it has rack, card, axis, controller, wires." : hint));
+                                        hint.empty() ? ": it has rack, card, axis, stage, controller, wires." : hint));
         }
         if (const TomlNode* node = table("rack"))
             read_fields(*node, rack_fields(), &config_, {"rack", "", "", {}}, problems_);
@@ -33,6 +33,7 @@ class RackReader {
         read_cards();
         read_axes();
         check_axes(config_, sources_, problems_);
+        if (const TomlNode* stages = table("stage")) read_stages(*stages, config_, problems_);
         resolve_wires(config_, table("wires"), problems_);
         return std::move(config_);
     }
@@ -132,9 +133,7 @@ class RackReader {
 
     void check_card_name(const TomlNode& node) {
         const std::string& name = node.key;
-        const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-        const auto allowed = [&](char c) { return letter(c) || (c >= '0' && c <= '9'); };
-        if (name.empty() || name.size() > 32 || !letter(name[0]) || !std::all_of(name.begin(), name.end(), allowed)) {
+        if (!is_name(name)) {
             problems_.error(node.key_place,
                             fmt::format("{} cannot be a card's name: 1 to 32 letters, digits and '_', not beginning "
                                         "with a digit.",

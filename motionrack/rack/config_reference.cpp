@@ -112,6 +112,14 @@ std::string rack_file_reference() {
            rows(switch_fields(), &linear.switches, &rotary.switches);
     out += "## [axis.NAME.homing]\nHow `motionrack home` finds the home switch.\n\n" +
            rows(homing_fields(), &linear.homing, &rotary.homing);
+    const RackStage stage;
+    const RackStageServo stage_servo;
+    out += "## [stage.NAME]\nA stage on a linear motor with a grating scale, driven by an analog output of a card of a grating bus.\n\n" +
+           rows(stage_fields(), &stage, &stage);
+    out += "## [stage.NAME.scale]\n" + rows(scale_fields(), &stage.scale, &stage.scale);
+    out += "## [stage.NAME.servo]\nWith the section, even an empty one, the card's processor closes a loop through the bus' frames and follows "
+           "the profile.\n\n" +
+           rows(stage_servo_fields(), &stage_servo, &stage_servo);
     out += "## [controller]\n" + rows(controller_fields(), &rack.controller, &rack.controller);
     out += wires_text();
     out += "## Card types\n\n";

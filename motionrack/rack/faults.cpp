@@ -20,10 +20,11 @@ constexpr std::array<std::string_view, 7> line_faults = {"encoder.inverted_a", "
 
 bool of_lines(std::string_view fault) { return std::find(line_faults.begin(), line_faults.end(), fault) != line_faults.end(); }
 
-/// A part that takes faults: an axis' machine or servo, or a card.
+/// A part that takes faults: an axis' machine or servo, a stage's motor or scale, or a card.
 struct Found {
     RunningAxis* axis = nullptr;
     Card* card = nullptr;
+    RunningStage* stage = nullptr;
     std::string_view name;
     double value = 1;
     bool of_servo() const { return axis != nullptr && axis->servo && name.substr(0, 6) == "motor."; }
@@ -44,6 +45,12 @@ bool has_part(const RunningAxis& axis, std::string_view fault) {
 
 std::vector<std::string_view> names_of(const Found& found) {
     if (found.axis != nullptr) return fault_names();
+    if (found.stage != nullptr) {
+        const auto motor = parts::LinearStage::fault_names(), scale = parts::LinearScale::fault_names();
+        std::vector<std::string_view> out(motor.begin(), motor.end());
+        out.insert(out.end(), scale.begin(), scale.end());
+        return out;
+    }
     const auto names = found.card->fault_names();
     return {names.begin(), names.end()};
 }
@@ -61,7 +68,11 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
         if (target == card->name()) found.card = card.get();
         add(card->name());
     }
-    if (found.axis == nullptr && found.card == nullptr)
+    for (RunningStage& stage : rack.stages()) {
+        if (target == stage.config.name) found.stage = &stage;
+        add(stage.config.name);
+    }
+    if (found.axis == nullptr && found.card == nullptr && found.stage == nullptr)
         return fail(Trouble::bad_input, fmt::format("{} has no faults to inject; these of this rack have: {}. Nothing was done.",
                                                     in_quotes(target), targets.empty() ? "there are none" : targets));
     const std::size_t equals = fault.find('=');
@@ -84,6 +95,13 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
     return found;
 }
 
+sim::DeviceId device_of(const Found& found) {
+    if (found.card != nullptr) return found.card->device();
+    if (found.stage != nullptr) return found.name.substr(0, 6) == "scale." ? found.stage->scale->id() : found.stage->motor->id();
+    if (found.of_servo()) return found.axis->servo->id();
+    return of_lines(found.name) ? found.axis->lines->id() : found.axis->machine->id();
+}
+
 }  // namespace
 
 std::vector<std::string_view> fault_names() {
@@ -103,18 +121,12 @@ Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view ta
 Result<void> inject_fault(Rack& rack, std::string_view fault, std::string_view target) {
     MOTIONRACK_TRY(const Found found, find(rack, fault, target));
     const Instant now = rack.kernel().now();
-    const sim::DeviceId device = found.card != nullptr         ? found.card->device()
-                                 : found.of_servo()            ? found.axis->servo->id()
-                                 : of_lines(found.name)        ? found.axis->lines->id()
-                                                               : found.axis->machine->id();
+    const sim::DeviceId device = device_of(found);
     const auto names = names_of(found);
     sim::Input input{now, sim::InputKind::fault, static_cast<std::uint16_t>(device), 0, 0, found.value};
     input.offset = static_cast<std::uint32_t>(std::find(names.begin(), names.end(), found.name) - names.begin());
     rack.input_log().add(input);
-    const bool known = found.card != nullptr ? found.card->fault(found.name, found.value, now)
-                       : found.of_servo()    ? found.axis->servo->fault(found.name, found.value, now)
-                       : of_lines(found.name) ? found.axis->lines->fault(found.name, found.value, now)
-                                             : found.axis->machine->fault(found.name, found.value, now);
+    const bool known = found.card != nullptr ? found.card->fault(found.name, found.value, now) : rack.kernel().device(device).fault(found.name, found.value, now);
     if (!known)
         return fail(Trouble::refused, fmt::format("{} cannot have the fault {} with the value {}. Nothing was done.", target, found.name, found.value));
     rack.kernel().settle();

@@ -57,6 +57,35 @@ constexpr std::array<Quantity, 13> table = {{
      [](const RunningAxis& axis) { return axis.servo != nullptr; }},
 }};
 
+constexpr double mm = 1e-6;  // a nm
+
+constexpr std::array<StageQuantity, 13> stage_table = {{
+    {"position_mm", "where the stage is", [](RunningStage& stage, Instant now) { return stage.motor->position_nm(now) * mm; }, false},
+    {"speed_mm_s", "its speed, signed", [](RunningStage& stage, Instant now) { return stage.motor->speed(now) * 1e3; }, false},
+    {"drive_v", "the voltage at its amplifier", [](RunningStage& stage, Instant) { return stage.motor->volts(); }, false},
+    {"scale_mm", "where its scale shows it", [](RunningStage& stage, Instant now) { return stage.config.scale.zero_mm + stage.scale->position_nm(now) * mm; }, false},
+    {"scale_counts", "what its scale has counted", [](RunningStage& stage, Instant now) { return static_cast<double>(stage.scale->count(now)); }, false},
+    {"lost_counts", "counts that its scale has lost", [](RunningStage& stage, Instant) { return static_cast<double>(stage.scale->lost()); }, false},
+    {"trusted", "1 while its scale has lost none, else 0", [](RunningStage& stage, Instant) { return stage.scale->trusted() ? 1.0 : 0.0; }, false},
+    {"closed", "1 while its loop is closed, else 0", [](RunningStage& stage, Instant) { return stage.loop()->closed() ? 1.0 : 0.0; }, true},
+    {"following_nm", "wanted - measured at the last frame", [](RunningStage& stage, Instant) { return stage.loop()->error().last_nm; }, true},
+    {"following_peak_nm", "the greatest of it so far, without its sign", [](RunningStage& stage, Instant) { return stage.loop()->error().peak_nm; }, true},
+    {"following_rms_nm", "its root mean square so far", [](RunningStage& stage, Instant) { return stage.loop()->error().rms_nm(); }, true},
+    {"wanted_mm", "where its profile wants it now", [](RunningStage& stage, Instant now) { return stage.wanted(to_seconds(now)).position_nm * mm; }, true},
+    {"unused_frames", "frames that its loop could not use", [](RunningStage& stage, Instant) { return static_cast<double>(stage.loop()->unused()); }, true},
+}};
+
+Result<double> stage_quantity(RunningStage& stage, std::string_view name, Instant now) {
+    std::vector<std::string_view> known;
+    for (const StageQuantity& quantity : stage_table) {
+        if (quantity.of_loop && stage.loop() == nullptr) continue;
+        if (quantity.name == name) return quantity.get(stage, now);
+        known.push_back(quantity.name);
+    }
+    return fail(Trouble::bad_input,
+                fmt::format("Stage {} has no quantity {}; it has: {}. Nothing was done.", stage.config.name, in_quotes(name), fmt::join(known, ", ")));
+}
+
 struct Found {
     RunningAxis* axis = nullptr;
     const Quantity* quantity = nullptr;
@@ -71,6 +100,7 @@ Result<Found> find(Rack& rack, std::string_view name) {
         if (part.size() == 1 && part[0] == axis.config.letter) found.axis = &axis;
         axes += (axes.empty() ? "" : ", ") + std::string(1, axis.config.letter);
     }
+    for (const RunningStage& stage : rack.stages()) axes += (axes.empty() ? "" : ", ") + stage.config.name;
     if (found.axis == nullptr || dot == std::string_view::npos)
         return fail(Trouble::bad_input, fmt::format("There is no quantity {}: write PART.QUANTITY, such as X.position_mm; the parts of "
                                                     "this rack are: {}. Nothing was done.",
@@ -91,6 +121,7 @@ Result<Found> find(Rack& rack, std::string_view name) {
 }  // namespace
 
 std::span<const Quantity> quantities() { return table; }
+std::span<const StageQuantity> stage_quantities() { return stage_table; }
 
 Result<double> get_quantity(Rack& rack, std::string_view name) {
     const std::size_t dot = std::min(name.find('.'), name.size());
@@ -101,6 +132,8 @@ Result<double> get_quantity(Rack& rack, std::string_view name) {
                     fmt::format("Card {} has no quantity {}{}. Nothing was done.", card->name(), in_quotes(name.substr(dot + 1)),
                                 known.empty() ? "" : fmt::format("; it has: {}", fmt::join(known, ", "))));
     }
+    if (RunningStage* stage = rack.stage(name.substr(0, dot)); stage != nullptr && dot < name.size())
+        return stage_quantity(*stage, name.substr(dot + 1), rack.kernel().now());
     MOTIONRACK_TRY(const Found found, find(rack, name));
     return found.quantity->get(*found.axis, rack.kernel().now());
 }

@@ -20,6 +20,15 @@ struct Quantity {
 };
 std::span<const Quantity> quantities();
 
+/// The same of a stage.
+struct StageQuantity {
+    std::string_view name;
+    std::string_view doc;
+    double (*get)(RunningStage& stage, Instant now);
+    bool of_loop;  ///< only of a stage whose loop somebody closes
+};
+std::span<const StageQuantity> stage_quantities();
+
 /// Errors: bad_input if there is no such part or quantity, with the ones that there are.
 Result<double> get_quantity(Rack& rack, std::string_view part_dot_quantity);
 

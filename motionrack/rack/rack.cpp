@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/grating_card.hpp>
 #include <motionrack/rack/rack.hpp>
 
 namespace motionrack::rack {
@@ -13,6 +14,7 @@ Rack::Rack(const RackConfig& config) : config_(config) {
     build_axes();
     join_links();
     build_wires();
+    build_stages();
 }
 
 Rack::~Rack() = default;
@@ -20,6 +22,12 @@ Rack::~Rack() = default;
 Card* Rack::card(std::string_view name) {
     for (const auto& card : cards_)
         if (card->name() == name) return card.get();
+    return nullptr;
+}
+
+RunningStage* Rack::stage(std::string_view name) {
+    for (RunningStage& stage : stages_)
+        if (stage.config.name == name) return &stage;
     return nullptr;
 }
 
@@ -141,6 +149,31 @@ void Rack::build_wires() {
         if (is_contact(input)) junctions_->join(no_current, kernel_.find_wire(wire_name(input)), true);
 }
 
+CardProcessor& Rack::processor_of(const std::string& card) {
+    for (const auto& [name, processor] : processors_)
+        if (name == card) return *processor;
+    grating_bus::Card* found = grating_card_of(*this, card);
+    MOTIONRACK_ASSERT(found != nullptr);  // read_rack has looked
+    return *processors_.emplace_back(card, std::make_unique<CardProcessor>(kernel_, card + ".processor", *found)).second;
+}
+
+void Rack::build_stages() {
+    for (const RackStage& config : config_.stages) {
+        RunningStage stage;
+        stage.config = config;
+        stage.motor = std::make_unique<parts::LinearStage>(kernel_, config.name, motor_settings(config));
+        stage.scale = std::make_unique<parts::LinearScale>(kernel_, config.name + ".scale", *stage.motor, scale_settings(config));
+        grating_bus_of(*this)->decoders()[0]->connect(static_cast<int>(config.input), stage.scale.get());
+        junctions_->join(kernel_.find_wire(fmt::format("{}.vout{}", config.card, config.output)), stage.motor->drive_wire(), false);
+        if (config.servo) {
+            stage.processor = &processor_of(config.card);
+            stage.processor->add(static_cast<int>(config.output), StagePlan(config), loop_settings(config, config_.card(config.card)->grating_bus.first),
+                                 from_seconds(config.servo->compute_us * 1e-6), stage.scale->count(Instant{0}));
+        }
+        stages_.push_back(std::move(stage));
+    }
+}
+
 /// The wire of an output. The tracks of an encoder are made as wires where the first card asks for them.
 sim::WireId Rack::output_wire(const WireEnd& end) {
     if (end.owner != EndOwner::axis || (end.pin != "enc_a" && end.pin != "enc_b")) return kernel_.find_wire(wire_name(end));
@@ -213,6 +246,8 @@ std::string Rack::describe(const sim::Condition& condition) {
                            kernel_.wire_name(static_cast<sim::WireId>(condition.a)), to_seconds(condition.at), condition.b);
     for (const RunningAxis& axis : axes_)
         if (axis.machine->id() == condition.device || (axis.servo && axis.servo->id() == condition.device)) return parts::describe(condition, kernel_.device_name(condition.device));
+    for (const RunningStage& stage : stages_)
+        if (stage.motor->id() == condition.device || stage.scale->id() == condition.device) return parts::describe(condition, stage.config.name);
     for (const auto& card : cards_)
         if (card->speaks_for(condition.device)) return card->describe(condition);
     return fmt::format("{}: condition {} ({}, {})", kernel_.device_name(condition.device), condition.code, condition.a, condition.b);

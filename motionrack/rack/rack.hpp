@@ -4,6 +4,7 @@
 //                       │        └─volts─► servos ──┘   ▲
 //                       ▲   wires (junctions) ◄── switches, cams, index, emergency stop
 //                       └── VirtualPort ◄── driver ◄── axes ◄── controller
+//   grating bus: cards ──frames──► processors ──volts──► stages ──scales──► decoder
 #pragma once
 
 #include <functional>
@@ -13,6 +14,7 @@
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/motions.hpp>
+#include <motionrack/rack/stage.hpp>
 #include <motionrack/sim/input_log.hpp>
 #include <motionrack/sim/junction.hpp>
 #include <motionrack/sim/kernel.hpp>
@@ -56,6 +58,9 @@ class Rack {
     const std::vector<std::unique_ptr<Card>>& cards() const { return cards_; }
     Card* card(std::string_view name);
     std::vector<RunningAxis>& axes() { return axes_; }
+    std::vector<RunningStage>& stages() { return stages_; }
+    /// nullptr if there is no such stage.
+    RunningStage* stage(std::string_view name);
     sim::InputLog& input_log() { return log_; }
 
     /// No more parts: virtual time can run.
@@ -77,6 +82,8 @@ class Rack {
     void build_cards();
     void build_axes();
     void build_axis(const RackAxis& axis);
+    void build_stages();
+    CardProcessor& processor_of(const std::string& card);
     void join_links();
     void build_wires();
     std::string wire_name(const WireEnd& end) const;
@@ -88,6 +95,8 @@ class Rack {
     sim::InputLog log_;
     std::vector<std::unique_ptr<Card>> cards_;
     std::vector<RunningAxis> axes_;
+    std::vector<RunningStage> stages_;
+    std::vector<std::pair<std::string, std::unique_ptr<CardProcessor>>> processors_;  // by their cards' names
     StillMotion still_;  // what turns a motor whose step input is open
     std::vector<std::unique_ptr<MirroredMotion>> mirrored_;
     std::unique_ptr<sim::Junctions> junctions_;

@@ -4,6 +4,7 @@
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/cards/grating_bus/processor/servo_loop.hpp>
+#include <type_traits>
 
 namespace motionrack::grating_bus {
 
@@ -24,6 +25,8 @@ double FollowingError::rms_nm() const {
 }
 
 ServoLoop::ServoLoop(const ServoSettings& settings) : settings_(settings) {
+    static_assert(std::is_trivially_copyable_v<ServoLoop> && sizeof(ServoLoop) == sizeof(ServoSettings) + sizeof(FollowingError) + 8 * 7,
+                  "padding would get into the hash of what holds it");
     MOTIONRACK_ASSERT(settings.word < most_scales && settings.nm_per_count != 0);
     MOTIONRACK_ASSERT(settings.limit_v > 0 && settings.limit_i_v >= 0 && settings.limit_nm >= 0);
 }
@@ -32,11 +35,11 @@ void ServoLoop::close(std::int64_t count) {
     count_ = count;
     integral_ = volts_ = 0;
     state_ = LoopState::closed;
-    begun_ = false;
+    begun_ = 0;
 }
 
 bool ServoLoop::usable(const Frame& frame) const {
-    return sound(frame) && settings_.word < frame.words && (!begun_ || frame.instant() > last_);
+    return sound(frame) && settings_.word < frame.words && (begun_ == 0 || frame.instant() > last_);
 }
 
 double ServoLoop::on_frame(const Frame& frame, const Setpoint& wanted) {
@@ -47,8 +50,8 @@ double ServoLoop::on_frame(const Frame& frame, const Setpoint& wanted) {
     }
     count_ = unwrapped(count_, frame.counts[settings_.word]);
     const double error = wanted.position_nm - position_nm();
-    const double seconds = begun_ ? to_seconds(frame.instant() - last_) : 0;
-    const double slope = begun_ ? (error - before_) / seconds : 0;
+    const double seconds = begun_ != 0 ? to_seconds(frame.instant() - last_) : 0;
+    const double slope = begun_ != 0 ? (error - before_) / seconds : 0;
     const ServoGains& g = settings_.gains;
     const double rest = g.p * error + g.d * slope + g.speed_ff * wanted.speed_nm_s + g.accel_ff * wanted.accel_nm_s2;
     // At the output's limit the integral part would only wind up.
@@ -57,7 +60,7 @@ double ServoLoop::on_frame(const Frame& frame, const Setpoint& wanted) {
     const double volts = rest + integral_;
     volts_ = std::clamp(volts, -settings_.limit_v, settings_.limit_v);
     last_ = frame.instant();
-    begun_ = true;
+    begun_ = 1;
     before_ = error;
     error_.last_nm = error;
     error_.peak_nm = std::max(error_.peak_nm, std::fabs(error));

@@ -29,15 +29,16 @@ struct ServoGains {
 ServoGains tuned(double bandwidth_hz, double accel_per_volt, double viscous = 0);
 
 struct ServoSettings {
-    std::uint32_t word = 0;     ///< of the frame, 0 .. 254
+    std::uint64_t word = 0;     ///< of the frame, 0 .. 254
     double nm_per_count = 1;    ///< not 0; negative: the scale counts the other way
+    double zero_nm = 0;         ///< where the scale's count is 0
     ServoGains gains;
     double limit_v = 10;        ///< > 0: of the output
     double limit_i_v = 5;       ///< >= 0: of the integral part
     double limit_nm = 0;        ///< >= 0: a greater following error opens the loop; 0: none does
 };
 
-enum class LoopState : std::uint8_t {
+enum class LoopState : std::uint32_t {
     not_begun,  ///< close() was not called
     closed,
     stale,      ///< opened: no frame came in time
@@ -53,8 +54,10 @@ struct FollowingError {
     double rms_nm() const;
 };
 
+/// Trivially copyable: a copy goes on like the original.
 class ServoLoop {
   public:
+    ServoLoop() : ServoLoop(ServoSettings{}) {}
     explicit ServoLoop(const ServoSettings& settings);
 
     /// The position is trusted from now on: the next frame's count is the one next to `count` (64 bits, of the scale). Closes the loop.
@@ -68,7 +71,7 @@ class ServoLoop {
     LoopState state() const { return state_; }
     double volts() const { return volts_; }
     /// As measured by the last frame.
-    double position_nm() const { return static_cast<double>(count_) * settings_.nm_per_count; }
+    double position_nm() const { return settings_.zero_nm + static_cast<double>(count_) * settings_.nm_per_count; }
     std::int64_t count() const { return count_; }
     const FollowingError& error() const { return error_; }
     void reset_error() { error_ = {}; }
@@ -88,7 +91,7 @@ class ServoLoop {
     double volts_ = 0;
     Instant last_{};       // of the last frame used
     LoopState state_ = LoopState::not_begun;
-    bool begun_ = false;   // a frame was used since close()
+    std::uint32_t begun_ = 0;  // a frame was used since close()
     std::uint64_t unused_ = 0;
 };
 

@@ -1,0 +1,93 @@
+// The linear stages of a rack: motor and scale of each, and what runs on the processors of the motion cards that close their loops.
+//
+//   card ──frames──► CardProcessor: loops, one an output ──NAME.voutN──► stage ──► scale ──► decoder
+#pragma once
+
+#include <array>
+#include <memory>
+#include <motionrack/cards/grating_bus/model/card.hpp>
+#include <motionrack/cards/grating_bus/processor/profile.hpp>
+#include <motionrack/cards/grating_bus/processor/servo_loop.hpp>
+#include <motionrack/rack/config.hpp>
+#include <motionrack/sim/parts/linear_scale.hpp>
+#include <motionrack/sim/parts/linear_stage.hpp>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace motionrack::rack {
+
+/// Where a stage is to be, as its servo's keys say.
+class StagePlan {
+  public:
+    StagePlan() = default;
+    /// The servo must be sound (see stage_flaw).
+    explicit StagePlan(const RackStage& stage);
+    grating_bus::Setpoint at(double seconds) const;
+    /// Where it is before it begins.
+    double start_nm() const { return at(-1).position_nm; }
+
+  private:
+    struct Hold {
+        double place_nm = 0;
+        grating_bus::Setpoint at(double) const { return {place_nm, 0, 0}; }
+    };
+    std::variant<Hold, grating_bus::ScanProfile, grating_bus::StepProfile> profile_;
+    double delay_s_ = 0;
+};
+
+/// The loops of one card: at each frame the voltages for its outputs, some time later; two periods without a frame: 0 V. Its time is the
+/// frames' sequence, for a card knows no clock but the pulses that it counts.
+class CardProcessor final : public sim::Device, private grating_bus::FrameListener {
+  public:
+    CardProcessor(sim::Kernel& kernel, const std::string& name, grating_bus::Card& card);
+
+    /// Before the kernel starts. `count`: of the scale, now. The loop is closed from the first frame on.
+    void add(int output, const StagePlan& plan, const grating_bus::ServoSettings& settings, Duration compute, std::int64_t count);
+    grating_bus::ServoLoop& loop(int output) { return state_.loops[static_cast<std::size_t>(output)]; }
+    const StagePlan& plan(int output) const { return plans_[static_cast<std::size_t>(output)]; }
+
+    void act(Instant now) override;
+    std::span<std::byte> state() override { return sim::bytes_of(state_); }
+
+  private:
+    struct State {
+        std::array<grating_bus::ServoLoop, grating_bus::output_count> loops;
+        std::array<Instant, grating_bus::output_count> put_out{never, never, never, never};
+        Instant stale_at{};
+    };
+
+    void published(const grating_bus::Card& card, const grating_bus::Frame& frame, Instant now) override;
+    void schedule();
+
+    sim::Kernel& kernel_;
+    grating_bus::Card& card_;
+    sim::DeviceId id_{};
+    std::array<StagePlan, grating_bus::output_count> plans_{};
+    std::array<Duration, grating_bus::output_count> compute_{};
+    std::array<bool, grating_bus::output_count> used_{};
+    State state_{};
+};
+
+/// One stage of the running machine.
+struct RunningStage {
+    RackStage config;
+    std::unique_ptr<parts::LinearStage> motor;
+    std::unique_ptr<parts::LinearScale> scale;
+    CardProcessor* processor = nullptr;  ///< nullptr: nobody closes its loop
+
+    /// nullptr if nobody closes it.
+    grating_bus::ServoLoop* loop() const { return processor ? &processor->loop(static_cast<int>(config.output)) : nullptr; }
+    /// Where it is to be; nothing sensible without a loop.
+    grating_bus::Setpoint wanted(double seconds) const { return processor->plan(static_cast<int>(config.output)).at(seconds); }
+};
+
+parts::LinearStageSettings motor_settings(const RackStage& stage);
+parts::LinearScaleSettings scale_settings(const RackStage& stage);
+/// Of a card whose first scale is `first`.
+grating_bus::ServoSettings loop_settings(const RackStage& stage, std::int64_t first);
+/// What of a stage's profile cannot be; empty if it can.
+std::string profile_flaw(const RackStage& stage);
+
+}  // namespace motionrack::rack
