@@ -35,7 +35,7 @@ std::string profile_flaw(const RackStage& stage) {
     return {};
 }
 
-StagePlan::StagePlan(const RackStage& stage) : profile_(Hold{stage.start_mm.value_or(0) * nm_per_mm}) {
+StagePlan::StagePlan(const RackStage& stage) : profile_(gb::HoldProfile{stage.start_mm.value_or(0) * nm_per_mm}) {
     if (!stage.servo) return;
     const RackStageServo& s = *stage.servo;
     delay_s_ = s.delay_ms * 1e-3;

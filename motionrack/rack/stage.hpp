@@ -29,11 +29,7 @@ class StagePlan {
     double start_nm() const { return at(-1).position_nm; }
 
   private:
-    struct Hold {
-        double place_nm = 0;
-        grating_bus::Setpoint at(double) const { return {place_nm, 0, 0}; }
-    };
-    std::variant<Hold, grating_bus::ScanProfile, grating_bus::StepProfile> profile_;
+    std::variant<grating_bus::HoldProfile, grating_bus::ScanProfile, grating_bus::StepProfile> profile_;
     double delay_s_ = 0;
 };
 

@@ -54,6 +54,12 @@ class SpeedChange {
     double accel_s_ = 0;  // with the greatest acceleration
 };
 
+/// Stands.
+struct HoldProfile {
+    double place_nm = 0;
+    Setpoint at(double) const { return {place_nm, 0, 0}; }
+};
+
 /// From standstill to a constant speed between two places, and to and fro between them with turns outside.
 class ScanProfile {
   public:
