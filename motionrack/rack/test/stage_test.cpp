@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/grating_card.hpp>
 #include <motionrack/rack/quantities.hpp>
@@ -89,6 +90,15 @@ TEST(StageSections, SayWhatDoesNotFit) {
     std::string beyond = cards;
     beyond.replace(beyond.rfind("scales = 3"), 10, "scales = 3\nfirst = 0");
     EXPECT_EQ(first_error(beyond), "none");
+}
+
+TEST(StageSections, AreOnTheReferencePage) {
+    const std::string page = rack_file_reference();
+    for (const std::span<const Field> fields : {stage_fields(), scale_fields(), stage_servo_fields()})
+        for (const Field& field : fields) {
+            EXPECT_THAT(page, HasSubstr('`' + std::string(field.key) + '`'));
+            EXPECT_THAT(page, HasSubstr(std::string(field.doc)));
+        }
 }
 
 struct Running {
