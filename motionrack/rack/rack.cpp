@@ -247,6 +247,8 @@ std::string Rack::describe(const sim::Condition& condition) {
     for (const RunningAxis& axis : axes_)
         if (axis.machine->id() == condition.device || (axis.servo && axis.servo->id() == condition.device)) return parts::describe(condition, kernel_.device_name(condition.device));
     for (const RunningStage& stage : stages_)
+        if (stage.processor != nullptr && stage.processor->id() == condition.device && stage.config.output == condition.a) return describe_loop(condition, stage.config);
+    for (const RunningStage& stage : stages_)
         if (stage.motor->id() == condition.device || stage.scale->id() == condition.device) return parts::describe(condition, stage.config.name);
     for (const auto& card : cards_)
         if (card->speaks_for(condition.device)) return card->describe(condition);

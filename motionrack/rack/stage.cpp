@@ -114,7 +114,9 @@ void CardProcessor::published(const gb::Card&, const gb::Frame& frame, Instant n
     const double period = to_seconds(card_.settings().period), seconds = frame.sequence * period;
     for (std::size_t n = 0; n < plans_.size(); ++n) {
         if (!used_[n]) continue;
+        const bool closed = state_.loops[n].closed();
         state_.loops[n].on_frame(frame, gb::wanted_at(plans_[n], seconds, period));
+        if (closed && !state_.loops[n].closed()) report_open(n);
         state_.put_out[n] = now + compute_[n];
     }
     state_.stale_at = now + 2 * card_.settings().period;
@@ -123,7 +125,11 @@ void CardProcessor::published(const gb::Card&, const gb::Frame& frame, Instant n
 
 void CardProcessor::act(Instant now) {
     if (now >= state_.stale_at) {
-        for (gb::ServoLoop& loop : state_.loops) loop.on_stale();
+        for (std::size_t n = 0; n < plans_.size(); ++n) {
+            const bool closed = state_.loops[n].closed();
+            state_.loops[n].on_stale();
+            if (closed) report_open(n);
+        }
         state_.put_out.fill(now);
         state_.stale_at = never;
     }
@@ -133,6 +139,21 @@ void CardProcessor::act(Instant now) {
         if (used_[n]) card_.put_out(static_cast<int>(n), static_cast<int>(std::floor(state_.loops[n].volts() * 1e6 + 0.5)));
     }
     schedule();
+}
+
+void CardProcessor::report_open(std::size_t n) {
+    const gb::ServoLoop& loop = state_.loops[n];
+    const LoopCondition code = loop.state() == gb::LoopState::stale ? LoopCondition::stale : LoopCondition::too_far;
+    kernel_.report(id_, static_cast<std::uint16_t>(code), static_cast<std::int64_t>(n), static_cast<std::int64_t>(loop.error().last_nm));
+}
+
+std::string describe_loop(const sim::Condition& condition, const RackStage& stage) {
+    const double at = to_seconds(condition.at);
+    if (static_cast<LoopCondition>(condition.code) == LoopCondition::stale)
+        return fmt::format("stage {}: at {:.6f} s card {} had no frame for two periods and opened its loop: 0 V, its position is not trusted", stage.name, at,
+                           stage.card);
+    return fmt::format("stage {}: at {:.6f} s it was {} nm from where it was to be, more than limit_um = {}; card {} opened its loop: 0 V", stage.name, at,
+                       condition.b, number_text(stage.servo->limit_um), stage.card);
 }
 
 void CardProcessor::schedule() {

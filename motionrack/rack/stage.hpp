@@ -33,6 +33,9 @@ class StagePlan {
     double delay_s_ = 0;
 };
 
+/// What a processor reports; a: number of the output, b: the following error in nm.
+enum class LoopCondition : std::uint16_t { stale = 1, too_far = 2 };
+
 /// The loops of one card: at each frame the voltages for its outputs, some time later; two periods without a frame: 0 V. Its time is the
 /// frames' sequence, for a card knows no clock but the pulses that it counts.
 class CardProcessor final : public sim::Device, private grating_bus::FrameListener {
@@ -42,6 +45,7 @@ class CardProcessor final : public sim::Device, private grating_bus::FrameListen
     /// Before the kernel starts. `count`: of the scale, now. The loop is closed from the first frame on.
     void add(int output, const StagePlan& plan, const grating_bus::ServoSettings& settings, Duration compute, std::int64_t count);
     grating_bus::ServoLoop& loop(int output) { return state_.loops[static_cast<std::size_t>(output)]; }
+    sim::DeviceId id() const { return id_; }
     const StagePlan& plan(int output) const { return plans_[static_cast<std::size_t>(output)]; }
 
     void act(Instant now) override;
@@ -55,6 +59,8 @@ class CardProcessor final : public sim::Device, private grating_bus::FrameListen
     };
 
     void published(const grating_bus::Card& card, const grating_bus::Frame& frame, Instant now) override;
+    /// Output `n` has no longer a closed loop.
+    void report_open(std::size_t n);
     void schedule();
 
     sim::Kernel& kernel_;
@@ -83,6 +89,8 @@ parts::LinearStageSettings motor_settings(const RackStage& stage);
 parts::LinearScaleSettings scale_settings(const RackStage& stage);
 /// Of a card whose first scale is `first`.
 grating_bus::ServoSettings loop_settings(const RackStage& stage, std::int64_t first);
+/// "stage step_x: at 0.1 s its loop was opened ..." `stage`: the one at the output.
+std::string describe_loop(const sim::Condition& condition, const RackStage& stage);
 /// What of a stage's profile cannot be; empty if it can.
 std::string profile_flaw(const RackStage& stage);
 

@@ -148,7 +148,9 @@ TEST(RunningStages, FaultsOfMotorAndScaleOpenTheLoop) {
     EXPECT_NEAR(r.get("table.position_mm"), 9, 1e-6);
     const auto conditions = r.rack.kernel().conditions();
     ASSERT_FALSE(conditions.empty());
-    EXPECT_THAT(r.rack.describe(conditions.back()), HasSubstr("scale mask: at 0.100000 s it counts again and has lost 100000 counts"));
+    ASSERT_EQ(conditions.size(), 2u);
+    EXPECT_THAT(r.rack.describe(conditions[0]), HasSubstr("scale mask: at 0.100000 s it counts again and has lost 100000 counts"));
+    EXPECT_THAT(r.rack.describe(conditions[1]), HasSubstr("nm from where it was to be, more than limit_um = 100; card second opened its loop: 0 V"));
     EXPECT_FALSE(inject_fault(r.rack, "motor.load=-1", "table"));
 }
 
@@ -159,6 +161,9 @@ TEST(RunningStages, NoFramesForTwoPeriodsOpenTheLoops) {
     r.run(0.001);
     EXPECT_EQ(r.get("mask.closed"), 0);
     EXPECT_EQ(r.rack.stage("mask")->loop()->state(), grating_bus::LoopState::stale);
+    std::string told;
+    for (const sim::Condition& condition : r.rack.kernel().conditions()) told += r.rack.describe(condition) + "\n";
+    EXPECT_THAT(told, HasSubstr("card second had no frame for two periods and opened its loop"));
     EXPECT_EQ(r.get("mask.drive_v"), 0);
 }
 
