@@ -245,12 +245,12 @@ constexpr auto grating_decoder_pins = [] {
     return out;
 }();
 
-constexpr std::array<std::string_view, 3> grating_roles = {"first is host", "host", "slave"};
+constexpr std::array<std::string_view, 4> grating_roles = {"first is host", "host", "slave", "remote"};
 constexpr std::array<std::string_view, 3> shifter_ways = {"as role", "out", "in"};
 
 constexpr std::array<Field, 14> grating_bus_settings = {
     with_choices(field<&GratingBusSettings::role>("role", 0, 0, "", "the host gives clock and addresses, slaves only listen; the first card of the rack "
-                                                                    "is the host unless it is said"), grating_roles),
+                                                                    "is the host unless it is said; a remote one listens to a bus on another computer (motionrack frames feed)"), grating_roles),
     field<&GratingBusSettings::scales>("scales", 1, 255, "", "scales of a frame"),
     field<&GratingBusSettings::first>("first", 0, 254, "", "address of the first scale"),
     field<&GratingBusSettings::t1_ns>("t1_ns", 0.1, 6'000, "ns", "wait until the decoder has latched"),

@@ -64,7 +64,7 @@ struct Ioflex02Settings {
 };
 
 /// What a card of a grating bus is: the first one of a rack is the host unless it is said.
-enum class GratingRole : std::uint8_t { first_is_host, host, slave };
+enum class GratingRole : std::uint8_t { first_is_host, host, slave, remote };
 /// Which way a level shifter of such a card works.
 enum class GratingShifter : std::uint8_t { as_role, out, in };
 

@@ -31,6 +31,7 @@ void FrameWatch::published(const gb::Card& card, const gb::Frame& frame, Instant
     ++published_;
     Watched& own = watched(card);
     ++own.frames;
+    if (card.is_remote()) return;  // another crate's scales, and its time
     own.untrue += !std::equal(frame.positions().begin(), frame.positions().end(), own.truth.begin());
     const Duration apart = frame.instant() - first_.instant();
     if (first_.words == 0 || apart > card.settings().period / 2 || apart < -card.settings().period / 2)
@@ -45,17 +46,17 @@ std::vector<FrameRow> FrameWatch::rows() const {
     for (const Watched& own : cards_) {
         FrameRow& row = out.emplace_back();
         row.card = own.name;
-        row.host = own.card->is_host();
+        row.role = own.card->is_host() ? "host" : own.card->is_remote() ? "remote" : "slave";
         row.stale = own.card->stale();
         row.off = own.card->off();
         row.frame = own.card->last();
-        row.age_us = row.frame ? to_seconds(now - row.frame->instant()) * 1e6 : 0;
+        row.age_us = row.frame ? to_seconds(now - own.card->held_since()) * 1e6 : 0;
         row.frames = own.frames;
         row.broken = own.card->counter(gb::Card::broken);
         row.untrue = own.untrue;
         row.unlike = own.unlike;
         const gb::Frame* of_first = out.front().frame;
-        row.agrees = row.frame && of_first ? gb::same(*row.frame, *of_first) : row.frame == of_first;
+        row.agrees = own.card->is_remote() || (row.frame && of_first ? gb::same(*row.frame, *of_first) : row.frame == of_first);
     }
     return out;
 }

@@ -14,7 +14,7 @@ namespace motionrack::rack {
 /// What a card of the bus holds.
 struct FrameRow {
     std::string card;
-    bool host = false;
+    std::string_view role;        ///< "host", "slave" or "remote"
     bool stale = true;
     bool off = false;
     const grating_bus::Frame* frame = nullptr;  ///< nullptr: none yet; else until the rack runs on
@@ -22,7 +22,7 @@ struct FrameRow {
     std::uint64_t frames = 0;     ///< published since the watch began
     std::uint64_t broken = 0;     ///< bad ones, which were not
     std::uint64_t untrue = 0;     ///< of the published ones: counts that were not the scales' at the frame's time
-    std::uint64_t unlike = 0;     ///< of the published ones: other than that of the first card at the same time
+    std::uint64_t unlike = 0;     ///< of the published ones: other than that of the first card at the same time; not of remote cards, nor is `untrue`
     bool agrees = false;          ///< the frame is that of the first card, or both have none
 };
 

@@ -83,7 +83,7 @@ class GratingCard final : public Member {
         const gb::Frame* frame = card_.last();
         if (name == "stale") return card_.stale() ? 1 : 0;
         if (name == "sequence") return frame ? frame->sequence : -1;
-        if (name == "age_us") return frame ? to_seconds(kernel_.now() - frame->instant()) * 1e6 : -1;
+        if (name == "age_us") return frame ? to_seconds(kernel_.now() - card_.held_since()) * 1e6 : -1;
         return std::nullopt;
     }
     std::span<const std::string_view> fault_names() const override {
@@ -93,12 +93,17 @@ class GratingCard final : public Member {
     bool fault(std::string_view name, double value, Instant now) override { return card_.fault(name, value, now); }
 
     void complete() override {
-        if (!bus_->decoders().empty()) return;
+        if (!bus_->decoders().empty() || card_.is_remote()) return;
         const bool taken = kernel_.find_wire("decoder.a0") != sim::WireId::none;
         gb::DecoderSettings settings;
         settings.scales = card_.settings().first + card_.settings().scales;
-        own_decoder_ = std::make_unique<gb::Decoder>(kernel_, taken ? name_ + ".decoder" : "decoder", *bus_, settings);
+        const std::string name = taken ? name_ + ".decoder" : "decoder";
+        own_decoder_ = std::make_unique<gb::Decoder>(kernel_, name, *bus_, settings);
+        wires_ = bus_->wire_names();
+        for (int n = 0; n < settings.scales; ++n)
+            for (const char* line : {".a", ".b"}) wires_.push_back(name + line + std::to_string(n));
     }
+    std::span<const std::string> shared_wires() const override { return own_decoder_ ? wires_ : bus_->wire_names(); }
 
     sim::VirtualHost& host() override { return port_; }
     sim::VirtualPort* port() override { return &port_; }
@@ -113,6 +118,7 @@ class GratingCard final : public Member {
     gb::Card card_;
     sim::VirtualPort port_;
     std::unique_ptr<gb::Decoder> own_decoder_;  // of a rack whose file has none
+    std::vector<std::string> wires_;            // with that decoder's
 };
 
 class DecoderCard final : public Member {
@@ -170,7 +176,10 @@ std::shared_ptr<gb::Bus> bus_of(sim::Kernel& kernel, std::span<const std::unique
 
 std::unique_ptr<Card> make_grating_bus(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
                                        std::span<const std::unique_ptr<Card>> before) {
-    const bool first = std::none_of(before.begin(), before.end(), [](const auto& card) { return dynamic_cast<GratingCard*>(card.get()); });
+    const bool first = std::none_of(before.begin(), before.end(), [](const auto& card) {
+        auto* other = dynamic_cast<GratingCard*>(card.get());
+        return other && !other->card().is_remote();
+    });
     return std::make_unique<GratingCard>(kernel, config, grating_settings(config, first), log, bus_of(kernel, before));
 }
 

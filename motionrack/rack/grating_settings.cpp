@@ -10,7 +10,8 @@ namespace {
 
 namespace gb = grating_bus;
 
-bool is_grating(const RackCard& card) { return card.type == "grating_bus"; }
+/// A motion card on the lines of this rack's bus.
+bool is_grating(const RackCard& card) { return card.type == "grating_bus" && card.grating_bus.role != GratingRole::remote; }
 bool is_decoder(const RackCard& card) { return card.type == "grating_decoder"; }
 
 Duration ns(double value) { return from_seconds(value * 1e-9); }
@@ -33,7 +34,8 @@ std::optional<CardFlaw> no_fit(const RackCard& card, const gb::CardSettings& set
 gb::CardSettings grating_settings(const RackCard& card, bool first) {
     const GratingBusSettings& s = card.grating_bus;
     gb::CardSettings out;
-    out.role = s.role == GratingRole::host || (s.role == GratingRole::first_is_host && first) ? gb::Role::host : gb::Role::slave;
+    const bool host = s.role == GratingRole::host || (s.role == GratingRole::first_is_host && first);
+    out.role = s.role == GratingRole::remote ? gb::Role::remote : host ? gb::Role::host : gb::Role::slave;
     out.scales = static_cast<int>(s.scales);
     out.first = static_cast<int>(s.first);
     out.timing = {ns(s.t1_ns), ns(s.t2_ns), ns(s.t3_ns), ns(s.clock_ns)};
@@ -54,6 +56,7 @@ gb::DecoderSettings decoder_settings(const RackCard& card) {
 std::optional<CardFlaw> grating_bus_flaw(const RackCard& card, std::span<const RackCard> before) {
     const gb::CardSettings own = settings_among(card, before);
     if (const Result<void> good = gb::check(own); !good) return CardFlaw{"scales", fmt::format("Card {}: {}", card.name, good.error().message)};
+    if (own.role == gb::Role::remote) return std::nullopt;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const RackCard& other = before[i];
         if (is_decoder(other))

@@ -243,6 +243,23 @@ TEST_F(Network, ARackOnOneMachineIsReadOnAnother) {
     EXPECT_GT(publisher.last().value("sent", 0), 500);
 }
 
+TEST_F(Network, CardsOfARackOnAnotherMachineHoldTheFrames) {
+    const std::string rack = (folder_ / "rack.toml").string(), listeners = (folder_ / "listeners.toml").string();
+    std::ofstream(rack) << "[card.host]\ntype = \"grating_bus\"\nscales = 6\nperiod_us = 2000\n";
+    std::ofstream(listeners) << "[card.r1]\ntype = \"grating_bus\"\nrole = \"remote\"\nscales = 6\nperiod_us = 2000\n";
+    const auto state_is = [](const char* state) {
+        return [state](const json& line) { return line.contains("cards") && line["cards"][0]["state"] == state; };
+    };
+    Child feed = network_->start(1, {MOTIONRACK_PROGRAM, "frames", "feed", listeners, "--bus", "stage", "--json", "--every", "0.02"});
+    ASSERT_TRUE(feed.wait_for(state_is("no frame"))) << feed.said();
+    Child publisher = network_->start(0, {MOTIONRACK_PROGRAM, "frames", "publish", rack, "--bus", "stage", "--json", "--for", "1"});
+    ASSERT_TRUE(feed.wait_for([&](const json& line) { return state_is("agrees")(line) && line["cards"][0]["frames"] > 100; })) << feed.said();
+    EXPECT_EQ(feed.last()["cards"][0]["counts"].size(), 6u);
+    EXPECT_EQ(publisher.finish(), 0) << publisher.said();
+    EXPECT_TRUE(feed.wait_for(state_is("stale"))) << "the publisher has ended: " << feed.said();
+    EXPECT_EQ(feed.last()["cards"][0]["bad"], 0);
+}
+
 TEST_F(Network, SaysThatNoFrameCame) {
     Child subscriber = network_->start(0, {MOTIONRACK_PROGRAM, "frames", "subscribe", "--bus", "nobody", "--json", "--for", "0.1"});
     EXPECT_EQ(subscriber.finish(), 4);

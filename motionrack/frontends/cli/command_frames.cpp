@@ -10,6 +10,7 @@ void add_frames(CLI::App& app, Action& chosen) {
     add_frames_show(*group, chosen);
     add_frames_publish(*group, chosen);
     add_frames_subscribe(*group, chosen);
+    add_frames_feed(*group, chosen);
 }
 
 }  // namespace motionrack::cli

@@ -116,6 +116,7 @@ int finish(Show& show, const rack::FrameWatch& watch, const ShowOptions& options
         show.screen.show(show.rack.kernel().now());
     if (!options.json) {
         fmt::print("{}", conflicts_text(watch.bus(), 12));
+        std::fflush(stdout);
         static constexpr std::size_t most_told = 12;
         const auto conditions = show.rack.kernel().conditions();
         for (std::size_t i = 0; i < std::min(most_told, conditions.size()); ++i) print_warning(show.rack.describe(conditions[i]));

@@ -39,6 +39,7 @@ bool frames_agree(const rack::FrameWatch& watch);
 
 void add_frames_show(CLI::App& frames, Action& chosen);
 void add_frames_publish(CLI::App& frames, Action& chosen);
+void add_frames_feed(CLI::App& frames, Action& chosen);
 void add_frames_subscribe(CLI::App& frames, Action& chosen);
 
 }  // namespace motionrack::cli

@@ -37,7 +37,7 @@ std::string frames_table(const rack::FrameWatch& watch, Instant now) {
         width = std::max(width, row.card.size());
         if (row.frame) scales = std::max<std::size_t>(scales, row.frame->words);
     }
-    std::string out = fmt::format("{:.4f} s, {} frames published, {} conflicts\n{:<{}} {:<5} {:>9} {:>10} {:>9} {:>7} {:>7} {:>7}  {:<8}", to_seconds(now),
+    std::string out = fmt::format("{:.4f} s, {} frames published, {} conflicts\n{:<{}} {:<6} {:>9} {:>10} {:>9} {:>7} {:>7} {:>7}  {:<8}", to_seconds(now),
                                   watch.published(), watch.bus().lines().all_conflicts(), "card", width, "role", "sequence", "age us", "frames", "bad", "unlike",
                                   "untrue", "state");
     auto end = std::back_inserter(out);
@@ -45,7 +45,7 @@ std::string frames_table(const rack::FrameWatch& watch, Instant now) {
     for (std::size_t k = 0; k < shown; ++k) fmt::format_to(end, " {:>12}", fmt::format("scale {}", k));
     out += scales > shown ? fmt::format(" .. {}\n", scales - 1) : "\n";
     for (const rack::FrameRow& row : rows) {
-        fmt::format_to(end, "{:<{}} {:<5} {:>9} {:>10.1f} {:>9} {:>7} {:>7} {:>7}  {:<8}", row.card, width, row.host ? "host" : "slave",
+        fmt::format_to(end, "{:<{}} {:<6} {:>9} {:>10.1f} {:>9} {:>7} {:>7} {:>7}  {:<8}", row.card, width, row.role,
                        row.frame ? std::to_string(row.frame->sequence) : "-", row.age_us, row.frames, row.broken, row.unlike, row.untrue, state_of(row));
         for (std::size_t k = 0; row.frame && k < std::min<std::size_t>(shown, row.frame->words); ++k)
             fmt::format_to(end, " {:>12}", static_cast<std::int32_t>(row.frame->counts[k]));
@@ -72,7 +72,7 @@ std::string conflicts_text(const gb::Bus& bus, std::size_t most) {
 std::string frames_json(const rack::FrameWatch& watch, Instant now) {
     nlohmann::ordered_json cards = nlohmann::ordered_json::array();
     for (const rack::FrameRow& row : watch.rows()) {
-        nlohmann::ordered_json card = {{"card", row.card},     {"role", row.host ? "host" : "slave"}, {"state", state_of(row)}, {"frames", row.frames},
+        nlohmann::ordered_json card = {{"card", row.card},     {"role", row.role}, {"state", state_of(row)}, {"frames", row.frames},
                                        {"bad", row.broken},    {"unlike", row.unlike},                {"untrue", row.untrue}};
         if (row.frame) {
             card["sequence"] = row.frame->sequence;

@@ -65,7 +65,7 @@ void Bus::begin() {
         const CardSettings& s = card->settings();
         if (s.wrong_direction())
             card->report(BusCondition::wrong_direction, card->is_host(), (s.clock_out() ? 1 : 0) | (s.address_out() ? 2 : 0));
-        if (!alike_) continue;
+        if (!alike_ || card->is_remote()) continue;
         alike_ = !s.wrong_direction() && s.scales == host().scales && s.first == host().first && s.timing == host().timing &&
                  check(s, decoders_[0]->settings()).has_value();
     }

@@ -74,6 +74,7 @@ class Bus final : public sim::Device {
         std::uint32_t told = 0;        // conflicts were reported, a bit a line
         std::uint32_t begun = 0;
     };
+    static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
 
     /// All cards are in: their directions are looked at.
     void begin();

@@ -64,7 +64,7 @@ void Card::reset() {
     begun.buffers = state_.buffers;
     begun.fresh = state_.fresh;
     begun.stale = state_.stale, begun.stale_at = state_.stale_at;
-    begun.published_time = state_.published_time, begun.published_sequence = state_.published_sequence;
+    begun.held_since = state_.held_since, begun.published_sequence = state_.published_sequence, begun.any = state_.any;
     begun.pulse = state_.pulse, begun.pulse_at = state_.pulse_at;
     begun.miss = state_.miss, begun.late = state_.late, begun.jitter = state_.jitter;
     begun.off = state_.off;

@@ -48,9 +48,12 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     sim::DeviceId id() const { return id_; }
     sim::WireId interrupt_wire() const { return int_wire_; }
     bool is_host() const { return settings_.role == Role::host; }
+    bool is_remote() const { return settings_.role == Role::remote; }
     /// What was published last; nullptr: nothing yet, or it is being overwritten.
     const Frame* last() const { return state_.buffers.last(); }
     bool stale() const { return state_.stale != 0; }
+    /// From when on the frame published last ages: its time, of a remote card the instant at which it came.
+    Instant held_since() const { return state_.held_since; }
     bool off() const { return state_.off != 0; }
     Moment moment() const;
     /// Frames published, bad frames, and what else was counted.
@@ -58,6 +61,8 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     enum Counter { broken, missed_words, alien, line_faults, missed_edges, overrun, counter_count };
     std::uint16_t counter(Counter which) const { return state_.counters[which]; }
 
+    /// Of a remote card, between two runs of the kernel: a frame of its bus has come. A frame whose CRC or number of scales is wrong is a bad one.
+    void take(const Frame& frame, Instant now);
     /// The processor puts an analog output (0 .. 3) to `microvolts`, +-10 V at most.
     void put_out(int output, int microvolts);
 
@@ -96,8 +101,9 @@ class Card final : public sim::Device, public sim::RegisterDevice {
         std::uint32_t quiet = 0;        // in reset: drives nothing
         std::uint32_t off = 0;
         Instant stale_at = never;
-        Instant published_time{};       // of the frame published last
+        Instant held_since{};           // the frame published last: its time, of a remote card when it came
         std::uint32_t published_sequence = 0;
+        std::uint32_t any = 0;          // one was published
         std::uint32_t bad_word = 0;     // the word under way was counted as bad
         // counters
         std::uint32_t frames = 0;
@@ -109,6 +115,8 @@ class Card final : public sim::Device, public sim::RegisterDevice {
         Duration late{};
         Duration jitter{};
     };
+
+    static_assert(std::has_unique_object_representations_v<Data>, "padding would get into the state's hash");
 
     bool idle() const { return state_.fsm == State::S0 && state_.starts == never; }
     /// The next instant at which anything of this card is due.
@@ -129,6 +137,10 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     void begin_frame(Instant now);
     void put_words(const std::uint32_t* counts, int words);
     void publish(Instant now, const Frame* like);
+    /// The frame under way was bad: nobody gets it. `why`: bits of BusCondition::bad_frame.
+    void give_up(std::uint32_t sequence, std::uint8_t why);
+    /// The current buffer is whole, and its age counts from `since`.
+    void hand_out(Instant now, Instant since);
     /// Takes up a frame that began at `start` where it is at `now`.
     void take_up(Instant start, const std::uint32_t* counts, Instant now);
 

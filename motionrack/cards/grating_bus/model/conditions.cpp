@@ -15,6 +15,7 @@ std::string reasons(std::int64_t bits) {
     if (bits & 1) out.push_back("read_n was high when data was to be taken");
     if (bits & 2) out.push_back("another address than the expected one was on the bus");
     if (bits & 4) out.push_back("clk, hold or read_n did not have the level that it should have");
+    if (bits & 8) out.push_back("its CRC or its number of scales is wrong");
     return fmt::format("{}", fmt::join(out, ", and "));
 }
 

@@ -10,7 +10,7 @@ namespace motionrack::grating_bus {
 
 enum class BusCondition : std::uint16_t {
     wrong_direction = 1,  ///< a: 1 host, 0 slave, b: bit 0 the clock's shifter drives, bit 1 the address'
-    bad_frame = 2,        ///< a: sequence, b: bit 0 missed words, bit 1 alien addresses, bit 2 lines
+    bad_frame = 2,        ///< a: sequence, b: bit 0 missed words, bit 1 alien addresses, bit 2 lines, bit 3 CRC or N
     missed_edges = 3,     ///< a: how many, b: sequence
     overrun = 4,          ///< a: sequence; once until CLEAR_ERRORS
     stale = 5,            ///< a: sequence of the frame published last, -1: none yet, b: its time, 0.1 ns

@@ -51,15 +51,17 @@ class Decoder final : public sim::Device, public sim::RegisterDevice {
         std::array<std::uint32_t, most_scales> latched{};
         std::uint32_t out = 0;          // what it drives, or drove last
         std::uint32_t no_latch = 0;
+        std::uint32_t high = 0;         // high word kept by a read of a low one
         Instant valid{};                // when the latch became, or becomes, valid
         Instant asked{};                // when read_n fell or addr changed last
         Instant output = never;         // when the addressed count comes out
         std::uint32_t hold = 0, read_n = 1, addr = 0xFF;  // as it reacted to them last
         std::uint32_t frozen = 0;       // a latch is being held
-        std::uint32_t high = 0;         // high word kept by a read of a low one
+        std::uint32_t reserved = 0;
         std::uint32_t lines[most_scales] = {}; // bit 0: A, bit 1: B
         std::array<sim::QuadratureDecoder, most_scales> counters;
     };
+    static_assert(std::has_unique_object_representations_v<State>, "padding would get into the state's hash");
 
     bool answers(std::uint32_t addr) const { return addr < static_cast<std::uint32_t>(settings_.scales); }
     /// All scales of a frame at one instant.

@@ -7,7 +7,7 @@ namespace motionrack::grating_bus {
 
 namespace {
 
-enum Bad : std::uint8_t { bad_missed = 1, bad_alien = 2, bad_lines = 4 };
+enum Bad : std::uint8_t { bad_missed = 1, bad_alien = 2, bad_lines = 4, bad_content = 8 };
 
 }  // namespace
 
@@ -62,7 +62,7 @@ void Card::advance(Instant now) {
 }
 
 void Card::clock_rose(Instant now) {
-    if (is_host() || state_.off != 0) return;
+    if (settings_.role != Role::slave || state_.off != 0) return;
     if (state_.miss != 0) {
         --state_.miss;
         return;
@@ -185,43 +185,62 @@ void Card::put_words(const std::uint32_t* counts, int words) {
 
 /// `like`: a frame with the same counts whose CRC is known; may be nullptr.
 void Card::publish(Instant now, const Frame* like) {
-    if (state_.bad != 0) {
-        state_.buffers.abandon();
-        count(broken);
-        if (state_.was_bad == 0) report(BusCondition::bad_frame, state_.frame_sequence, state_.bad);
-        state_.was_bad = 1;
-        return;
-    }
-    state_.was_bad = 0;
+    if (state_.bad != 0) return give_up(state_.frame_sequence, state_.bad);
     Frame& frame = state_.buffers.current();
     frame.time = state_.frame_time.count();
     frame.sequence = state_.frame_sequence;
     frame.words = static_cast<std::uint32_t>(settings_.scales);
     const bool known = like && like->sequence == frame.sequence && like->time == frame.time && like->words == frame.words;
     frame.crc = known ? like->crc : crc_of(frame);
+    hand_out(now, state_.frame_time);
+}
+
+void Card::give_up(std::uint32_t sequence, std::uint8_t why) {
+    state_.buffers.abandon();
+    count(broken);
+    if (state_.was_bad == 0) report(BusCondition::bad_frame, sequence, why);
+    state_.was_bad = 1;
+}
+
+void Card::hand_out(Instant now, Instant since) {
+    const Frame& frame = state_.buffers.current();
+    state_.was_bad = 0;
     state_.buffers.publish();
     ++state_.frames;
-    state_.published_sequence = state_.frame_sequence;
-    state_.published_time = state_.frame_time;
+    state_.published_sequence = frame.sequence;
+    state_.held_since = since;
+    state_.any = 1;
     state_.stale = 0;
-    state_.stale_at = state_.frame_time + 2 * settings_.period;
+    state_.stale_at = since + 2 * settings_.period;
     set_fresh(true);
     for (FrameListener* listener : listeners_) listener->published(*this, frame, now);
+}
+
+void Card::take(const Frame& frame, Instant now) {
+    MOTIONRACK_ASSERT(is_remote());
+    if (off()) return;
+    Frame& own = state_.buffers.begin();
+    if (!sound(frame) || frame.words != static_cast<std::uint32_t>(settings_.scales)) {
+        give_up(frame.sequence, bad_content);
+    } else {
+        own = frame;
+        hand_out(now, now);
+    }
+    bus_.look_again(now);
 }
 
 void Card::check_stale(Instant now) {
     if (state_.stale_at > now) return;
     state_.stale_at = never;
     state_.stale = 1;
-    const bool any = state_.frames != 0;
-    report(BusCondition::stale, any ? std::int64_t{state_.published_sequence} : -1, any ? state_.published_time.count() : 0);
+    report(BusCondition::stale, state_.any != 0 ? std::int64_t{state_.published_sequence} : -1, state_.held_since.count());
 }
 
 // ---- whole frames -----------------------------------------------------------------------------------------------------------
 
 void Card::take_up(Instant start, const std::uint32_t* counts, Instant now) {
     const Moment m = moment_of(settings_.timing, settings_.scales, now - start);
-    if (m.state == State::S0) return;
+    if (m.state == State::S0 || is_remote()) return;
     if (m.state != State::S12) {
         begin_frame(start);
         const bool sampled = m.state != State::S1 && m.state != State::S2 && m.state != State::S7 && m.state != State::S8;
@@ -235,7 +254,7 @@ void Card::take_up(Instant start, const std::uint32_t* counts, Instant now) {
 }
 
 Moment Card::moment() const {
-    if (bus_.in_span() && state_.fsm == State::S0 && state_.off == 0) return moment_of(settings_.timing, settings_.scales, kernel_.now() - bus_.span_start());
+    if (bus_.in_span() && !is_remote() && state_.fsm == State::S0 && state_.off == 0) return moment_of(settings_.timing, settings_.scales, kernel_.now() - bus_.span_start());
     return {state_.fsm, state_.word, state_.state_ends - state_.frame_time};
 }
 

@@ -8,7 +8,8 @@
 
 namespace motionrack::grating_bus {
 
-enum class Role : std::uint8_t { host, slave };
+/// remote: a slave whose bus is in another crate: its frames come from outside (Card::take).
+enum class Role : std::uint8_t { host, slave, remote };
 /// Which way a level shifter works; as_role: out on a host, in on a slave.
 enum class Shifter : std::uint8_t { as_role, out, in };
 

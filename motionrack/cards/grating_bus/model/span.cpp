@@ -25,10 +25,11 @@ void Bus::begin_span(Instant now) {
     state_.start = now;
     state_.done = now + host().timing.frame_time(host().scales) - host().timing.clock;
     for (Card* card : cards_) {
+        card->check_stale(now);
+        if (card->is_remote()) continue;
         card->state_.quiet = 0;
         card->note_edge(now);
         if (card->is_host()) card->next_pulse();
-        card->check_stale(now);
         card->tell_begin(now);
     }
 }
@@ -37,6 +38,7 @@ void Bus::publish_span(Instant now) {
     const Frame* like = nullptr;
     Decoder::State& decoder = decoders_[0]->state_;
     for (Card* card : cards_) {
+        if (card->is_remote()) continue;
         card->begin_frame(state_.start);
         card->put_words(&decoder.latched[static_cast<std::size_t>(host().first)], host().scales);
         card->publish(now, like);

@@ -261,6 +261,39 @@ TEST(GratingBus, ADecoderThatDoesNotLatchGivesEveryWordAnInstantOfItsOwn) {
     }
 }
 
+TEST(GratingBus, ARemoteCardHoldsWhatComesFromOutsideAndNothingElse) {
+    std::vector<CardSettings> settings = crew(1);
+    settings.push_back(slave_settings());
+    settings[2].role = Role::remote;
+    Crate crate(settings);
+    crate.run(3 * period + microseconds(50));
+    EXPECT_EQ(crate.heard(0).size(), 4u) << "it disturbs nobody";
+    EXPECT_EQ(crate.heard(2).size(), 0u);
+    EXPECT_EQ(crate.cards[2]->peek(offset("STATE")), 0);
+    Frame frame;
+    frame.words = 4;
+    frame.sequence = 77;
+    frame.time = 5;
+    frame.counts = {1, 2, 3, 4};
+    frame.crc = crc_of(frame);
+    crate.cards[2]->take(frame, crate.kernel.now());
+    EXPECT_TRUE(same(*crate.cards[2]->last(), frame));
+    EXPECT_FALSE(crate.status(2) & stale_bit);
+    Frame damaged = frame;
+    damaged.counts[1] = 9;
+    crate.cards[2]->take(damaged, crate.kernel.now());
+    damaged.words = 3;
+    damaged.crc = crc_of(damaged);
+    crate.cards[2]->take(damaged, crate.kernel.now());
+    EXPECT_TRUE(same(*crate.cards[2]->last(), frame)) << "neither is ever a position";
+    EXPECT_EQ(crate.cards[2]->counter(Card::broken), 2);
+    crate.run(2 * period - Duration{1});
+    EXPECT_FALSE(crate.status(2) & stale_bit);
+    crate.run(Duration{1});
+    EXPECT_TRUE(crate.status(2) & stale_bit);
+    EXPECT_THAT(crate.sentences(), Contains(AllOf(HasSubstr("card c2"), HasSubstr("CRC"))));
+}
+
 TEST(GratingBus, WhatDoesNotFitIsRefusedWithItsNumbers) {
     CardSettings s = host_settings(255);
     s.period = microseconds(20);
