@@ -76,10 +76,8 @@ std::size_t Engine::produce(std::size_t room) {
         }
         if (!next_step(n)) break;
         if (n == 0 && state_.starts.asked_count > 0) room = 1;
-        if (state_.activity.kind == ActivityKind::none && until_rest_) {
-            if (n > 0) break;
-            room = 1;
-        }
+        // The tick that finds the end is done, too, whoever looks.
+        if (state_.activity.kind == ActivityKind::none && until_rest_) room = n + 1;
         n = fill(n, room);
     }
     return n;

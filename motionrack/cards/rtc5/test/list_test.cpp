@@ -269,5 +269,20 @@ TEST(Rtc5Card, EverySettingOfOneCardLeavesAnotherAlone) {
     EXPECT_EQ(b.last_x(), 9);
 }
 
+TEST(Rtc5List, TheTimeToRestDoesNotDependOnWhoLooks) {
+    for (const double target : {51'100.0, 51'200.0, 51'300.0, 102'400.0}) {  // 511, 512, 513, 1024 ticks: ends of blocks
+        Rig seen, unseen;
+        for (Rig* rig : {&seen, &unseen}) {
+            rig->card.set_jump_speed(10'000);
+            ASSERT_TRUE(rig->card.goto_xy(target, 0));
+        }
+        EXPECT_TRUE(seen.card.run_to_rest(10'000, &seen));
+        EXPECT_TRUE(unseen.card.run_to_rest(10'000));
+        EXPECT_EQ(seen.card.tick(), unseen.card.tick()) << target;
+        EXPECT_EQ(seen.card.tick(), target / 100 + 1) << "the tick that finds it there is done";
+        EXPECT_EQ(seen.x.size(), static_cast<std::size_t>(seen.card.tick()));
+    }
+}
+
 }  // namespace
 }  // namespace motionrack::rtc5
