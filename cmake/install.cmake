@@ -27,6 +27,7 @@ function(motionrack_c_library target export_name headers)
 endfunction()
 motionrack_c_library(motionrack_c c ${CMAKE_INSTALL_INCLUDEDIR}/motionrack)
 motionrack_c_library(mcx314lib mcx314lib ${CMAKE_INSTALL_INCLUDEDIR})
+motionrack_c_library(rtc5sim rtc5sim ${CMAKE_INSTALL_INCLUDEDIR})
 
 # ---- headers: those of the rooms; the program and the C library have none but c.h ----
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/motionrack DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp"
@@ -76,7 +77,9 @@ list(TRANSFORM runtime PREPEND "-l")
 list(JOIN runtime " " pc_libs_private)
 configure_file(cmake/motionrack.pc.in ${PROJECT_BINARY_DIR}/motionrack.pc @ONLY)
 configure_file(cmake/mcx314lib.pc.in ${PROJECT_BINARY_DIR}/mcx314lib.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/motionrack.pc ${PROJECT_BINARY_DIR}/mcx314lib.pc DESTINATION ${pc_dir})
+configure_file(cmake/rtc5sim.pc.in ${PROJECT_BINARY_DIR}/rtc5sim.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/motionrack.pc ${PROJECT_BINARY_DIR}/mcx314lib.pc ${PROJECT_BINARY_DIR}/rtc5sim.pc
+        DESTINATION ${pc_dir})
 
 # ---- the program, and what it says of itself ----
 install(TARGETS motionrack RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

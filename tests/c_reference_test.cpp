@@ -106,6 +106,8 @@ TEST(CReference, ThePagesAreMadeFromTheHeaders) {
                  "# The IOFLEX02's function library in C\n\n`motionrack/flex2pos.h`, as a page: this one is made from it.\n\n", "MR_API ");
     is_made_from("mcx314lib.md", "motionrack/frontends/mcx314lib/mcx314lib.h",
                  "# The MCX314's function library in C\n\n`mcx314lib.h`, as a page: this one is made from it.\n\n", "MCX314_API ");
+    is_made_from("rtc5sim.md", "motionrack/frontends/rtc5sim/rtc5sim.h",
+                 "# The RTC5's commands in C\n\n`rtc5sim.h`, as a page: this one is made from it.\n\n", "RTC5_API ");
 }
 
 TEST(CReference, TheHeaderHasEveryQuantityAndFaultWithItsMeaning) {

@@ -72,6 +72,12 @@ TEST(Examples, TheFunctionLibraryInCPrintsWhatItsFolderSays) {
     EXPECT_EQ(ran.out, text_of(examples / "09_mcx314lib" / "expected.txt"));
 }
 
+TEST(Examples, TheMarkingJobInCPrintsWhatItsFolderSays) {
+    const Ran ran = run(examples, MOTIONRACK_RTC5SIM_EXAMPLE);
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.out, text_of(examples / "rtc5sim" / "expected.txt"));
+}
+
 TEST(Examples, TheOldHostProgramPrintsWhatItsFolderSays) {
     const Ran ran = run(examples, MOTIONRACK_DATABOARD_C_EXAMPLE);
     EXPECT_EQ(ran.code, 0);

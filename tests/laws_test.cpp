@@ -40,6 +40,7 @@ std::string room_of(const std::string& path) {
     }
     if (path.rfind("sim/parts/", 0) == 0) return "parts";
     if (path.rfind("frontends/mcx314lib/", 0) == 0) return "mcx314lib";
+    if (path.rfind("frontends/rtc5sim/", 0) == 0) return "rtc5sim";
     if (path.rfind("frontends/c/flex2pos", 0) == 0) return "flex2pos";
     return path.substr(0, path.find('/'));
 }
@@ -77,6 +78,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"frontends", {"base", "live", "control", "decode", "trace", "rack", "dds", "grating_bus/map", "grating_bus/model", "c.h"}},
     {"flex2pos", {"base", "rack", "frontends", "flex2pos.h", "ioflex02/map", "ioflex02/driver"}},
     {"mcx314lib", {"base", "rack", "mcx314/map", "mcx314/driver"}},
+    {"rtc5sim", {"base", "rtc5/map", "rtc5/model"}},
 };
 
 TEST(Laws, RoomsIncludeOnlyTheRoomsTheyMay) {

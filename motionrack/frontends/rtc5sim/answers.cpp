@@ -1,0 +1,279 @@
+// The commands of rtc5sim.h that answer, read files or have something to look through.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <motionrack/frontends/rtc5sim/calls.hpp>
+
+using namespace motionrack::rtc5sim;
+using motionrack::fail;
+using motionrack::Result;
+using motionrack::Trouble;
+namespace rtc5 = motionrack::rtc5;
+
+namespace {
+
+/// What the functions that read files answer.
+enum FileAnswer : UINT { loaded = 0, damaged = 1, not_read = 3, wrong_parameter = 10, no_such_card = 11 };
+
+constexpr std::size_t most_table_bytes = 64u << 20;
+
+/// At most `limit` bytes of it, and one more if it has more.
+Result<std::string> bytes_of(const char* name, std::size_t limit) {
+    std::ifstream file(name, std::ios::binary);
+    std::string out;
+    std::array<char, 65536> piece;
+    while (file && out.size() <= limit) {
+        file.read(piece.data(), static_cast<std::streamsize>(std::min(piece.size(), limit + 1 - out.size())));
+        out.append(piece.data(), static_cast<std::size_t>(file.gcount()));
+    }
+    if (file.eof() || out.size() > limit) return out;
+    return fail(Trouble::io, fmt::format("{} cannot be read. Nothing was loaded; is the name right?", name));
+}
+
+Result<void> check_range(std::string_view what, UINT value, UINT least, UINT greatest) {
+    if (value >= least && value <= greatest) return {};
+    return fail(Trouble::refused,
+                fmt::format("{} is {}, outside {} to {}; nothing was done", what, value, least, greatest));
+}
+
+Result<void> load_correction(Card& card, const char* name, UINT number, UINT dim, UINT& answer) {
+    answer = wrong_parameter;
+    MOTIONRACK_CHECK(check_range("No", number, 1, rtc5::table_count));
+    MOTIONRACK_CHECK(check_range("Dim", dim, 2, 3));
+    rtc5::CorrectionFile file = rtc5::one_to_one();
+    if (name != nullptr) {
+        answer = not_read;
+        MOTIONRACK_TRY(const std::string bytes, bytes_of(name, rtc5::ct5_bytes));
+        answer = damaged;
+        const auto* const begin = reinterpret_cast<const std::uint8_t*>(bytes.data());
+        MOTIONRACK_TRY(file, rtc5::read_ct5({begin, bytes.size()}, name));
+    }
+    MOTIONRACK_CHECK(card.engine.load_correction(rtc5::table_of(file), small(number)));
+    card.headers[number - 1] = file.header;
+    answer = loaded;
+    return {};
+}
+
+Result<void> load_fly_table(Card& card, const char* name, UINT number, UINT& answer) {
+    if (name == nullptr) {
+        card.engine.load_fly_2d_table(nullptr);
+    } else {
+        answer = not_read;
+        MOTIONRACK_TRY(const std::string text, bytes_of(name, most_table_bytes));
+        answer = damaged;
+        MOTIONRACK_TRY(rtc5::FlyTable table, rtc5::FlyTable::read(text, number, name));
+        card.engine.load_fly_2d_table(std::make_shared<const rtc5::FlyTable>(std::move(table)));
+    }
+    answer = loaded;
+    return {};
+}
+
+/// Word `para` of the head of table `number`; 0 is the 1:1 table.
+Result<double> header_word(const Card& card, std::int64_t number, UINT para) {
+    MOTIONRACK_CHECK(check_range("ParaNo", para, 0, 15));
+    return number == 0 ? 0.0 : card.headers[static_cast<std::size_t>(number - 1)][para];
+}
+
+/// Answers a question into two places.
+template <class Number, class Call>
+void ask_two(std::string_view who, UINT number, Number* a, Number* b, Call call) noexcept {
+    question(who, number, false, [&](Card& card) -> Result<bool> {
+        MOTIONRACK_CHECK(check_pointer(a, "The first place for the answer"));
+        MOTIONRACK_CHECK(check_pointer(b, "The second place for the answer"));
+        call(card);
+        return true;
+    });
+}
+
+}  // namespace
+
+// ---- Cards
+// -------------------------------------------------------------------------------------------------------------
+
+UINT init_rtc5_dll() {
+    return with_bench(__func__, UINT{RTC5_PARAM_ERROR}, [](Bench& bench) -> Result<UINT> {
+        MOTIONRACK_CHECK(bench.count());
+        return 0u;
+    });
+}
+UINT rtc5_count_cards() {
+    return with_bench(__func__, 0u, [](Bench& bench) { return bench.count(); });
+}
+UINT select_rtc(UINT CardNo) {
+    return with_bench(__func__, 0u, [&](Bench& bench) -> Result<UINT> {
+        MOTIONRACK_CHECK(bench.select(CardNo));
+        return CardNo;
+    });
+}
+void free_rtc5_dll() {
+    with_bench(__func__, false, [](Bench& bench) -> Result<bool> {
+        bench.close();
+        return true;
+    });
+}
+
+// ---- Files and tables
+// --------------------------------------------------------------------------------------------------
+
+UINT n_load_program_file(UINT CardNo, const char*) {
+    return with_card(__func__, CardNo, UINT{no_such_card}, [](Card& card) -> Result<UINT> {
+        card.engine.load_program_file();
+        card.headers = {};
+        return UINT{loaded};
+    });
+}
+
+UINT n_load_correction_file(UINT CardNo, const char* Name, UINT No, UINT Dim) {
+    UINT answer = no_such_card;
+    command(__func__, CardNo, [&](Card& card) { return load_correction(card, Name, No, Dim, answer); });
+    return answer;
+}
+
+long n_load_fly_2d_table(UINT CardNo, const char* Name, UINT No) {
+    UINT answer = no_such_card;
+    command(__func__, CardNo, [&](Card& card) { return load_fly_table(card, Name, No, answer); });
+    return static_cast<long>(answer);
+}
+
+double n_get_table_para(UINT CardNo, UINT TableNo, UINT ParaNo) {
+    return with_card(__func__, CardNo, 0.0, [&](Card& card) -> Result<double> {
+        MOTIONRACK_CHECK(check_range("TableNo", TableNo, 1, rtc5::table_count));
+        return header_word(card, TableNo, ParaNo);
+    });
+}
+
+double n_get_head_para(UINT CardNo, UINT HeadNo, UINT ParaNo) {
+    return with_card(__func__, CardNo, 0.0, [&](Card& card) -> Result<double> {
+        MOTIONRACK_CHECK(check_range("HeadNo", HeadNo, 1, rtc5::head_count));
+        return header_word(card, card.engine.state().heads[HeadNo - 1].table, ParaNo);
+    });
+}
+
+// ---- Lists and settings
+// ------------------------------------------------------------------------------------------------
+
+void n_get_status(UINT CardNo, UINT* Status, UINT* Pos) {
+    ask_two(__func__, CardNo, Status, Pos, [&](Card& card) {
+        *Status = card.engine.status();
+        *Pos = static_cast<UINT>(card.engine.list_position());
+    });
+}
+
+void n_set_delay_mode(UINT CardNo, UINT VarPoly, UINT, UINT EdgeLevel, UINT MinJumpDelay, UINT JumpLengthLimit) {
+    command(__func__, CardNo, [&](Card& card) {
+        rtc5::Delays delays = card.engine.state().delays;
+        delays.variable_polygon = VarPoly != 0;
+        delays.edge_level = EdgeLevel;
+        delays.least_jump = MinJumpDelay;
+        delays.jump_limit = JumpLengthLimit;
+        return card.engine.set_delays(delays);
+    });
+}
+
+// ---- Encoders, starts, McBSP
+// -------------------------------------------------------------------------------------------
+
+void n_get_encoder(UINT CardNo, long* Encoder0, long* Encoder1) {
+    ask_two(__func__, CardNo, Encoder0, Encoder1, [&](Card& card) {
+        *Encoder0 = card.engine.encoder(0);
+        *Encoder1 = card.engine.encoder(1);
+    });
+}
+
+void n_read_encoder(UINT CardNo, long* Encoder0_1, long* Encoder1_1, long* Encoder0_2, long* Encoder1_2) {
+    question(__func__, CardNo, false, [&](Card& card) -> Result<bool> {
+        for (const long* place : {Encoder0_1, Encoder1_1, Encoder0_2, Encoder1_2})
+            MOTIONRACK_CHECK(check_pointer(place, "A place for the answer"));
+        const auto first = card.engine.read_encoder(0), second = card.engine.read_encoder(1);
+        *Encoder0_1 = first[0], *Encoder1_1 = first[1];
+        *Encoder0_2 = second[0], *Encoder1_2 = second[1];
+        return true;
+    });
+}
+
+void n_get_fly_2d_offset(UINT CardNo, long* OffsetX, long* OffsetY) {
+    ask_two(__func__, CardNo, OffsetX, OffsetY, [&](Card& card) {
+        *OffsetX = static_cast<long>(card.engine.state().fly_2d_offset.x);
+        *OffsetY = static_cast<long>(card.engine.state().fly_2d_offset.y);
+    });
+}
+
+void n_set_fly_tracking_error(UINT CardNo, UINT TrackingErrorX, UINT TrackingErrorY) {
+    command(__func__, CardNo, [&](Card& card) -> Result<void> {
+        MOTIONRACK_CHECK(check_range("TrackingErrorX", TrackingErrorX, 0, 65535));
+        MOTIONRACK_CHECK(check_range("TrackingErrorY", TrackingErrorY, 0, 65535));
+        card.engine.set_tracking_error(static_cast<std::uint16_t>(TrackingErrorX),
+                                       static_cast<std::uint16_t>(TrackingErrorY));
+        return {};
+    });
+}
+
+void n_set_extstart_pos(UINT CardNo, UINT Pos) {
+    command(__func__, CardNo, [&](Card& card) -> Result<void> {
+        MOTIONRACK_CHECK(check_range("Pos", Pos, 0, static_cast<UINT>(card.engine.settings().list_memory - 1)));
+        card.engine.set_extstart_pos(Pos);
+        return {};
+    });
+}
+
+long n_read_mcbsp(UINT CardNo, UINT No) {
+    return question(__func__, CardNo, 0L, [&](Card& card) -> Result<long> {
+        MOTIONRACK_CHECK(check_range("No", No, 0, 3));
+        return card.engine.read_mcbsp(small(No));
+    });
+}
+
+long n_read_multi_mcbsp(UINT CardNo, UINT No) {
+    return question(__func__, CardNo, 0L, [&](Card& card) -> Result<long> {
+        MOTIONRACK_CHECK(check_range("No", No, 0, 7));
+        return card.engine.read_multi_mcbsp(small(No));
+    });
+}
+
+// ---- The same on the selected card
+// -------------------------------------------------------------------------------------
+
+UINT load_program_file(const char* Path) {
+    return n_load_program_file(selected(), Path);
+}
+UINT load_correction_file(const char* Name, UINT No, UINT Dim) {
+    return n_load_correction_file(selected(), Name, No, Dim);
+}
+double get_table_para(UINT TableNo, UINT ParaNo) {
+    return n_get_table_para(selected(), TableNo, ParaNo);
+}
+double get_head_para(UINT HeadNo, UINT ParaNo) {
+    return n_get_head_para(selected(), HeadNo, ParaNo);
+}
+long load_fly_2d_table(const char* Name, UINT No) {
+    return n_load_fly_2d_table(selected(), Name, No);
+}
+void get_status(UINT* Status, UINT* Pos) {
+    n_get_status(selected(), Status, Pos);
+}
+void set_delay_mode(UINT VarPoly, UINT DirectMove3D, UINT EdgeLevel, UINT MinJumpDelay, UINT JumpLengthLimit) {
+    n_set_delay_mode(selected(), VarPoly, DirectMove3D, EdgeLevel, MinJumpDelay, JumpLengthLimit);
+}
+void get_encoder(long* Encoder0, long* Encoder1) {
+    n_get_encoder(selected(), Encoder0, Encoder1);
+}
+void read_encoder(long* Encoder0_1, long* Encoder1_1, long* Encoder0_2, long* Encoder1_2) {
+    n_read_encoder(selected(), Encoder0_1, Encoder1_1, Encoder0_2, Encoder1_2);
+}
+void set_fly_tracking_error(UINT TrackingErrorX, UINT TrackingErrorY) {
+    n_set_fly_tracking_error(selected(), TrackingErrorX, TrackingErrorY);
+}
+void get_fly_2d_offset(long* OffsetX, long* OffsetY) {
+    n_get_fly_2d_offset(selected(), OffsetX, OffsetY);
+}
+void set_extstart_pos(UINT Pos) {
+    n_set_extstart_pos(selected(), Pos);
+}
+long read_mcbsp(UINT No) {
+    return n_read_mcbsp(selected(), No);
+}
+long read_multi_mcbsp(UINT No) {
+    return n_read_multi_mcbsp(selected(), No);
+}

@@ -1,0 +1,248 @@
+// The cards of the process, their time, and errors.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <motionrack/frontends/rtc5sim/calls.hpp>
+
+namespace motionrack::rtc5sim {
+
+thread_local bool inside_handler = false;
+
+namespace {
+
+thread_local std::string last_sentence;
+constexpr UINT most_cards = 16;
+constexpr std::int64_t end_of_time =
+    std::numeric_limits<std::int64_t>::max() / 1000;  ///< ticks; laser instants fit, too
+
+/// This thread is in a samples handler as long as this lives.
+class Inside {
+  public:
+    explicit Inside(bool handed) { inside_handler = handed; }
+    ~Inside() { inside_handler = false; }
+    Inside(const Inside&) = delete;
+    Inside& operator=(const Inside&) = delete;
+};
+
+/// Hands the samples of one card on.
+class Handed final : public rtc5::Sink {
+  public:
+    Handed(rtc5sim_samples_handler handler, void* user, UINT number)
+        : handler_(handler), user_(user), number_(number) {}
+    void samples(const rtc5::Samples& block) override {
+        handler_(user_, number_, block.first, block.x.data(), block.y.data(), block.laser.data(), block.x.size());
+    }
+
+  private:
+    rtc5sim_samples_handler handler_;
+    void* user_;
+    UINT number_;
+};
+
+Result<UINT> cards_wanted() {
+    const char* const text = std::getenv("RTC5SIM_CARDS");
+    if (text == nullptr || *text == '\0') return 1u;
+    const std::string_view all = text;
+    UINT number = 0;
+    const auto [end, error] = std::from_chars(all.data(), all.data() + all.size(), number);
+    if (error != std::errc() || end != all.data() + all.size() || number < 1 || number > most_cards)
+        return fail(Trouble::bad_input,
+                    fmt::format("the environment variable RTC5SIM_CARDS is \"{}\", but the number of cards "
+                                "is 1 to {}. Nothing was done.",
+                                all, most_cards));
+    return number;
+}
+
+}  // namespace
+
+Shared& shared() {
+    static Shared one;
+    return one;
+}
+
+// ---- the belt
+// -----------------------------------------------------------------------------------------------------------
+
+std::int64_t Belt::count(std::size_t encoder, std::int64_t tick) const {
+    const Line& line = lines_[encoder];
+    return line.count +
+           static_cast<std::int64_t>(std::floor(line.counts_per_s * static_cast<double>(tick - line.tick) / 100'000));
+}
+
+void Belt::counts(int encoder, std::int64_t first, std::span<std::int32_t> out) {
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = static_cast<std::int32_t>(
+            static_cast<std::uint32_t>(count(static_cast<std::size_t>(encoder), first + static_cast<std::int64_t>(i))));
+}
+
+// ---- the bench
+// ----------------------------------------------------------------------------------------------------------
+
+Result<void> Bench::open() {
+    if (!cards_.empty()) return {};
+    MOTIONRACK_TRY(const UINT wanted, cards_wanted());
+    for (UINT i = 1; i <= wanted; ++i) {
+        cards_.push_back(std::make_unique<Card>());
+        cards_.back()->number = i;
+    }
+    return {};
+}
+
+Result<UINT> Bench::count() {
+    MOTIONRACK_CHECK(open());
+    return static_cast<UINT>(cards_.size());
+}
+
+Result<Card*> Bench::card(UINT number) {
+    MOTIONRACK_CHECK(open());
+    if (number >= 1 && number <= cards_.size()) return cards_[number - 1].get();
+    return fail(Trouble::bad_input,
+                fmt::format("there is no card {}; the environment variable RTC5SIM_CARDS makes it {}. "
+                            "Nothing was done.",
+                            number,
+                            cards_.size() == 1 ? std::string("one, the card 1")
+                                               : fmt::format("{}, 1 to {}", cards_.size(), cards_.size())));
+}
+
+Result<void> Bench::select(UINT number) {
+    MOTIONRACK_CHECK(card(number));
+    selected = number;
+    return {};
+}
+
+Result<std::int64_t> Bench::tick() {
+    MOTIONRACK_CHECK(open());
+    return cards_.front()->engine.tick();
+}
+
+Result<void> Bench::pass(std::int64_t ticks) {
+    MOTIONRACK_TRY(const std::int64_t present, tick());
+    if (ticks > end_of_time - present) return fail(Trouble::refused, "the end of time is reached. Nothing was run.");
+    const Inside inside(samples != nullptr);
+    for (const auto& card : cards_) {
+        Handed sink(samples, samples_user, card->number);
+        card->engine.run_until(present + ticks, samples == nullptr ? nullptr : &sink);
+    }
+    return {};
+}
+
+void Bench::close() {
+    cards_.clear();
+    selected = 1;
+}
+
+Result<bool> Bench::run_to_rest(std::int64_t ticks) {
+    MOTIONRACK_TRY(const std::int64_t present, tick());
+    ticks = std::min(ticks, end_of_time - present);
+    if (cards_.size() == 1) {
+        Handed sink(samples, samples_user, 1);
+        const Inside inside(samples != nullptr);
+        return cards_.front()->engine.run_to_rest(ticks, samples == nullptr ? nullptr : &sink);
+    }
+    // Several cards go on together, a tick at a time, so that they rest at the same instant.
+    const auto rests = [](const auto& card) { return card->engine.at_rest(); };
+    while (!std::all_of(cards_.begin(), cards_.end(), rests)) {
+        if (ticks-- <= 0) return false;
+        MOTIONRACK_CHECK(pass(1));
+    }
+    return true;
+}
+
+// ---- errors
+// -------------------------------------------------------------------------------------------------------------
+
+void failed(std::string_view who, std::string_view sentence) noexcept {
+    try {
+        if (who.substr(0, 2) == "n_") who.remove_prefix(2);
+        last_sentence =
+            sentence.substr(0, who.size()) == who ? std::string(sentence) : fmt::format("{}: {}", who, sentence);
+        if (inside_handler) return;
+        const auto [handler, user] = [] {
+            const std::lock_guard<std::mutex> alone(shared().lock);
+            return std::pair(shared().handler, shared().user);
+        }();
+        // A copy: the handler may call functions that fail.
+        if (handler != nullptr) handler(std::string(last_sentence).c_str(), user);
+    } catch (...) {
+        last_sentence.clear();
+    }
+}
+
+UINT error_bits(Trouble trouble) {
+    switch (trouble) {
+        case Trouble::bad_input:
+        case Trouble::refused:
+            return RTC5_PARAM_ERROR;
+        case Trouble::machine:
+            return RTC5_BUSY;
+        case Trouble::stopped:
+            return RTC5_REJECTED;
+        case Trouble::io:
+            return RTC5_ACCESS_DENIED;
+    }
+    return RTC5_REJECTED;
+}
+
+UINT selected() noexcept {
+    if (inside_handler) return 1;  // refused there anyway
+    const std::lock_guard<std::mutex> alone(shared().lock);
+    return shared().bench.selected;
+}
+
+Result<void> as(Trouble trouble, Result<void> result) {
+    if (!result) result.error().trouble = trouble;
+    return result;
+}
+
+Result<void> check_pointer(const void* pointer, std::string_view what) {
+    if (pointer != nullptr) return {};
+    return fail(Trouble::bad_input, fmt::format("{} is a null pointer. Nothing was done.", what));
+}
+
+Result<void> checked(rtc5::Op op, double parameter) {
+    const auto made = rtc5::list_command(op, {parameter});
+    if (made) return {};
+    const rtc5::ListCommandInfo& command = rtc5::info(op);
+    std::string sentence = made.error().message;
+    // The list's name and what was not done to it.
+    sentence.erase(0, std::min(sentence.size(), command.name.size() + 2));
+    return fail(Trouble::refused, sentence.substr(0, sentence.rfind(';')) + "; nothing was changed");
+}
+
+Result<std::int32_t> whole32(std::string_view what, long value) {
+    if (value >= std::numeric_limits<std::int32_t>::min() && value <= std::numeric_limits<std::int32_t>::max())
+        return static_cast<std::int32_t>(value);
+    return fail(Trouble::refused,
+                fmt::format("{} is {}, outside -2147483648 to 2147483647; nothing was changed", what, value));
+}
+
+int small(UINT value) {
+    return static_cast<int>(std::min<UINT>(value, 1'000'000));
+}
+
+void put_list(UINT number, rtc5::Op op, std::span<const double> parameters) noexcept {
+    command(rtc5::info(op).name, number, [&](Card& card) -> Result<void> {
+        MOTIONRACK_TRY(const rtc5::Command made, rtc5::list_command(op, parameters));
+        return as(Trouble::stopped, card.engine.put(made));
+    });
+}
+
+}  // namespace motionrack::rtc5sim
+
+const char* rtc5sim_last_error(void) {
+    return motionrack::rtc5sim::last_sentence.c_str();
+}
+void rtc5sim_clear_error(void) {
+    motionrack::rtc5sim::last_sentence.clear();
+}
+
+void rtc5sim_on_error(rtc5sim_error_handler handler, void* user) {
+    motionrack::rtc5sim::Shared& shared = motionrack::rtc5sim::shared();
+    const std::lock_guard<std::mutex> alone(shared.lock);
+    shared.handler = handler;
+    shared.user = user;
+}

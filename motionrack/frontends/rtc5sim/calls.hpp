@@ -1,0 +1,171 @@
+// How every function of rtc5sim.h runs: one at a time, on its card; an error becomes a sentence and the board's bits,
+// nothing is thrown out.
+#pragma once
+
+#include <rtc5sim.h>
+
+#include <array>
+#include <exception>
+#include <memory>
+#include <motionrack/cards/rtc5/model/engine.hpp>
+#include <mutex>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::rtc5sim {
+
+/// A belt's encoder: counts that go on evenly. The board's counters see them.
+class Belt final : public rtc5::Inputs {
+  public:
+    /// From `tick` on the line counts on from `count` with this speed.
+    void set(std::size_t encoder, std::int64_t tick, std::int64_t count, double counts_per_s) {
+        lines_[encoder] = {tick, count, counts_per_s};
+    }
+    double speed(std::size_t encoder) const { return lines_[encoder].counts_per_s; }
+    bool moves() const { return lines_[0].counts_per_s != 0 || lines_[1].counts_per_s != 0; }
+    std::int64_t count(std::size_t encoder, std::int64_t tick) const;
+    void counts(int encoder, std::int64_t first, std::span<std::int32_t> out) override;
+
+  private:
+    struct Line {
+        std::int64_t tick = 0, count = 0;
+        double counts_per_s = 0;
+    };
+    std::array<Line, rtc5::encoder_count> lines_;
+};
+
+struct Card {
+    UINT number = 0;  ///< from 1
+    rtc5::Engine engine;
+    Belt belt;
+    std::array<std::array<std::int32_t, 16>, rtc5::table_count> headers{};  ///< of the correction files loaded
+    UINT errors = 0, last_error = 0;                                        ///< the board's bits
+};
+
+/// The cards of the process. Time is one for all of them.
+class Bench {
+  public:
+    /// The cards: as many as RTC5SIM_CARDS says when they are first used, else 1.
+    Result<Card*> card(UINT number);
+    Result<UINT> count();
+    Result<void> select(UINT number);
+    UINT selected = 1;
+    std::int64_t question_ticks = 1;  ///< what an answer of the card takes
+
+    /// Runs all cards so many ticks, and hands their samples to the handler.
+    Result<void> pass(std::int64_t ticks);
+    /// Until all cards rest; false: they did not in so many ticks.
+    Result<bool> run_to_rest(std::int64_t ticks);
+    Result<std::int64_t> tick();
+    /// The cards end; the next use makes others.
+    void close();
+
+    rtc5sim_samples_handler samples = nullptr;
+    void* samples_user = nullptr;
+
+  private:
+    Result<void> open();
+    std::vector<std::unique_ptr<Card>> cards_;
+};
+
+/// What the process shares, and its lock.
+struct Shared {
+    std::mutex lock;
+    Bench bench;
+    rtc5sim_error_handler handler = nullptr;
+    void* user = nullptr;
+};
+Shared& shared();
+
+/// This thread is in a samples handler: functions of the library are refused there.
+extern thread_local bool inside_handler;
+
+/// Keeps the sentence for this thread, with the function's name in front, and calls the handler. The lock must be free.
+void failed(std::string_view who, std::string_view sentence) noexcept;
+
+/// What get_last_error says about it.
+UINT error_bits(Trouble trouble);
+
+/// The card of functions without n_.
+UINT selected() noexcept;
+
+/// Runs `call` with the bench; it gives a Result<Value>.
+template <class Value, class Call>
+Value with_bench(std::string_view who, Value otherwise, Call call) noexcept {
+    try {
+        if (inside_handler) {
+            failed(who,
+                   "it was called by the samples handler, while the cards run. Nothing was done; call it after them.");
+            return otherwise;
+        }
+        Result<Value> result = [&]() -> Result<Value> {
+            const std::lock_guard<std::mutex> alone(shared().lock);
+            return call(shared().bench);
+        }();
+        if (result) return *result;
+        failed(who, result.error().text());
+    } catch (const std::bad_alloc&) {
+        failed(who, "there is not enough memory; nothing was done.");
+    } catch (const std::exception& e) {
+        failed(who, e.what());
+    } catch (...) {
+        failed(who, "something went wrong in the library that it has no words for.");
+    }
+    return otherwise;
+}
+
+/// Runs `call` with a card; it gives a Result<Value>. The card keeps the error's bits. One that asks takes time before.
+template <class Value, class Call>
+Value with_card(std::string_view who, UINT number, Value otherwise, Call call, bool asks = false) noexcept {
+    return with_bench(who, otherwise, [&](Bench& bench) -> Result<Value> {
+        MOTIONRACK_TRY(Card * card, bench.card(number));
+        if (asks) MOTIONRACK_CHECK(bench.pass(bench.question_ticks));
+        Result<Value> result = call(*card);
+        card->last_error = result ? 0 : error_bits(result.error().trouble);
+        card->errors |= card->last_error;
+        return result;
+    });
+}
+
+/// The same for what has no answer: `call` gives a Result<void>.
+template <class Call>
+void command(std::string_view who, UINT number, Call call) noexcept {
+    with_card(who, number, false, [&](Card& card) -> Result<bool> {
+        MOTIONRACK_CHECK(call(card));
+        return true;
+    });
+}
+
+/// The same for a question: it takes its time first, in which the cards go on. `call` gives a Result<Value>.
+template <class Value, class Call>
+Value question(std::string_view who, UINT number, Value otherwise, Call call) noexcept {
+    return with_card(who, number, otherwise, call, true);
+}
+
+void put_list(UINT number, rtc5::Op op, std::span<const double> parameters) noexcept;
+
+/// Puts a list command; the engine looks its parameters through.
+template <class... Parameters>
+void put(UINT number, rtc5::Op op, Parameters... parameters) noexcept {
+    const std::array<double, sizeof...(parameters)> all{static_cast<double>(parameters)...};
+    put_list(number, op, all);
+}
+
+/// Whether the list command of the same meaning would take these parameters.
+Result<void> checked(rtc5::Op op, double parameter);
+
+inline rtc5::Point point(long x, long y) {
+    return {static_cast<double>(x), static_cast<double>(y)};
+}
+/// A whole number of 32 bits.
+Result<std::int32_t> whole32(std::string_view what, long value);
+Result<void> check_pointer(const void* pointer, std::string_view what);
+/// A whole number that the engine takes as int; what is greater is refused by it.
+int small(UINT value);
+
+/// The error of `result` as one of the board's kind `trouble`.
+Result<void> as(Trouble trouble, Result<void> result);
+
+}  // namespace motionrack::rtc5sim

@@ -1,0 +1,152 @@
+// The functions of our own: time, what comes to a card, what it does.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <motionrack/frontends/rtc5sim/calls.hpp>
+
+using namespace motionrack::rtc5sim;
+using motionrack::fail;
+using motionrack::Result;
+using motionrack::Trouble;
+namespace rtc5 = motionrack::rtc5;
+
+namespace {
+
+constexpr std::int64_t us_per_tick = 10;
+thread_local std::string info_text;
+
+Result<std::int64_t> ticks_of(std::int64_t us, std::int64_t most) {
+    if (us >= 0 && us <= most && us % us_per_tick == 0) return us / us_per_tick;
+    return fail(Trouble::refused,
+                fmt::format("the time is {} us, but it is 0 to {} us, a multiple of {} us. Nothing was done.", us, most,
+                            us_per_tick));
+}
+
+Result<void> check_encoder(UINT encoder) {
+    if (encoder < rtc5::encoder_count) return {};
+    return fail(Trouble::refused, fmt::format("there is no encoder {}; 0 or 1. Nothing was changed.", encoder));
+}
+
+/// `call` gives a Result<void>. 0, or -1 where it failed.
+template <class Call>
+int done(const char* who, UINT number, Call call) {
+    return with_card(who, number, -1, [&](Card& card) -> Result<int> {
+        MOTIONRACK_CHECK(call(card));
+        return 0;
+    });
+}
+
+void move(Card& card, std::size_t encoder, std::int64_t count, double counts_per_s) {
+    const std::int64_t tick = card.engine.tick();
+    card.belt.set(encoder, tick, count, counts_per_s);
+    card.engine.set_inputs(card.belt.moves() ? &card.belt : nullptr);
+    for (int e = 0; e < rtc5::encoder_count; ++e)
+        card.engine.set_count(e, static_cast<std::int32_t>(
+                                     static_cast<std::uint32_t>(card.belt.count(static_cast<std::size_t>(e), tick))));
+}
+
+}  // namespace
+
+// ---- time
+// -------------------------------------------------------------------------------------------------------------
+
+int rtc5sim_question_us(int64_t us) {
+    return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
+        MOTIONRACK_TRY(bench.question_ticks, ticks_of(us, 1'000'000'000));
+        return 0;
+    });
+}
+
+int rtc5sim_advance_us(int64_t us) {
+    return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
+        MOTIONRACK_TRY(const std::int64_t ticks, ticks_of(us, std::numeric_limits<std::int64_t>::max()));
+        MOTIONRACK_CHECK(bench.pass(ticks));
+        return 0;
+    });
+}
+
+int rtc5sim_run(int64_t most_us) {
+    return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
+        MOTIONRACK_TRY(const std::int64_t ticks, ticks_of(most_us, std::numeric_limits<std::int64_t>::max()));
+        MOTIONRACK_TRY(const bool rests, bench.run_to_rest(ticks));
+        return rests ? 1 : 0;
+    });
+}
+
+int64_t rtc5sim_now_us(void) {
+    return with_bench(__func__, std::int64_t{-1}, [](Bench& bench) -> Result<std::int64_t> {
+        MOTIONRACK_TRY(const std::int64_t tick, bench.tick());
+        return tick * us_per_tick;
+    });
+}
+
+// ---- what comes to a card
+// -----------------------------------------------------------------------------------------------
+
+int rtc5sim_encoder_speed(UINT CardNo, UINT Encoder, double counts_per_s) {
+    return done(__func__, CardNo, [&](Card& card) -> Result<void> {
+        MOTIONRACK_CHECK(check_encoder(Encoder));
+        if (!(std::abs(counts_per_s) <= 1e9))
+            return fail(
+                Trouble::refused,
+                fmt::format("the speed is {} counts/s, outside -1e9 to 1e9. Nothing was changed.", counts_per_s));
+        move(card, Encoder, card.belt.count(Encoder, card.engine.tick()), counts_per_s);
+        return {};
+    });
+}
+
+int rtc5sim_encoder_count(UINT CardNo, UINT Encoder, int32_t count) {
+    return done(__func__, CardNo, [&](Card& card) -> Result<void> {
+        MOTIONRACK_CHECK(check_encoder(Encoder));
+        move(card, Encoder, count, card.belt.speed(Encoder));
+        return {};
+    });
+}
+
+int rtc5sim_receive(UINT CardNo, uint32_t word) {
+    return done(__func__, CardNo, [&](Card& card) -> Result<void> {
+        card.engine.receive(word);
+        return {};
+    });
+}
+
+int rtc5sim_start(UINT CardNo) {
+    return done(__func__, CardNo, [](Card& card) -> Result<void> {
+        card.engine.external_start();
+        return {};
+    });
+}
+
+int rtc5sim_stop(UINT CardNo) {
+    return done(__func__, CardNo, [](Card& card) -> Result<void> {
+        card.engine.external_stop();
+        return {};
+    });
+}
+
+// ---- what it does
+// ---------------------------------------------------------------------------------------------------------
+
+int rtc5sim_output(UINT CardNo, int32_t* x, int32_t* y, int* laser) {
+    return done(__func__, CardNo, [&](Card& card) -> Result<void> {
+        if (x != nullptr) *x = card.engine.output().a[0];
+        if (y != nullptr) *y = card.engine.output().a[1];
+        if (laser != nullptr) *laser = card.engine.state().laser.on != 0;
+        return {};
+    });
+}
+
+void rtc5sim_on_samples(rtc5sim_samples_handler handler, void* user) {
+    with_bench(__func__, false, [&](Bench& bench) -> Result<bool> {
+        bench.samples = handler;
+        bench.samples_user = user;
+        return true;
+    });
+}
+
+const char* rtc5sim_marking_info_text(UINT bits) {
+    info_text.clear();
+    for (const std::string& line : rtc5::decoded(bits, rtc5::map::marking_info_bits)) info_text += line + "\n";
+    return info_text.c_str();
+}

@@ -1,0 +1,316 @@
+/* The RTC5's commands for C, under their documented names, on virtual cards: a marking job written against the board's
+ * library runs on them as it is. Parts that pass by, position words, starts and what the laser did are calls of our
+ * own (rtc5sim_..).
+ *
+ * Link with librtc5sim.so (-lrtc5sim). A line on a belt of 100 mm/s, at 5,184 bits/mm:
+ *
+ *     simulate_encoder(1);
+ *     set_start_list(1);
+ *     set_mark_speed(2592);             // 500 mm/s
+ *     set_fly_x(0.5184);                // 5,184 bits/mm * 100 mm/s / 1,000,000 counts/s
+ *     mark_abs(51840, 0);
+ *     fly_return(0, 0);
+ *     set_end_of_list();
+ *     execute_list(1);
+ *     do get_status(&busy, &position); while (busy);
+ *
+ * Names, order and types of the arguments are those of the manual; on Windows long has 32 bits, here it may have more.
+ * Commands that are not below are not there.
+ *
+ * Cards. There is one, or as many as the environment variable RTC5SIM_CARDS says, 1 .. 16. Each function exists twice:
+ * on the selected card, at first card 1, and, in rtc5sim_cards.h, as n_.. with the card's number before its arguments.
+ *
+ * Time. It is virtual, one for all cards, and passes in questions (get_status, get_encoder, read_encoder, read_mcbsp,
+ * read_multi_mcbsp, get_marking_info, get_startstop_info, get_io_status): 10 us each, or what rtc5sim_question_us()
+ * says; and in rtc5sim_advance_us() and rtc5sim_run(). Nothing else takes time. A program that sleeps 1 ms between
+ * questions should make them 1,000 us.
+ *
+ * Errors. What is out of range, or not possible now, is refused: nothing is changed, rtc5sim_last_error() has the
+ * sentence (kept for each thread), get_last_error() and get_error() have the bits, and the handler of
+ * rtc5sim_on_error() is called.
+ *
+ * Threads. Functions may be called from any thread; a call waits until another one has ended. Cards and the selection
+ * are those of the process.
+ */
+#ifndef RTC5SIM_H
+#define RTC5SIM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define RTC5_API __attribute__((visibility("default")))
+#else
+#define RTC5_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef unsigned int UINT;
+
+/* Bits of get_last_error and get_error: there is no such card; a file could not be read; a parameter is wrong; a list
+ * is running; the list is full. */
+enum rtc5_error {
+    RTC5_NO_CARD = 1,
+    RTC5_ACCESS_DENIED = 2,
+    RTC5_PARAM_ERROR = 16,
+    RTC5_BUSY = 32,
+    RTC5_REJECTED = 64
+};
+
+/* ---- Cards ---- */
+
+/* A program may begin with init_rtc5_dll, which gives 0. Card numbers are 1 .. rtc5_count_cards(); select_rtc gives
+ * the number, 0 if there is no such card. Error bits: enum rtc5_error; those of get_error stay until reset_error. */
+RTC5_API UINT init_rtc5_dll(void);
+RTC5_API UINT rtc5_count_cards(void);
+RTC5_API UINT select_rtc(UINT CardNo);
+RTC5_API void free_rtc5_dll(void);
+RTC5_API UINT get_error(void);
+RTC5_API UINT get_last_error(void);
+RTC5_API void reset_error(UINT Code);
+
+/* ---- Files and tables ---- */
+
+/* load_program_file sets the card back to power-up; the name is not looked at. load_correction_file loads a .ct5 file
+ * as table No 1 .. 4, a null pointer a 1:1 table; Dim is 2 or 3 (3D parts of a file are not used). 0, or 1 the file is
+ * damaged, 3 it cannot be read, 10 a wrong parameter; the table is then as before. ParaNo 0 .. 15 are the words of its
+ * head, 1 is K in bits/mm. load_fly_2d_table: 0, 1 or 3; a null pointer is no table. */
+RTC5_API UINT load_program_file(const char* Path);
+RTC5_API UINT load_correction_file(const char* Name, UINT No, UINT Dim);
+RTC5_API void select_cor_table(UINT HeadA, UINT HeadB);
+RTC5_API double get_table_para(UINT TableNo, UINT ParaNo);
+RTC5_API double get_head_para(UINT HeadNo, UINT ParaNo);
+RTC5_API long load_fly_2d_table(const char* Name, UINT No);
+
+/* ---- Running lists ---- */
+
+/* Lists are 1, 2 and, for loading only, 3. What is put goes on from set_start_list. Positions count from 0 over all
+ * lists. get_status: bit 0 a list is running, 7 the card moves by itself, 15 paused; Pos is where the list is. */
+RTC5_API void config_list(UINT Mem1, UINT Mem2);
+RTC5_API void set_start_list(UINT ListNo);
+RTC5_API void set_start_list_1(void);
+RTC5_API void set_start_list_2(void);
+RTC5_API UINT get_input_pointer(void);
+RTC5_API UINT get_list_space(void);
+RTC5_API void execute_list(UINT ListNo);
+RTC5_API void execute_list_1(void);
+RTC5_API void execute_list_2(void);
+RTC5_API void execute_at_pointer(UINT Pos);
+RTC5_API void auto_change(void);
+RTC5_API void start_loop(void);
+RTC5_API void quit_loop(void);
+RTC5_API void pause_list(void);
+RTC5_API void restart_list(void);
+RTC5_API void stop_execution(void);
+RTC5_API void get_status(UINT* Status, UINT* Pos);
+RTC5_API void goto_xy(long X, long Y);
+
+/* ---- Settings ---- */
+
+/* HeadNo 1 A, 2 B, 3 both, 4 both, before the correction. at_once 0, 1, 3: in the next 10 us; 2: with the next jump.
+ * Ranges are those of the list commands. EdgeLevel and MinJumpDelay in 10 us, JumpLengthLimit in bits. */
+RTC5_API void set_jump_speed_ctrl(double Speed);
+RTC5_API void set_mark_speed_ctrl(double Speed);
+RTC5_API void set_delay_mode(UINT VarPoly, UINT DirectMove3D, UINT EdgeLevel, UINT MinJumpDelay, UINT JumpLengthLimit);
+RTC5_API void set_matrix(UINT HeadNo, double M11, double M12, double M21, double M22, UINT at_once);
+RTC5_API void set_offset(UINT HeadNo, long XOffset, long YOffset, UINT at_once);
+RTC5_API void set_angle(UINT HeadNo, double Angle, UINT at_once);
+RTC5_API void set_scale(UINT HeadNo, double Scale, UINT at_once);
+RTC5_API void set_hi(UINT HeadNo, double GalvoGainX, double GalvoGainY, long GalvoOffsetX, long GalvoOffsetY);
+RTC5_API void set_control_mode(UINT Mode);
+RTC5_API void write_io_port(UINT Value);
+RTC5_API UINT get_io_status(void);
+
+/* ---- Encoders and starts ---- */
+
+/* simulate_encoder: 0 off, 1 X, 2 Y, 3 both, 1,000,000 counts/s. Tracking errors in 10 us, 0 .. 65,535. Speed in
+ * counts/ms, Smooth 0 .. 1. External starts need set_control_mode bit 0; Delay is the track delay in counts, Pos where
+ * the list begins. */
+RTC5_API void simulate_encoder(UINT EncoderNo);
+RTC5_API void get_encoder(long* Encoder0, long* Encoder1);
+RTC5_API void read_encoder(long* Encoder0_1, long* Encoder1_1, long* Encoder0_2, long* Encoder1_2);
+RTC5_API void set_rot_center(long X, long Y);
+RTC5_API void set_fly_tracking_error(UINT TrackingErrorX, UINT TrackingErrorY);
+RTC5_API void init_fly_2d(long OffsetX, long OffsetY);
+RTC5_API void get_fly_2d_offset(long* OffsetX, long* OffsetY);
+RTC5_API void set_encoder_speed_ctrl(UINT EncoderNo, double Speed, double Smooth);
+RTC5_API void set_ext_start_delay(long Delay, UINT EncoderNo);
+RTC5_API void set_extstart_pos(UINT Pos);
+RTC5_API void simulate_ext_start_ctrl(void);
+RTC5_API void simulate_ext_stop(void);
+RTC5_API UINT get_marking_info(void);
+RTC5_API UINT get_startstop_info(void);
+
+/* ---- McBSP ---- */
+
+/* Words of 32 bits come by rtc5sim_receive. read_mcbsp: memory location 0 .. 3; read_multi_mcbsp: type 0 .. 7.
+ * set_mcbsp_in: Mode 1 X, 2 Y, 3 both. set_mcbsp_x, _y, _rot and _matrix are online positioning, which apply_mcbsp
+ * brings to a head. */
+RTC5_API long read_mcbsp(UINT No);
+RTC5_API long read_multi_mcbsp(UINT No);
+RTC5_API void set_mcbsp_in(UINT Mode, double Scale);
+RTC5_API void set_multi_mcbsp_in(UINT Ctrl, UINT P, UINT Mode);
+RTC5_API void set_mcbsp_x(double ScaleX);
+RTC5_API void set_mcbsp_y(double ScaleY);
+RTC5_API void set_mcbsp_rot(double Resolution);
+RTC5_API void set_mcbsp_matrix(void);
+RTC5_API void apply_mcbsp(UINT HeadNo, UINT at_once);
+
+/* ---- Laser signals ---- */
+
+/* The laser here is a gate, on or off: its mode and pulses are taken and change nothing, in lists nothing is put. */
+RTC5_API void set_laser_mode(UINT Mode);
+RTC5_API void set_laser_control(UINT Ctrl);
+RTC5_API void set_standby(UINT HalfPeriod, UINT PulseLength);
+RTC5_API void set_laser_pulses_ctrl(UINT HalfPeriod, UINT PulseLength);
+RTC5_API void set_firstpulse_killer(UINT Length);
+RTC5_API void set_qswitch_delay(UINT Delay);
+RTC5_API void set_laser_pulses(UINT HalfPeriod, UINT PulseLength);
+RTC5_API void set_firstpulse_killer_list(UINT Length);
+RTC5_API void set_qswitch_delay_list(UINT Delay);
+
+/* ---- Lists: the path ---- */
+
+/* Straight lines and arcs from the present position; marks with the laser on. X, Y in bits, cut to 24 bits; _rel: from
+ * the present position; T in us. Angle in degrees, positive is clockwise, about the centre X, Y. A micro vector takes
+ * 10 us; LasOn and LasOff, in 0.5 us, switch the laser in it if they are 0 .. 19. */
+RTC5_API void jump_abs(long X, long Y);
+RTC5_API void jump_rel(long dX, long dY);
+RTC5_API void mark_abs(long X, long Y);
+RTC5_API void mark_rel(long dX, long dY);
+RTC5_API void arc_abs(long X, long Y, double Angle);
+RTC5_API void arc_rel(long dX, long dY, double Angle);
+RTC5_API void timed_jump_abs(long X, long Y, double T);
+RTC5_API void timed_jump_rel(long dX, long dY, double T);
+RTC5_API void timed_mark_abs(long X, long Y, double T);
+RTC5_API void timed_mark_rel(long dX, long dY, double T);
+RTC5_API void micro_vector_abs(long X, long Y, long LasOn, long LasOff);
+RTC5_API void micro_vector_rel(long dX, long dY, long LasOn, long LasOff);
+
+/* ---- Lists: speeds, delays, laser, outputs ---- */
+
+/* Speeds in bits/ms, cut to 1.6 .. 800,000. Scanner delays and the times of long_delay and laser_on_list in 10 us,
+ * laser delays in 0.5 us. They hold from the next command on. */
+RTC5_API void set_end_of_list(void);
+RTC5_API void list_nop(void);
+RTC5_API void long_delay(UINT Delay);
+RTC5_API void set_jump_speed(double Speed);
+RTC5_API void set_mark_speed(double Speed);
+RTC5_API void set_scanner_delays(UINT Jump, UINT Mark, UINT Polygon);
+RTC5_API void set_laser_delays(long LaserOnDelay, UINT LaserOffDelay);
+RTC5_API void laser_on_list(UINT Period);
+RTC5_API void laser_signal_on_list(void);
+RTC5_API void laser_signal_off_list(void);
+RTC5_API void write_io_port_list(UINT Value);
+
+/* ---- Lists: processing on the fly ---- */
+
+/* The position is corrected every 10 us for the part's movement. Scale in bits a count (encoders) or bits a bit (McBSP
+ * words), 0 is off; Resolution in counts (or bits) a turn, positive is counter-clockwise, under 100 is off. set_fly_..
+ * set the encoders they use to 0, activate_fly_.. do not. fly_return ends every correction and jumps to X, Y: a job
+ * should end with it. */
+RTC5_API void set_fly_x(double ScaleX);
+RTC5_API void set_fly_y(double ScaleY);
+RTC5_API void set_fly_z(double ScaleZ, UINT EncoderNo);
+RTC5_API void set_fly_rot(double Resolution);
+RTC5_API void set_fly_2d(double ScaleX, double ScaleY);
+RTC5_API void activate_fly_xy(double ScaleX, double ScaleY);
+RTC5_API void activate_fly_2d(double ScaleX, double ScaleY);
+RTC5_API void set_fly_x_pos(double ScaleX);
+RTC5_API void set_fly_y_pos(double ScaleY);
+RTC5_API void set_fly_rot_pos(double Resolution);
+RTC5_API void fly_return(long X, long Y);
+RTC5_API void fly_return_z(long X, long Y, long Z);
+RTC5_API void set_rot_center_list(long X, long Y);
+RTC5_API void park_position(UINT Mode, long X, long Y);
+RTC5_API void park_return(UINT Mode, long X, long Y);
+RTC5_API void set_mcbsp_in_list(UINT Mode, double Scale);
+RTC5_API void set_multi_mcbsp_in_list(UINT Ctrl, UINT P, UINT Mode);
+
+/* ---- Lists: waits, overflow, starts ---- */
+
+/* A wait holds the position while the correction goes on. Mode > 0: until the count is Value or more; < 0: Value or
+ * less; 0: until it passes Value upwards (Value > 0) or downwards. EncoderNo 0, 1; Axis 0 is X, 1 is Y. The command
+ * after if_.. is skipped if the condition does not hold: Mode 0 looks at both limits of set_fly_limits, > 0 at the
+ * upper one, < 0 at the lower one. */
+RTC5_API void store_encoder(UINT Pos);
+RTC5_API void wait_for_encoder(long Value, UINT EncoderNo);
+RTC5_API void wait_for_encoder_mode(long Value, UINT EncoderNo, long Mode);
+RTC5_API void wait_for_encoder_in_range(long EncXmin, long EncXmax, long EncYmin, long EncYmax);
+RTC5_API void wait_for_mcbsp(UINT Axis, long Value, long Mode);
+RTC5_API void set_fly_limits(long Xmin, long Xmax, long Ymin, long Ymax);
+RTC5_API void set_fly_limits_z(long Zmin, long Zmax);
+RTC5_API void if_fly_x_overflow(long Mode);
+RTC5_API void if_fly_y_overflow(long Mode);
+RTC5_API void if_fly_z_overflow(long Mode);
+RTC5_API void if_not_fly_x_overflow(long Mode);
+RTC5_API void if_not_fly_y_overflow(long Mode);
+RTC5_API void if_not_fly_z_overflow(long Mode);
+RTC5_API void clear_fly_overflow(UINT Mode);
+RTC5_API void set_ext_start_delay_list(long Delay, UINT EncoderNo);
+RTC5_API void simulate_ext_start(long Delay, UINT EncoderNo);
+RTC5_API void set_control_mode_list(UINT Mode);
+RTC5_API void set_encoder_speed(UINT EncoderNo, double Speed, double Smooth);
+
+/* ---- Lists: transforms ---- */
+
+/* As set_matrix, set_offset, set_angle and set_scale; Ind1, Ind2 are row and column of the coefficient, 0 or 1. */
+RTC5_API void set_matrix_list(UINT HeadNo, UINT Ind1, UINT Ind2, double Mij, UINT at_once);
+RTC5_API void set_offset_list(UINT HeadNo, long XOffset, long YOffset, UINT at_once);
+RTC5_API void set_angle_list(UINT HeadNo, double Angle, UINT at_once);
+RTC5_API void set_scale_list(UINT HeadNo, double Scale, UINT at_once);
+
+/* ---- The virtual cards ---- */
+
+/* The sentence of the last error of this thread, "" if there was none; the text holds until the next error. */
+RTC5_API const char *rtc5sim_last_error(void);
+RTC5_API void rtc5sim_clear_error(void);
+
+/* Called after each error, from its thread, with the sentence; a null pointer: nobody. */
+typedef void (*rtc5sim_error_handler)(const char *sentence, void *user);
+RTC5_API void rtc5sim_on_error(rtc5sim_error_handler handler, void *user);
+
+/* What a question takes from here on: 0 .. 1,000,000,000 us, a multiple of 10. */
+RTC5_API int rtc5sim_question_us(int64_t us);
+
+/* Lets all cards run so long, a multiple of 10 us; 0, or -1. */
+RTC5_API int rtc5sim_advance_us(int64_t us);
+
+/* Lets all cards run until no list runs, nothing moves and no start waits, at most so long: 1 they rest, 0 they do not
+ * yet, -1. */
+RTC5_API int rtc5sim_run(int64_t most_us);
+
+/* Virtual time since the first call; -1 if it failed. */
+RTC5_API int64_t rtc5sim_now_us(void);
+
+/* What comes to a card: an encoder line (Encoder 0, 1) that counts on with this speed, up to 1e9 counts/s; the line's
+ * count set to a number; a McBSP word; a start signal; a stop signal. They act in the next 10 us. 0, or -1. */
+RTC5_API int rtc5sim_encoder_speed(UINT CardNo, UINT Encoder, double counts_per_s);
+RTC5_API int rtc5sim_encoder_count(UINT CardNo, UINT Encoder, int32_t count);
+RTC5_API int rtc5sim_receive(UINT CardNo, uint32_t word);
+RTC5_API int rtc5sim_start(UINT CardNo);
+RTC5_API int rtc5sim_stop(UINT CardNo);
+
+/* Where head A of a card is (bits) and whether its laser is on; null pointers are left out. Takes no time. 0, or -1. */
+RTC5_API int rtc5sim_output(UINT CardNo, int32_t *x, int32_t *y, int *laser);
+
+/* Called while cards run, with what head A does in consecutive ticks of 10 us: x and y in bits, and for how many half-
+ * microseconds of it, 0 .. 20, the laser is on. The arrays hold until it returns; it must not call functions of this
+ * library. A null pointer: nobody, and runs are faster. */
+typedef void (*rtc5sim_samples_handler)(void *user, UINT CardNo, int64_t first_tick, const int32_t *x, const int32_t *y,
+                                        const uint8_t *laser, size_t n);
+RTC5_API void rtc5sim_on_samples(rtc5sim_samples_handler handler, void *user);
+
+/* What the bits of get_marking_info mean, in words, a line each; holds until the next call of the thread. */
+RTC5_API const char *rtc5sim_marking_info_text(UINT bits);
+
+#ifdef __cplusplus
+}
+#endif
+
+#include <rtc5sim_cards.h>
+
+#endif
