@@ -40,6 +40,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/motionrack/frontends/pascal/uFlex2Pos.pas DE
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/motionrack)
 install(EXPORT motionrack-cpp NAMESPACE motionrack:: DESTINATION ${package_dir})
 install(EXPORT motionrack-dds NAMESPACE motionrack:: DESTINATION ${package_dir})
+install(EXPORT motionrack-mark NAMESPACE motionrack:: DESTINATION ${package_dir})
 install(EXPORT motionrack-c NAMESPACE motionrack:: DESTINATION ${package_dir})
 set(motionrack_find_dependencies "")
 foreach(package IN LISTS motionrack_public_packages)

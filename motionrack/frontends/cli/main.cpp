@@ -40,6 +40,8 @@ int main(int argc, char** argv) {
     add_canon(app, chosen);
     add_decode(app, chosen);
     add_frames(app, chosen);
+    add_mark(app, chosen);
+    add_calibrate(app, chosen);
     add_bench(app, chosen);
     add_completion(app, chosen);
     add_manual(app, chosen);

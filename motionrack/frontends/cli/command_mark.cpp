@@ -1,0 +1,93 @@
+// mark JOB: marks a drawing on a simulated moving part with the virtual RTC5; what is on the part as a table and a picture.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/mark/run.hpp>
+#include <nlohmann/json.hpp>
+
+namespace motionrack::cli {
+
+namespace {
+
+std::atomic<bool> stop_asked{false};
+
+void on_interrupt(int) { stop_asked.store(true); }
+
+struct MarkOptions {
+    std::string job, picture = "mark.svg";
+    bool json = false, quiet = false;
+};
+
+nlohmann::ordered_json json_of(const mark::Marked& m) {
+    nlohmann::ordered_json out = {{"worst_mm", m.deviation.worst_mm},
+                                  {"rms_mm", m.deviation.rms_mm},
+                                  {"worst_at_mm", {m.deviation.worst_at.x, m.deviation.worst_at.y}},
+                                  {"worst_at_s", m.deviation.worst_s},
+                                  {"missing_mm", m.deviation.missing_mm},
+                                  {"marked_mm", m.marked_mm},
+                                  {"seconds", m.seconds},
+                                  {"duty", m.duty},
+                                  {"energy_j", m.energy_j},
+                                  {"flags", nlohmann::ordered_json::array()}};
+    for (const mark::FlagSeen& flag : m.flags) out["flags"].push_back({{"name", flag.name}, {"at_s", flag.at_s}, {"meaning", flag.meaning}});
+    return out;
+}
+
+std::string json_text(const mark::Outcome& out) {
+    nlohmann::ordered_json all = {{"drawing_mm", out.drawing_mm}, {"strokes", out.strokes}, {"elements", out.elements}, {"marked", json_of(out.on)}};
+    if (out.off) all["without_correction"] = json_of(*out.off);
+    if (out.fits_factor) all["fits_times_the_speed"] = *out.fits_factor;
+    all["notes"] = out.notes;
+    return all.dump(2);
+}
+
+int run_mark(const MarkOptions& options) {
+    const Result<std::string> text = read_text(options.job);
+    if (!text) return report(text.error());
+    const mark::JobRead read = mark::read_job(*text, options.job);
+    for (const Error& error : read.errors) print_error(error.text());
+    if (!read.job) return exit_bad_input;
+    const std::size_t slash = options.job.rfind('/');
+    const std::string folder = slash == std::string::npos ? "" : options.job.substr(0, slash + 1);
+    const auto load = [&](const std::string& path) { return read_text(!path.empty() && path[0] == '/' ? path : folder + path); };
+    const Result<mark::Setup> setup = mark::make_setup(*read.job, load);
+    if (!setup) return report(setup.error());
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    ProgressLine progress(options.quiet || options.json);
+    const mark::Watch watch{[&](double part) { progress.show(part, "marking"); }, [] { return stop_asked.load(); }};
+    const Result<mark::Outcome> outcome = mark::run_job(*read.job, *setup, watch);
+    progress.clear();
+    if (!outcome) return report(outcome.error());
+    if (options.json)
+        fmt::print("{}\n", json_text(*outcome));
+    else
+        fmt::print("{}", mark::outcome_text(*read.job, *outcome));
+    if (!options.picture.empty()) {
+        if (const Result<void> done = write_text(options.picture, mark::picture_svg(*setup, *outcome)); !done) return report(done.error());
+        if (!options.json && !options.quiet) fmt::print("written: {}\n", options.picture);
+    }
+    return outcome->on.flags.empty() ? exit_done : exit_machine;
+}
+
+}  // namespace
+
+void add_mark(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<MarkOptions>();
+    CLI::App* command = app.add_subcommand("mark", "Mark a drawing on a moving part with the virtual RTC5: what is on the part, and how far off");
+    command->add_option("JOB", options->job, "job file (TOML), '-': standard input; its files are looked for beside it")->required();
+    command->add_option("--picture", options->picture, "the part with correction and without, as SVG; '': none")->capture_default_str();
+    command->add_flag("--json", options->json, "print the table as JSON");
+    command->add_flag("-q,--quiet", options->quiet, "no progress");
+    command->footer("Example: motionrack mark square.toml --picture square.svg\n"
+                    "Exit code 4: the correction left the field, so that some of the drawing was not marked where it should be.");
+    command->callback([options, &chosen] { chosen = [options] { return run_mark(*options); }; });
+}
+
+}  // namespace motionrack::cli

@@ -1,0 +1,52 @@
+// What a marking job left on the part, as a table.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <motionrack/mark/run.hpp>
+
+namespace motionrack::mark {
+
+namespace {
+
+using Out = std::back_insert_iterator<std::string>;
+
+void row(Out to, const char* name, const Marked& m) {
+    fmt::format_to(to, "{:<20} {:>10.4f} {:>10.4f} {:>18} {:>10.3f} {:>10.3f} {:>9.4f} {:>6.1f} {:>9.3f}\n", name, m.deviation.worst_mm, m.deviation.rms_mm,
+                   fmt::format("{:.3f}, {:.3f}", m.deviation.worst_at.x, m.deviation.worst_at.y), m.deviation.missing_mm, m.marked_mm, m.seconds, m.duty * 100,
+                   m.energy_j);
+}
+
+void fit(Out to, const Job& job, const Outcome& out) {
+    if (!out.fits_factor) return;
+    const char* unit = job.belt.rotary ? "degrees/s" : "mm/s";
+    if (*out.fits_factor == 0) {
+        fmt::format_to(to, "The drawing does not fit the field even while the part is at rest. Make it smaller.\n");
+    } else if (out.fits_any) {
+        fmt::format_to(to, "It fits the field at any speed up to {:g} times this one.\n", *out.fits_factor);
+    } else if (job.belt.profile.empty()) {
+        fmt::format_to(to, "It just fits the field at {:.5g} {}; this job has {:g} {}.\n", *out.fits_factor * job.belt.speed, unit, job.belt.speed, unit);
+    } else {
+        fmt::format_to(to, "It just fits the field at {:.4g} times the speeds of the profile.\n", *out.fits_factor);
+    }
+}
+
+}  // namespace
+
+std::string outcome_text(const Job& job, const Outcome& out) {
+    std::string text;
+    const Out to(text);
+    fmt::format_to(to, "drawing: {} strokes, {} lines and arcs, {:.3f} mm\n", out.strokes, out.elements, out.drawing_mm);
+    for (const std::string& note : out.notes) fmt::format_to(to, "note: {}\n", note);
+    fmt::format_to(to, "{:<20} {:>10} {:>10} {:>18} {:>10} {:>10} {:>9} {:>6} {:>9}\n", "", "worst mm", "rms mm", "at x, y mm", "missing mm", "marked mm", "time s",
+                   "duty %", "energy J");
+    row(to, out.off ? "with correction" : "without correction", out.on);
+    if (out.off) row(to, "without correction", *out.off);
+    for (const FlagSeen& flag : out.on.flags) fmt::format_to(to, "{} at {:.5f} s: {}; the mirrors stayed at the edge\n", flag.name, flag.at_s, flag.meaning);
+    if (!out.drawing_in_field) fmt::format_to(to, "Some of the drawing is outside the field while the part is at its begin.\n");
+    if (out.on.lost_points > 0) fmt::format_to(to, "{} more points were marked than the picture keeps.\n", out.on.lost_points);
+    fit(to, job, out);
+    return text;
+}
+
+}  // namespace motionrack::mark

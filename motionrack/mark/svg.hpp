@@ -1,0 +1,51 @@
+// Drawings as SVG: outlines of path, line, polyline, polygon, rect, circle and ellipse, in groups with transforms.
+//
+// Millimetres: with width or height in mm (cm, in, pt, pc, px = 1/96 in) and a viewBox, the size says how long a user unit is; without a
+// unit, a user unit is a millimetre. Y points up afterwards. Fills, colours and widths are not looked at; definitions, titles and an
+// editor's own elements are passed over, and so is what has display none. All else that would show is refused with its place: text
+// (make it paths), use, image, nested svg, clipping, masks, dashes, percentages.
+#pragma once
+
+#include <motionrack/mark/drawing.hpp>
+#include <string>
+#include <string_view>
+
+namespace motionrack::mark {
+
+inline constexpr std::size_t most_svg_bytes = 50'000'000;
+
+/// Errors: bad_input, with line and column of the element or of the character in its data.
+Result<Drawing> read_svg(std::string_view text, const std::string& file, double tolerance_mm = default_tolerance_mm);
+
+/// What is wrong in path data or a transform, and at which character of it.
+struct DataError {
+    std::size_t at = 0;
+    std::string message;
+};
+/// Draws path data ("M 0 0 L 10 0 ..."). All commands of SVG 1.1, absolute and relative.
+tl::expected<void, DataError> draw_path(std::string_view data, Pen& pen);
+/// "translate(1 2) rotate(30)" and so on.
+tl::expected<Affine, DataError> read_transform(std::string_view data);
+
+/// Numbers out of an attribute's text.
+class Scan {
+  public:
+    explicit Scan(std::string_view text) : text_(text) {}
+    /// Past blanks, and one comma among them.
+    void skip();
+    bool done() const { return at_ >= text_.size(); }
+    char peek() const { return done() ? '\0' : text_[at_]; }
+    char take() { return text_[at_++]; }
+    std::size_t at() const { return at_; }
+    /// Whether a number begins here.
+    bool number_next() const;
+    /// A finite number up to 1e9.
+    tl::expected<double, DataError> number();
+    tl::expected<bool, DataError> arc_flag();
+
+  private:
+    std::string_view text_;
+    std::size_t at_ = 0;
+};
+
+}  // namespace motionrack::mark

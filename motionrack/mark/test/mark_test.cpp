@@ -1,0 +1,152 @@
+// Marking jobs from their text to the part.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <motionrack/mark/run.hpp>
+
+namespace motionrack::mark {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* square_svg = R"(<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm" viewBox="0 0 10 10"><path d="M0 10 H10 V0 H0 Z"/></svg>)";
+/// The reference job: a square of 10 mm from its corner on, at 500 mm/s on a belt at 100 mm/s.
+const std::string belt_job = "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[pace]\nmark_mm_s = 500\n[belt]\nspeed_mm_s = 100\n";
+
+Load one_file(const std::string& text) {
+    return [text](const std::string&) -> Result<std::string> { return text; };
+}
+
+Job job_of(const std::string& text) {
+    JobRead read = read_job(text, "job.toml");
+    for (const Error& error : read.errors) ADD_FAILURE() << error.text();
+    return read.job.value_or(Job{});
+}
+
+Outcome run(const Job& job, const std::string& svg = square_svg) {
+    const Result<Setup> setup = make_setup(job, one_file(svg));
+    if (!setup) return ADD_FAILURE() << setup.error().text(), Outcome{};
+    Result<Outcome> out = run_job(job, *setup);
+    if (!out) return ADD_FAILURE() << out.error().text(), Outcome{};
+    return *out;
+}
+
+/// Whether a point was marked within `near_mm`, as the end of a piece.
+bool has_corner(const Marked& marked, Spot corner, double near_mm) {
+    for (const parts::MarkedPoint& p : marked.points)
+        if (std::hypot(p.at.x - corner.x, p.at.y - corner.y) <= near_mm) return true;
+    return false;
+}
+
+TEST(MarkJob, TheReferenceSquareIsRightWithCorrectionAndShearedWithout) {
+    const Outcome out = run(job_of(belt_job + "[fly]\nmode = 'encoder'\n"));
+    EXPECT_EQ(out.strokes, 1u);
+    EXPECT_NEAR(out.drawing_mm, 40, 1e-9);
+    EXPECT_LE(out.on.deviation.worst_mm, 0.0025) << "one count and one tick";
+    EXPECT_EQ(out.on.deviation.missing_mm, 0);
+    EXPECT_TRUE(out.on.flags.empty());
+    ASSERT_TRUE(out.off);
+    for (const Spot corner : {Spot{0, 0}, Spot{8, 0}, Spot{6, 10}, Spot{-6, 10}, Spot{-8, 0}}) EXPECT_TRUE(has_corner(*out.off, corner, 0.005)) << corner.x << ' ' << corner.y;
+    EXPECT_NEAR(out.on.seconds, 0.08, 0.006);
+    EXPECT_NEAR(out.on.duty, 0.08 / out.on.seconds, 0.01);
+    EXPECT_NEAR(out.on.energy_j, 20 * 0.08, 0.01);
+}
+
+TEST(MarkJob, EveryWayToFollowThePartGivesTheSquare) {
+    for (const char* mode : {"encoder", "simulated", "mcbsp"})
+        for (const char* way : {"0", "90", "180", "270", "30"}) {
+            Job job = job_of(belt_job + "direction_deg = " + way + "\n[fly]\nmode = '" + mode + "'\n");
+            EXPECT_LE(run(job).on.deviation.worst_mm, std::string(mode) == "mcbsp" ? 0.0045 : 0.003) << mode << ' ' << way;
+        }
+    for (const char* mode : {"encoder", "simulated", "mcbsp"}) {
+        const Outcome out = run(job_of(std::string("[drawing]\nsvg = 's'\n[table]\nspeed_deg_s = 60\ncentre_x_mm = -30\ncounts_per_deg = 10000\n[sender]\nbits_per_unit = 10000\n[fly]\nmode = '") + mode + "'\n"));
+        EXPECT_LE(out.on.deviation.worst_mm, 0.003) << mode;
+        EXPECT_GT(out.off->deviation.worst_mm, 0.1);
+    }
+}
+
+TEST(MarkJob, TheSpeedAtWhichItJustFitsFitsAndALittleMoreDoesNot) {
+    Job job = job_of(belt_job + "[fly]\nmode = 'encoder'\n");
+    const Outcome out = run(job);
+    ASSERT_TRUE(out.fits_factor);
+    // 0.08 s and a little until the last corner; the field ends at 60.57 mm.
+    EXPECT_GT(*out.fits_factor, 6);
+    EXPECT_LT(*out.fits_factor, 9);
+    job.belt.speed = 100 * *out.fits_factor;
+    EXPECT_TRUE(run(job).on.flags.empty());
+    job.belt.speed *= 1.001;
+    const Outcome over = run(job);
+    ASSERT_EQ(over.on.flags.size(), 1u);
+    EXPECT_EQ(over.on.flags[0].name, "FLY_X_OVERFLOW");
+    EXPECT_NEAR(*over.fits_factor * job.belt.speed, 100 * *out.fits_factor, 0.2);
+    EXPECT_THAT(outcome_text(job, over), HasSubstr("FLY_X_OVERFLOW at 0.0"));
+}
+
+TEST(MarkJob, AWrongScaleAndALateSourceShowAsTheirFormulasSay) {
+    const Outcome wrong = run(job_of(belt_job + "[fly]\nmode = 'encoder'\nscale_factor = 1.01\n"));
+    EXPECT_NEAR(wrong.on.deviation.worst_mm, 0.01 * 100 * wrong.on.seconds, 0.01);
+    const Outcome late = run(job_of(belt_job + "[sender]\ndelay_us = 2000\n[fly]\nmode = 'mcbsp'\n"));
+    EXPECT_NEAR(late.on.deviation.worst_mm, 0.2, 0.005) << "2 ms at 100 mm/s";
+}
+
+TEST(MarkJob, ALensIsCorrectedByItsTableAndNotWithoutOne) {
+    const std::string lens = "[drawing]\nsvg = 's'\nscale = 6\n[lens]\n";
+    EXPECT_LT(run(job_of(lens)).on.deviation.worst_mm, 0.002);
+    EXPECT_GT(run(job_of(lens + "[optics]\ncorrection = false\n")).on.deviation.worst_mm, 0.2);
+}
+
+TEST(MarkJob, CirclesTextAndGcodeAreMarkedAsDrawn) {
+    const Outcome circle = run(job_of("[drawing]\nsvg = 's'\nx_mm = 3\n"), "<svg><circle cx='5' cy='5' r='4'/></svg>");
+    EXPECT_EQ(circle.elements, 2u) << "arcs of the card";
+    EXPECT_LE(circle.on.deviation.worst_mm, 0.001);
+    EXPECT_EQ(circle.on.deviation.missing_mm, 0);
+    const Outcome text = run(job_of("[drawing]\ntext = 'SN 0042 g'\nheight_mm = 3\n"));
+    EXPECT_LE(text.on.deviation.worst_mm, 0.001);
+    EXPECT_EQ(text.on.deviation.missing_mm, 0);
+    const Outcome gcode = run(job_of("[drawing]\ngcode = 'p'\nanchor = 'origin'\n"), "G21 G90 G0 X5 Y0\nG1 X10 F100\nG3 X10 Y10 I0 J5\nG0 X0 Y0\nM2\n");
+    EXPECT_EQ(gcode.strokes, 1u);
+    EXPECT_NEAR(gcode.drawing_mm, 5 + 5 * 3.14159265, 1e-6);
+    EXPECT_LE(gcode.on.deviation.worst_mm, 0.001);
+}
+
+TEST(MarkJob, ThePictureHasBothPartsAndStaysXml) {
+    const Job job = job_of(belt_job + "[fly]\nmode = 'simulated'\n");
+    const Result<Setup> setup = make_setup(job, one_file(square_svg));
+    const Result<Outcome> out = run_job(job, *setup);
+    const std::string picture = picture_svg(*setup, *out);
+    EXPECT_THAT(picture, HasSubstr("with correction: worst 0.00"));
+    EXPECT_THAT(picture, HasSubstr("without correction: worst "));
+    EXPECT_EQ(picture.find("nan"), std::string::npos);
+    EXPECT_EQ(picture.rfind("</svg>\n"), picture.size() - 7);
+}
+
+TEST(MarkJob, WrongJobsAreRefusedWithTheirPlaces) {
+    const auto first = [](const std::string& text) {
+        const JobRead read = read_job(text, "j.toml");
+        return read.errors.empty() ? std::string() : read.errors[0].text();
+    };
+    EXPECT_THAT(first("[drawing]\n"), HasSubstr("j.toml:1:"));
+    EXPECT_THAT(first("[drawing]\ntext = 'A'\nsvg = 'b'\n"), HasSubstr("there are 2"));
+    EXPECT_THAT(first("[drawing]\ntext = 'A'\n[pace]\nmark_mm_s = nan\n"), HasSubstr("j.toml:4:"));
+    EXPECT_THAT(first("[drawing]\ntext = 'A'\n[pace]\njump_delay_us = 55\n"), HasSubstr("steps of 10 us"));
+    EXPECT_THAT(first("[drawing]\ntext = 'A'\n[bolt]\n"), HasSubstr("belt"));
+    EXPECT_THAT(first("[drawing]\ntext = 'A'\n[belt]\nprofile = [[0, 1], [0, 2]]\n"), HasSubstr("j.toml:4:"));
+    EXPECT_THAT(first("[drawing]\ntext = 'A'\n[fly]\nmode = 'simulated'\n"), HasSubstr("constant speed"));
+    EXPECT_THAT(first("[drawing]\ntext = "), HasSubstr("j.toml:2:"));
+    const Result<Setup> strange = make_setup(job_of("[drawing]\ntext = 'A^'\n"), one_file(""));
+    EXPECT_THAT(strange.error().text(), HasSubstr("Character 2"));
+    const Job fast = job_of("[drawing]\ntext = 'A'\n[pace]\nmark_mm_s = 200000\n");
+    EXPECT_THAT(run_job(fast, *make_setup(fast, one_file(""))).error().text(), HasSubstr("bits/ms"));
+    EXPECT_FALSE(make_setup(job_of("[drawing]\ntext = 'A'\n[optics]\nct5 = 'x.ct5'\n"), one_file("no table")));
+}
+
+TEST(MarkJob, StopsWhenAsked) {
+    const Job job = job_of("[drawing]\ntext = 'AAAAAAAAAAAA'\n[pace]\nmark_mm_s = 10\n");
+    const Result<Outcome> out = run_job(job, *make_setup(job, one_file("")), {{}, [] { return true; }});
+    ASSERT_FALSE(out);
+    EXPECT_EQ(out.error().trouble, Trouble::stopped);
+}
+
+}  // namespace
+}  // namespace motionrack::mark
