@@ -15,7 +15,7 @@ double distance(Spot a, Spot b) {
 /// Chords of an arc of radius `r` mm so that none is further off than the tolerance.
 int chords(double sweep, double r, double tolerance) {
     const double n = std::ceil(std::fabs(sweep) * std::sqrt(std::max(r, 0.0) / (8 * tolerance)));
-    return static_cast<int>(std::clamp(n, std::ceil(std::fabs(sweep)), 100'000.0)) + 1;
+    return static_cast<int>(std::clamp(n, 1.0, 100'000.0)) + 1;
 }
 
 }  // namespace
@@ -64,7 +64,7 @@ void Pen::cubic_to(Spot control1, Spot control2, Spot p) {
     double bend = 0;
     for (int i = 0; i < 2; ++i) bend = std::max(bend, distance({q[i].x + q[i + 2].x, q[i].y + q[i + 2].y}, {2 * q[i + 1].x, 2 * q[i + 1].y}));
     const int n = static_cast<int>(std::clamp(std::ceil(std::sqrt(0.75 * bend / tolerance_)), 1.0, 100'000.0));
-    for (int i = 1; i < n; ++i) {
+    for (int i = 1; i < n && complete(); ++i) {
         const double t = static_cast<double>(i) / n, s = 1 - t;
         const double w[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
         add({{w[0] * q[0].x + w[1] * q[1].x + w[2] * q[2].x + w[3] * q[3].x, w[0] * q[0].y + w[1] * q[1].y + w[2] * q[2].y + w[3] * q[3].y}});
@@ -82,7 +82,7 @@ void Pen::ellipse_to(Spot centre, double rx, double ry, double turn, double begi
     }
     const SinCos axis = sin_cos(turn);
     const int n = chords(sweep, std::max(rx, ry) * to_mm_.greatest_scale(), tolerance_);
-    for (int i = 1; i < n; ++i) {
+    for (int i = 1; i < n && complete(); ++i) {
         const SinCos angle = sin_cos(begin + sweep * i / n);
         const double u = rx * angle.cos, v = ry * angle.sin;
         add({to_mm_({centre.x + axis.cos * u - axis.sin * v, centre.y + axis.sin * u + axis.cos * v})});
@@ -109,6 +109,18 @@ Drawing transformed(const Drawing& drawing, const Affine& transform, double tole
                 const double r = distance(at, e.centre);
                 pen.ellipse_to(e.centre, r, r, 0, atan2(at.y - e.centre.y, at.x - e.centre.x), e.sweep, e.to);
             }
+            at = e.to;
+        }
+    }
+    return out;
+}
+
+std::size_t segment_count(const Drawing& drawing, double tolerance_mm) {
+    std::size_t out = 0;
+    for (const Stroke& stroke : drawing.strokes) {
+        Spot at = stroke.from;
+        for (const Element& e : stroke.elements) {
+            out += e.sweep == 0 ? 1 : static_cast<std::size_t>(chords(e.sweep, distance(at, e.centre), tolerance_mm));
             at = e.to;
         }
     }

@@ -76,8 +76,11 @@ class Pen {
 
 /// Everything moved; arcs stay arcs if the transform keeps circles, else they become lines within the tolerance.
 Drawing transformed(const Drawing& drawing, const Affine& transform, double tolerance_mm = default_tolerance_mm);
+inline constexpr double fine_tolerance_mm = 0.0002;  ///< of what marks are compared with
 /// The drawing as straight pieces, arcs within the tolerance.
-std::vector<parts::Segment> segments_of(const Drawing& drawing, double tolerance_mm = 0.0002);
+std::vector<parts::Segment> segments_of(const Drawing& drawing, double tolerance_mm = fine_tolerance_mm);
+/// How many those are.
+std::size_t segment_count(const Drawing& drawing, double tolerance_mm = fine_tolerance_mm);
 
 struct Box {
     Spot low, high;

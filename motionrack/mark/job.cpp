@@ -22,6 +22,9 @@ using rack::TomlNode;
 using rack::TomlType;
 using rack::with_choices;
 
+constexpr std::size_t most_segments = 5'000'000;
+constexpr double greatest_mm = 1e5;
+
 constexpr std::array<std::string_view, 2> anchors = {"centre", "origin"};
 constexpr std::array<std::string_view, 4> modes = {"off", "encoder", "simulated", "mcbsp"};
 
@@ -148,6 +151,21 @@ void check_job(const TomlNode& root, Job& job, rack::Problems& problems) {
     }
 }
 
+Result<void> check_size(const Drawing& drawing, const std::string& file) {
+    if (element_count(drawing) > most_elements || segment_count(drawing) > most_segments)
+        return fail(Trouble::bad_input, fmt::format("The drawing has more than {} lines and arcs, or more than {} with arcs as lines. Nothing was marked.", most_elements, most_segments),
+                    {}, file);
+    const auto near = [](Spot p) { return std::fabs(p.x) <= greatest_mm && std::fabs(p.y) <= greatest_mm; };
+    for (const Stroke& stroke : drawing.strokes) {
+        bool good = near(stroke.from);
+        for (const Element& e : stroke.elements) good &= near(e.to) && near(e.centre);
+        if (!good)
+            return fail(Trouble::bad_input, fmt::format("Some of the drawing, or the centre of an arc, is more than {:g} mm from the field's middle. Nothing was marked; make it smaller.", greatest_mm),
+                        {}, file);
+    }
+    return {};
+}
+
 }  // namespace
 
 parts::TrackSettings Job::track() const {
@@ -210,6 +228,7 @@ Result<Drawing> drawing_of(const Job& job, const Load& load) {
         MOTIONRACK_TRY(drawing, source.svg ? read_svg(text, name, source.tolerance_mm) : read_gcode(text, name));
     }
     if (element_count(drawing) == 0) return fail(Trouble::bad_input, "The drawing has no lines. Nothing was marked.", {}, job.file);
+    MOTIONRACK_CHECK(check_size(drawing, job.file));
     const Box box = box_of(drawing);
     double scale = source.scale;
     if (source.width_mm) {
@@ -225,7 +244,9 @@ Result<Drawing> drawing_of(const Job& job, const Load& load) {
     const Spot anchor = source.anchor == Anchor::centre ? Spot{(box.low.x + box.high.x) / 2, (box.low.y + box.high.y) / 2} : Spot{};
     const Affine place = Affine{scale * turn.cos, scale * turn.sin, -scale * turn.sin, scale * turn.cos, source.x_mm, source.y_mm}.after(
         {1, 0, 0, 1, -anchor.x, -anchor.y});
-    return transformed(drawing, place, source.tolerance_mm);
+    Drawing out = transformed(drawing, place, source.tolerance_mm);
+    MOTIONRACK_CHECK(check_size(out, job.file));
+    return out;
 }
 
 }  // namespace motionrack::mark

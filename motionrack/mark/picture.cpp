@@ -34,10 +34,10 @@ struct Page {
     double y(double mm) const { return box.high.y - mm; }
 };
 
-void drawing(Out to, const Page& page, const Setup& setup, int column) {
+void drawing(Out to, const Page& page, const Prepared& prepared, int column) {
     fmt::format_to(to, "<path class=\"drawing\" fill=\"none\" stroke=\"#b8b8b8\" stroke-width=\"{:.4f}\" d=\"", 2.2 * page.line);
     Spot at{1e300, 1e300};
-    for (const parts::Segment& s : setup.segments) {
+    for (const parts::Segment& s : prepared.segments) {
         if (s.from.x != at.x || s.from.y != at.y) fmt::format_to(to, "M{:.4f} {:.4f}", page.x(s.from.x, column), page.y(s.from.y));
         fmt::format_to(to, "L{:.4f} {:.4f}", page.x(s.to.x, column), page.y(s.to.y));
         at = s.to;
@@ -60,9 +60,9 @@ void marks(Out to, const Page& page, const Marked& marked, int column, const cha
 
 }  // namespace
 
-std::string picture_svg(const Setup& setup, const Outcome& out) {
+std::string picture_svg(const Prepared& prepared, const Outcome& out) {
     Page page;
-    page.box = box_of(setup.drawing);
+    page.box = box_of(prepared.drawing);
     for (const Marked* m : {&out.on, out.off ? &*out.off : nullptr})
         if (m != nullptr)
             for (const parts::MarkedPoint& p : m->points) widen(page.box, p.at);
@@ -78,10 +78,10 @@ std::string picture_svg(const Setup& setup, const Outcome& out) {
     fmt::format_to(to, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{:.4f} {:.4f} {:.4f} {:.4f}\" font-family=\"sans-serif\">\n",
                    columns * 560.0, std::ceil(columns * 560.0 * total_y / total_x), -margin, -margin, total_x, total_y);
     fmt::format_to(to, "<rect x=\"{:.4f}\" y=\"{:.4f}\" width=\"{:.4f}\" height=\"{:.4f}\" fill=\"white\"/>\n", -margin, -margin, total_x, total_y);
-    drawing(to, page, setup, 0);
+    drawing(to, page, prepared, 0);
     marks(to, page, out.on, 0, out.off ? "with correction" : "without correction", out.off ? "#0050a0" : "#c06000");
     if (out.off) {
-        drawing(to, page, setup, 1);
+        drawing(to, page, prepared, 1);
         marks(to, page, *out.off, 1, "without correction", "#c06000");
     }
     const double bar = scale_bar(wide), below = high + 12 * page.line;

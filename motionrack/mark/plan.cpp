@@ -74,7 +74,7 @@ double per_unit(const Job& job, const Following& following) {
     }
 }
 
-void put_fly(List& list, const Job& job, const Setup& setup, const Following& following) {
+void put_fly(List& list, const Job& job, const Prepared& prepared, const Following& following) {
     const double unit = per_unit(job, following);
     if (following.mode == FlyMode::off || unit == 0) return;
     const bool words = following.mode == FlyMode::mcbsp;
@@ -88,7 +88,7 @@ void put_fly(List& list, const Job& job, const Setup& setup, const Following& fo
         return;
     }
     const Direction d = direction_of(following.track);
-    const double scale = setup.bits_per_mm * job.fly.scale_factor / unit;
+    const double scale = prepared.bits_per_mm * job.fly.scale_factor / unit;
     if (words) {
         if (d.x != 0) list.put(Op::set_fly_x_pos, {scale * (d.y != 0 ? 1 : d.x)});
         if (d.y != 0) list.put(Op::set_fly_y_pos, {scale * (d.x != 0 ? 1 : d.y)});
@@ -108,8 +108,8 @@ Following following_of(const Job& job, double factor) {
     return out;
 }
 
-Result<Setup> make_setup(const Job& job, const Load& load) {
-    Setup out;
+Result<Prepared> prepare(const Job& job, const Load& load) {
+    Prepared out;
     MOTIONRACK_TRY(out.drawing, drawing_of(job, load));
     out.segments = segments_of(out.drawing);
     out.bits_per_mm = job.lens ? job.lens->bits_per_mm : job.optics.bits_per_mm;
@@ -135,14 +135,14 @@ Result<Setup> make_setup(const Job& job, const Load& load) {
     return out;
 }
 
-Result<std::vector<rtc5::Command>> list_of(const Job& job, const Setup& setup, const Following& following) {
-    List list(setup.bits_per_mm);
+Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const Following& following) {
+    List list(prepared.bits_per_mm);
     list.speed(Op::set_jump_speed, "A jump speed", job.pace.jump_mm_s);
     list.speed(Op::set_mark_speed, "A mark speed", job.pace.mark_mm_s);
     list.put(Op::set_scanner_delays, {job.pace.jump_delay_us / 10, job.pace.mark_delay_us / 10, job.pace.polygon_delay_us / 10});
     list.put(Op::set_laser_delays, {job.pace.laser_on_us * 2, job.pace.laser_off_us * 2});
-    put_fly(list, job, setup, following);
-    for (const Stroke& stroke : setup.drawing.strokes) {
+    put_fly(list, job, prepared, following);
+    for (const Stroke& stroke : prepared.drawing.strokes) {
         list.put(Op::jump_abs, {list.bits(stroke.from.x), list.bits(stroke.from.y)});
         for (const Element& e : stroke.elements) {
             if (e.sweep == 0)

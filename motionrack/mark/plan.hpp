@@ -10,7 +10,7 @@
 namespace motionrack::mark {
 
 /// What a job marks and with what; made once, run as often as wanted.
-struct Setup {
+struct Prepared {
     Drawing drawing;
     std::vector<parts::Segment> segments;  ///< the drawing as straight pieces
     double bits_per_mm = 0;
@@ -20,7 +20,7 @@ struct Setup {
 };
 
 /// Errors: of the files the job names.
-Result<Setup> make_setup(const Job& job, const Load& load);
+Result<Prepared> prepare(const Job& job, const Load& load);
 
 /// The movement of the part and how the card follows it.
 struct Following {
@@ -31,6 +31,6 @@ struct Following {
 Following following_of(const Job& job, double factor = 1);
 
 /// The list, up to and with set_end_of_list. Errors: refused: a speed, place or scale that the card does not take.
-Result<std::vector<rtc5::Command>> list_of(const Job& job, const Setup& setup, const Following& following);
+Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const Following& following);
 
 }  // namespace motionrack::mark

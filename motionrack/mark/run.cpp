@@ -60,8 +60,8 @@ class StationSink final : public rtc5::Sink {
 };
 
 /// A card with the job's list, begun.
-Result<Engine> card_of(const Job& job, const Setup& setup, const Following& following) {
-    MOTIONRACK_TRY(const std::vector<rtc5::Command> list, list_of(job, setup, following));
+Result<Engine> card_of(const Job& job, const Prepared& prepared, const Following& following) {
+    MOTIONRACK_TRY(const std::vector<rtc5::Command> list, list_of(job, prepared, following));
     rtc5::Settings settings;
     settings.list1 = settings.list_memory;
     settings.list2 = 0;
@@ -71,8 +71,8 @@ Result<Engine> card_of(const Job& job, const Setup& setup, const Following& foll
     Engine card(settings);
     MOTIONRACK_CHECK(card.set_start_list(1));
     for (const rtc5::Command& command : list) MOTIONRACK_CHECK(card.put(command));
-    if (setup.table) {
-        MOTIONRACK_CHECK(card.load_correction(setup.table, 1));
+    if (prepared.table) {
+        MOTIONRACK_CHECK(card.load_correction(prepared.table, 1));
         MOTIONRACK_CHECK(card.select_cor_table(1, 0));
     }
     const bool follows = following.mode != FlyMode::off;
@@ -103,11 +103,11 @@ std::vector<FlagSeen> flags_of(const Engine& card) {
 }
 
 /// How far the correction went; whether the run came to its end in time.
-Result<bool> fits(const Job& job, const Setup& setup, double factor, const Watch& watch) {
+Result<bool> fits(const Job& job, const Prepared& prepared, double factor, const Watch& watch) {
     const Following following = following_of(job, factor);
     MOTIONRACK_TRY(Senses senses, Senses::make(job, following.track, following.mode));
     MOTIONRACK_CHECK(senses.begin());
-    MOTIONRACK_TRY(Engine card, card_of(job, setup, following));
+    MOTIONRACK_TRY(Engine card, card_of(job, prepared, following));
     card.set_inputs(&senses);
     MOTIONRACK_CHECK(run_to_end(card, nullptr, {}, watch));
     const rtc5::Extent& e = card.extent();
@@ -116,12 +116,12 @@ Result<bool> fits(const Job& job, const Setup& setup, double factor, const Watch
 }
 
 /// The greatest factor of the speed that fits, seen from one that does.
-Result<void> find_fit(const Job& job, const Setup& setup, bool fits_now, const Watch& watch, Outcome& out) {
+Result<void> find_fit(const Job& job, const Prepared& prepared, bool fits_now, const Watch& watch, Outcome& out) {
     double low = fits_now ? 1 : 0, high = fits_now ? 2 : 1;
     if (!fits_now && !out.drawing_in_field) return out.fits_factor = 0, Result<void>{};
     if (fits_now) {
         for (; high <= 1000; high *= 2) {
-            MOTIONRACK_TRY(const bool good, fits(job, setup, high, watch));
+            MOTIONRACK_TRY(const bool good, fits(job, prepared, high, watch));
             if (!good) break;
             low = high;
         }
@@ -129,25 +129,25 @@ Result<void> find_fit(const Job& job, const Setup& setup, bool fits_now, const W
     }
     while (high - low > 1e-4 * high) {
         const double middle = (low + high) / 2;
-        MOTIONRACK_TRY(const bool good, fits(job, setup, middle, watch));
+        MOTIONRACK_TRY(const bool good, fits(job, prepared, middle, watch));
         (good ? low : high) = middle;
     }
     out.fits_factor = low;
     return {};
 }
 
-Result<Marked> mark_once(const Job& job, const Setup& setup, const Following& following, double expected_ticks, const std::function<void(double)>& progress,
+Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Following& following, double expected_ticks, const std::function<void(double)>& progress,
                          const Watch& watch) {
     parts::StationSettings settings;
     settings.galvo = job.galvo;
-    settings.lens = setup.lens;
-    settings.bits_per_mm = setup.bits_per_mm;
+    settings.lens = prepared.lens;
+    settings.bits_per_mm = prepared.bits_per_mm;
     settings.laser = job.laser;
     settings.track = following.track;
     MOTIONRACK_TRY(parts::MarkingStation station, parts::MarkingStation::make(settings));
     MOTIONRACK_TRY(Senses senses, Senses::make(job, following.track, following.mode));
     MOTIONRACK_CHECK(senses.begin());
-    MOTIONRACK_TRY(Engine card, card_of(job, setup, following));
+    MOTIONRACK_TRY(Engine card, card_of(job, prepared, following));
     card.set_inputs(&senses);
     StationSink sink(station);
     MOTIONRACK_CHECK(run_to_end(card, &sink, [&](std::int64_t tick) { if (progress) progress(static_cast<double>(tick) / expected_ticks); }, watch));
@@ -156,7 +156,7 @@ Result<Marked> mark_once(const Job& job, const Setup& setup, const Following& fo
     card.run_until(end + static_cast<std::int64_t>((job.galvo.ideal ? 0 : job.galvo.dead_us / 10 + 200) + job.laser.off_delay_us / 10) + 2, &sink);
     station.workpiece().finish();
     Marked out;
-    out.deviation = station.workpiece().compare(setup.segments);
+    out.deviation = station.workpiece().compare(prepared.segments);
     out.points.assign(station.workpiece().points().begin(), station.workpiece().points().end());
     out.lost_points = station.workpiece().lost_points();
     out.seconds = static_cast<double>(end) * 1e-5;
@@ -173,32 +173,32 @@ bool moves(const parts::TrackSettings& track) {
 
 }  // namespace
 
-Result<Outcome> run_job(const Job& job, const Setup& setup, const Watch& watch) {
+Result<Outcome> run_job(const Job& job, const Prepared& prepared, const Watch& watch) {
     Outcome out;
-    out.notes = setup.notes;
-    out.drawing_mm = length_of(setup.drawing);
-    out.strokes = setup.drawing.strokes.size();
-    out.elements = element_count(setup.drawing);
-    const Box box = box_of(setup.drawing);
-    const double k = setup.bits_per_mm;
+    out.notes = prepared.notes;
+    out.drawing_mm = length_of(prepared.drawing);
+    out.strokes = prepared.drawing.strokes.size();
+    out.elements = element_count(prepared.drawing);
+    const Box box = box_of(prepared.drawing);
+    const double k = prepared.bits_per_mm;
     out.drawing_in_field = box.low.x * k >= rtc5::field_least && box.low.y * k >= rtc5::field_least && box.high.x * k <= rtc5::field_greatest &&
                            box.high.y * k <= rtc5::field_greatest;
     const Following with = following_of(job);
     const Following without{with.track, FlyMode::off};
     const bool follows = with.mode != FlyMode::off && moves(with.track);
     // A run that nobody looks at is quick and says how long the job takes.
-    MOTIONRACK_TRY(Engine dry, card_of(job, setup, without));
+    MOTIONRACK_TRY(Engine dry, card_of(job, prepared, without));
     MOTIONRACK_CHECK(run_to_end(dry, nullptr, {}, watch));
     const auto ticks = static_cast<double>(dry.tick()) + 1;
     const auto progress = [&](double begin, double share) -> std::function<void(double)> {
         if (!watch.progress) return {};
         return [&watch, begin, share](double part) { watch.progress(begin + share * std::min(part, 1.0)); };
     };
-    MOTIONRACK_TRY(out.on, mark_once(job, setup, with, ticks, progress(0, follows ? 0.45 : 1), watch));
+    MOTIONRACK_TRY(out.on, mark_once(job, prepared, with, ticks, progress(0, follows ? 0.45 : 1), watch));
     if (!follows) return out;
-    MOTIONRACK_TRY(out.off, mark_once(job, setup, without, ticks, progress(0.45, 0.45), watch));
-    MOTIONRACK_TRY(const bool fits_now, fits(job, setup, 1, watch));
-    MOTIONRACK_CHECK(find_fit(job, setup, fits_now, watch, out));
+    MOTIONRACK_TRY(out.off, mark_once(job, prepared, without, ticks, progress(0.45, 0.45), watch));
+    MOTIONRACK_TRY(const bool fits_now, fits(job, prepared, 1, watch));
+    MOTIONRACK_CHECK(find_fit(job, prepared, fits_now, watch, out));
     return out;
 }
 

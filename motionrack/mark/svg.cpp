@@ -15,6 +15,7 @@ namespace motionrack::mark {
 namespace {
 
 constexpr int deepest = 64;
+constexpr double greatest_scale = 1e9;
 constexpr std::array<std::string_view, 14> passed_over = {"title",  "desc",  "metadata", "defs", "symbol", "clipPath", "mask", "pattern",
                                                           "marker", "linearGradient", "radialGradient", "filter", "style", "script"};
 constexpr std::array<std::string_view, 3> refused_attributes = {"clip-path", "mask", "stroke-dasharray"};
@@ -143,6 +144,8 @@ class SvgReader {
             const auto own = read_transform(transform.value());
             if (!own) return wrong_in(node, "transform", own.error());
             to_mm = outer.after(*own);
+            if (!(to_mm.greatest_scale() <= greatest_scale && std::fabs(to_mm.e) <= greatest_scale && std::fabs(to_mm.f) <= greatest_scale))
+                return wrong_in(node, "transform", {0, "this and the groups around it make the drawing too large"});
         }
         if (name == "g" || name == "a") {
             for (const pugi::xml_node child : node.children()) MOTIONRACK_CHECK(element(child, to_mm, depth + 1));

@@ -56,13 +56,13 @@ int run_mark(const MarkOptions& options) {
     const std::size_t slash = options.job.rfind('/');
     const std::string folder = slash == std::string::npos ? "" : options.job.substr(0, slash + 1);
     const auto load = [&](const std::string& path) { return read_text(!path.empty() && path[0] == '/' ? path : folder + path); };
-    const Result<mark::Setup> setup = mark::make_setup(*read.job, load);
-    if (!setup) return report(setup.error());
+    const Result<mark::Prepared> prepared = mark::prepare(*read.job, load);
+    if (!prepared) return report(prepared.error());
     std::signal(SIGINT, on_interrupt);
     std::signal(SIGTERM, on_interrupt);
     ProgressLine progress(options.quiet || options.json);
     const mark::Watch watch{[&](double part) { progress.show(part, "marking"); }, [] { return stop_asked.load(); }};
-    const Result<mark::Outcome> outcome = mark::run_job(*read.job, *setup, watch);
+    const Result<mark::Outcome> outcome = mark::run_job(*read.job, *prepared, watch);
     progress.clear();
     if (!outcome) return report(outcome.error());
     if (options.json)
@@ -70,7 +70,7 @@ int run_mark(const MarkOptions& options) {
     else
         fmt::print("{}", mark::outcome_text(*read.job, *outcome));
     if (!options.picture.empty()) {
-        if (const Result<void> done = write_text(options.picture, mark::picture_svg(*setup, *outcome)); !done) return report(done.error());
+        if (const Result<void> done = write_text(options.picture, mark::picture_svg(*prepared, *outcome)); !done) return report(done.error());
         if (!options.json && !options.quiet) fmt::print("written: {}\n", options.picture);
     }
     return outcome->on.flags.empty() ? exit_done : exit_machine;

@@ -67,8 +67,8 @@ TEST(Calibration, LagFromACrossMarkedAtTwoSpeedsIsThatOfTheMirrors) {
         JobRead read = read_job("[drawing]\nsvg = 's'\nanchor = 'origin'\n[galvo]\nideal = false\ndead_us = 50\nnatural_hz = 3183.1\ndamping = 1\ngreatest_speed = 1e7\n"
                                 "[pace]\njump_delay_us = 2000\nmark_delay_us = 1000\nlaser_on_us = 500\n[belt]\ncounts_per_mm = 20000\nspeed_mm_s = " + std::to_string(speed) +
                                 "\n[fly]\nmode = 'encoder'\ntracking_error_us = " + std::to_string(tracking_error_us) + "\n", "j");
-        const Setup setup = *make_setup(*read.job, [](const std::string&) -> Result<std::string> { return std::string("<svg><path d='M0 -5V5'/></svg>"); });
-        const Outcome out = *run_job(*read.job, setup);
+        const Prepared prepared = *prepare(*read.job, [](const std::string&) -> Result<std::string> { return std::string("<svg><path d='M0 -5V5'/></svg>"); });
+        const Outcome out = *run_job(*read.job, prepared);
         const auto& points = out.on.points;
         return -points.at(points.size() / 2).at.x;
     };

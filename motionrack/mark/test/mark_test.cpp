@@ -25,9 +25,9 @@ Job job_of(const std::string& text) {
 }
 
 Outcome run(const Job& job, const std::string& svg = square_svg) {
-    const Result<Setup> setup = make_setup(job, one_file(svg));
-    if (!setup) return ADD_FAILURE() << setup.error().text(), Outcome{};
-    Result<Outcome> out = run_job(job, *setup);
+    const Result<Prepared> prepared = prepare(job, one_file(svg));
+    if (!prepared) return ADD_FAILURE() << prepared.error().text(), Outcome{};
+    Result<Outcome> out = run_job(job, *prepared);
     if (!out) return ADD_FAILURE() << out.error().text(), Outcome{};
     return *out;
 }
@@ -112,9 +112,9 @@ TEST(MarkJob, CirclesTextAndGcodeAreMarkedAsDrawn) {
 
 TEST(MarkJob, ThePictureHasBothPartsAndStaysXml) {
     const Job job = job_of(belt_job + "[fly]\nmode = 'simulated'\n");
-    const Result<Setup> setup = make_setup(job, one_file(square_svg));
-    const Result<Outcome> out = run_job(job, *setup);
-    const std::string picture = picture_svg(*setup, *out);
+    const Result<Prepared> prepared = prepare(job, one_file(square_svg));
+    const Result<Outcome> out = run_job(job, *prepared);
+    const std::string picture = picture_svg(*prepared, *out);
     EXPECT_THAT(picture, HasSubstr("with correction: worst 0.00"));
     EXPECT_THAT(picture, HasSubstr("without correction: worst "));
     EXPECT_EQ(picture.find("nan"), std::string::npos);
@@ -134,16 +134,17 @@ TEST(MarkJob, WrongJobsAreRefusedWithTheirPlaces) {
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[belt]\nprofile = [[0, 1], [0, 2]]\n"), HasSubstr("j.toml:4:"));
     EXPECT_THAT(first("[drawing]\ntext = 'A'\n[fly]\nmode = 'simulated'\n"), HasSubstr("constant speed"));
     EXPECT_THAT(first("[drawing]\ntext = "), HasSubstr("j.toml:2:"));
-    const Result<Setup> strange = make_setup(job_of("[drawing]\ntext = 'A^'\n"), one_file(""));
+    const Result<Prepared> strange = prepare(job_of("[drawing]\ntext = 'A^'\n"), one_file(""));
     EXPECT_THAT(strange.error().text(), HasSubstr("Character 2"));
     const Job fast = job_of("[drawing]\ntext = 'A'\n[pace]\nmark_mm_s = 200000\n");
-    EXPECT_THAT(run_job(fast, *make_setup(fast, one_file(""))).error().text(), HasSubstr("bits/ms"));
-    EXPECT_FALSE(make_setup(job_of("[drawing]\ntext = 'A'\n[optics]\nct5 = 'x.ct5'\n"), one_file("no table")));
+    EXPECT_THAT(run_job(fast, *prepare(fast, one_file(""))).error().text(), HasSubstr("bits/ms"));
+    EXPECT_THAT(prepare(job_of("[drawing]\nsvg = 's'\n"), one_file("<svg><circle r='1e7'/></svg>")).error().text(), HasSubstr("100000 mm"));
+    EXPECT_FALSE(prepare(job_of("[drawing]\ntext = 'A'\n[optics]\nct5 = 'x.ct5'\n"), one_file("no table")));
 }
 
 TEST(MarkJob, StopsWhenAsked) {
     const Job job = job_of("[drawing]\ntext = 'AAAAAAAAAAAA'\n[pace]\nmark_mm_s = 10\n");
-    const Result<Outcome> out = run_job(job, *make_setup(job, one_file("")), {{}, [] { return true; }});
+    const Result<Outcome> out = run_job(job, *prepare(job, one_file("")), {{}, [] { return true; }});
     ASSERT_FALSE(out);
     EXPECT_EQ(out.error().trouble, Trouble::stopped);
 }
