@@ -2,24 +2,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <motionrack/decode/analysis.hpp>
 #include <motionrack/decode/report.hpp>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 
 namespace motionrack::cli {
 
 namespace {
-
-/// Set by Ctrl-C; what was decoded until then is told.
-std::atomic<bool> stop_asked{false};
-
-void on_interrupt(int) { stop_asked.store(true); }
 
 struct DecodeOptions {
     std::string file, format, sample_rate;
@@ -83,8 +77,7 @@ int decode_file(DecodeOptions& options) {
         progress.show(part < 0 ? 0 : part, fmt::format("{:.0f} MB decoded", megabytes));
     };
     options.analysis.stop = [] { return stop_asked.load(); };
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
+    stop_on_signals();
     const Result<decode::Analysis> analysis = decode::analyse(**capture, *channels, options.analysis);
     progress.clear();
     return analysis ? print_analysis(*analysis, options) : report(analysis.error());

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <motionrack/dds/clock.hpp>
@@ -11,15 +9,12 @@
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/frames.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 
 namespace motionrack::cli {
 
 namespace {
-
-std::atomic<bool> stop_asked{false};
-
-void on_interrupt(int) { stop_asked.store(true); }
 
 struct FeedOptions {
     BusOptions bus;
@@ -96,8 +91,7 @@ int feed_rack(const FeedOptions& options) {
     dds::RemoteFeed feed(std::move(*subscriber));
     const rack::FrameWatch watch(rack);
     rack.start();
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
+    stop_on_signals();
     const std::uint64_t given = run(options, rack, watch, feed);
     if (stop_asked.load()) return exit_stopped;
     if (given != 0) return exit_done;

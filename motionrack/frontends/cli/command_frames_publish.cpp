@@ -1,14 +1,13 @@
 // frames publish: runs a rack in real time and publishes the frames of its grating bus for other computers.
 #include <fmt/format.h>
 
-#include <atomic>
-#include <csignal>
 #include <memory>
 #include <motionrack/dds/clock.hpp>
 #include <motionrack/dds/publishing.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/frames.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/rack/fault_plan.hpp>
 #include <motionrack/rack/frame_tap.hpp>
@@ -21,10 +20,6 @@
 namespace motionrack::cli {
 
 namespace {
-
-std::atomic<bool> stop_asked{false};
-
-void on_interrupt(int) { stop_asked.store(true); }
 
 struct PublishOptions {
     BusOptions bus;
@@ -167,8 +162,7 @@ int publish(const PublishOptions& options) {
     settings.stop = &stop_asked;
     const auto publisher = dds::Publisher::open({options.bus.name, options.bus.domain, (*tap)->period(), settings.pace});
     if (!publisher) return report(publisher.error());
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
+    stop_on_signals();
     Run run{options, rack, **tap, **faults, **publisher, settings};
     return publish_rack(run);
 }

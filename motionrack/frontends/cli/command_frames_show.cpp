@@ -2,14 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <motionrack/dds/clock.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/frames.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/rack/fault_plan.hpp>
 #include <motionrack/rack/frame_watch.hpp>
@@ -19,10 +18,6 @@
 namespace motionrack::cli {
 
 namespace {
-
-std::atomic<bool> stop_asked{false};
-
-void on_interrupt(int) { stop_asked.store(true); }
 
 struct ShowOptions {
     std::string rack, program, vcd, picture;
@@ -161,8 +156,7 @@ int show_frames(const ShowOptions& options) {
     }
     const auto faults = rack::FaultPlan::create(rack, options.faults);
     if (!faults) return report(faults.error());
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
+    stop_on_signals();
     Screen screen(watch, options);
     Show show{rack, **faults, recorder.get(), screen};
     if (!options.program.empty()) {

@@ -2,24 +2,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <iterator>
 #include <memory>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/frames.hpp>
+#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 
 namespace motionrack::cli {
 
 namespace {
-
-std::atomic<bool> stop_asked{false};
-
-void on_interrupt(int) { stop_asked.store(true); }
 
 struct SubscribeOptions {
     BusOptions bus;
@@ -185,8 +180,7 @@ int subscribe(const SubscribeOptions& options) {
     settings.judge.words = options.scales;
     const auto subscriber = dds::Subscriber::open(settings);
     if (!subscriber) return report(subscriber.error());
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
+    stop_on_signals();
     return listen(options, **subscriber, csv);
 }
 

@@ -1,25 +1,19 @@
 // home: finds the home switches of a rack's axes and tells what was found.
 #include <fmt/format.h>
 
-#include <atomic>
 #include <cctype>
 #include <cmath>
-#include <csignal>
 #include <memory>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/rack/homing.hpp>
 
 namespace motionrack::cli {
 
 namespace {
-
-/// Set by Ctrl-C; the axes then decelerate.
-std::atomic<bool> stop_asked{false};
-
-void on_interrupt(int) { stop_asked.store(true); }
 
 struct HomeOptions {
     std::string axes, rack, picture;
@@ -65,8 +59,7 @@ int home(const HomeOptions& options) {
         progress.show(p.axes > 0 ? static_cast<double>(p.homed) / p.axes + 0.003 * std::fmod(p.seconds, 30) / 30 : 0,
                       fmt::format("{} of {} homed, {}, {:.2f} s", p.homed, p.axes, p.states, p.seconds));
     };
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
+    stop_on_signals();
     const rack::HomingOutcome outcome = rack::home_axes(rack, settings);
     progress.clear();
     if (!outcome.ended) code = report(outcome.ended.error());

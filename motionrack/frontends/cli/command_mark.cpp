@@ -1,12 +1,11 @@
 // mark JOB: marks a drawing on a simulated moving part with the virtual RTC5; what is on the part as a table and a picture.
 #include <fmt/format.h>
 
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/mark/run.hpp>
 #include <nlohmann/json.hpp>
@@ -14,10 +13,6 @@
 namespace motionrack::cli {
 
 namespace {
-
-std::atomic<bool> stop_asked{false};
-
-void on_interrupt(int) { stop_asked.store(true); }
 
 struct MarkOptions {
     std::string job, picture = "mark.svg";
@@ -58,8 +53,7 @@ int run_mark(const MarkOptions& options) {
     const auto load = [&](const std::string& path) { return read_text(!path.empty() && path[0] == '/' ? path : folder + path); };
     const Result<mark::Prepared> prepared = mark::prepare(*read.job, load);
     if (!prepared) return report(prepared.error());
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
+    stop_on_signals();
     ProgressLine progress(options.quiet || options.json);
     const mark::Watch watch{[&](double part) { progress.show(part, "marking"); }, [] { return stop_asked.load(); }};
     const Result<mark::Outcome> outcome = mark::run_job(*read.job, *prepared, watch);

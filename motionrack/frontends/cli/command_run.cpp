@@ -1,12 +1,11 @@
 // run and trace: a part program on a rack, with progress, summary, report and recordings.
 #include <fmt/format.h>
 
-#include <atomic>
-#include <csignal>
 #include <memory>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/rack/fault_plan.hpp>
 #include <motionrack/rack/job.hpp>
@@ -19,11 +18,6 @@
 namespace motionrack::cli {
 
 namespace {
-
-/// Set by Ctrl-C; the axes then come to rest along the path and everything recorded is kept.
-std::atomic<bool> stop_asked{false};
-
-void on_interrupt(int) { stop_asked.store(true); }
 
 struct RunOptions {
     std::string program, rack, report = "report.html", vcd, csv, events;
@@ -99,8 +93,7 @@ int run(const RunOptions& options) {
     rack.start();
     if (recorder) recorder->begin();
     (*faults)->begin();
-    std::signal(SIGINT, on_interrupt);
-    std::signal(SIGTERM, on_interrupt);
+    stop_on_signals();
     const rack::JobOutcome outcome = job.run();
     progress.clear();
     if (recorder)
