@@ -32,6 +32,17 @@ class Member : public Card {
     static bool in_counts(std::uint32_t offset, int scales) {
         return offset >= gb::counts_at && offset < gb::counts_at + 4 * static_cast<std::uint32_t>(scales);
     }
+    static std::vector<CardCounter> scale_counters(int scales) {
+        std::vector<CardCounter> out;
+        for (int n = 0; n < scales; ++n) out.push_back({"scale" + std::to_string(n), n, true});
+        return out;
+    }
+    /// A register that can be read, by its name; else an error that lists them and `more`.
+    Result<std::int64_t> register_value(const sim::RegisterDevice& device, std::string_view name, std::span<const std::string_view> more) const {
+        for (const RegisterInfo& reg : map().registers)
+            if (reg.name == name && reg.access != Access::write) return device.peek(reg.offset);
+        return no_such_value(*this, name, more);
+    }
     /// The number in front of ".COUNT", if it is one below `scales`; else -1.
     static int scale_of(std::string_view name, int scales) {
         int n = -1;
@@ -67,15 +78,9 @@ class GratingCard final : public Member {
         if (name == "SEQUENCE") return frame ? frame->sequence : 0;
         if (name == "TIME") return frame ? frame->time : 0;
         if (const int n = scale_of(name, card_.settings().scales); n >= 0) return count(n);
-        for (const RegisterInfo& reg : map().registers)
-            if (reg.name == name && reg.access != Access::write) return card_.peek(reg.offset);
-        return no_such_value(*this, name, more);
+        return register_value(card_, name, more);
     }
-    std::vector<CardCounter> counters() const override {
-        std::vector<CardCounter> out;
-        for (int n = 0; n < card_.settings().scales; ++n) out.push_back({"scale" + std::to_string(n), n, true});
-        return out;
-    }
+    std::vector<CardCounter> counters() const override { return scale_counters(card_.settings().scales); }
     std::int64_t counter(const CardCounter& which) override { return count(which.channel); }
 
     std::vector<std::string_view> quantity_names() const override { return {"age_us", "sequence", "stale"}; }
@@ -141,15 +146,9 @@ class DecoderCard final : public Member {
     Result<std::int64_t> inspect(std::string_view name) const override {
         static constexpr std::string_view more[] = {"0.COUNT .."};
         if (const int n = scale_of(name, decoder_.settings().scales); n >= 0) return decoder_.position(n, kernel_.now());
-        for (const RegisterInfo& reg : map().registers)
-            if (reg.name == name && reg.access != Access::write) return decoder_.peek(reg.offset);
-        return no_such_value(*this, name, more);
+        return register_value(decoder_, name, more);
     }
-    std::vector<CardCounter> counters() const override {
-        std::vector<CardCounter> out;
-        for (int n = 0; n < decoder_.settings().scales; ++n) out.push_back({"scale" + std::to_string(n), n, true});
-        return out;
-    }
+    std::vector<CardCounter> counters() const override { return scale_counters(decoder_.settings().scales); }
     std::int64_t counter(const CardCounter& which) override { return decoder_.position(which.channel, kernel_.now()); }
     std::span<const std::string_view> fault_names() const override {
         static constexpr std::string_view names[] = {"no_latch"};

@@ -15,9 +15,11 @@ struct Part {
 };
 
 constexpr Part part_of(int pin) {
-    if (pin < 5) return {static_cast<Line>(pin), bits_of(static_cast<Line>(pin)), 0};
-    const Line line = pin < 14 ? Line::addr : Line::data;
-    const int bit = pin < 14 ? pin - 6 : pin - 14;
+    if (pin < Bus::vector_pins) return {static_cast<Line>(pin), bits_of(static_cast<Line>(pin)), 0};
+    if (pin == Bus::conflict_pin) return {Line::clk, 0, 0};  // of no line
+    const bool of_addr = pin < Bus::data_pins;
+    const Line line = of_addr ? Line::addr : Line::data;
+    const int bit = pin - (of_addr ? Bus::addr_pins : Bus::data_pins);
     return {line, 1u << bit, bit};
 }
 
