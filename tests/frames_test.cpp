@@ -85,6 +85,9 @@ TEST_F(FramesPage, WrongOptionsAndRacksAreRefused) {
     EXPECT_NE(negative.code, 0);
     EXPECT_THAT(negative.out, HasSubstr("--for is -1 s"));
     EXPECT_THAT(motionrack(folder, "frames examples/grating_bus/crate.toml --fault bus.nix=1@0.1s").out, HasSubstr("bus.nix"));
+    const Ran refused = motionrack(folder, "frames examples/grating_bus/crate.toml --for 0.02 --fault c2.late=-5@0.01s");
+    EXPECT_EQ(refused.code, 0) << "the run goes on without it";
+    EXPECT_THAT(refused.out, HasSubstr("the fault c2.late=-5@0.01s was refused: c2 cannot have the fault late with the value -5"));
 }
 
 }  // namespace

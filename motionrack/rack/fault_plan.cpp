@@ -106,14 +106,16 @@ void FaultPlan::apply_due() {
         fault.done = true;
         const Result<void> done = fault.target.empty() ? desk_.set(fault.name, fault.value)
                                                        : inject_fault(rack_, fault.name, fault.target);
-        MOTIONRACK_ASSERT(done);  // the same was checked when it was read
+        if (!done) fault.refused = done.error().message;  // only the part itself knows which values it can have
     }
 }
 
-std::vector<std::string> FaultPlan::not_reached() const {
+std::vector<std::string> FaultPlan::not_done() const {
     std::vector<std::string> out;
-    for (const PlannedFault& fault : faults_)
-        if (!fault.done) out.push_back(fault.text);
+    for (const PlannedFault& fault : faults_) {
+        if (!fault.done) out.push_back("the run ended before the fault " + fault.text);
+        if (!fault.refused.empty()) out.push_back("the fault " + fault.text + " was refused: " + fault.refused);
+    }
     return out;
 }
 

@@ -20,6 +20,7 @@ struct PlannedFault {
     std::string target;  ///< of the fault; empty: it is a wire
     double value = 1;    ///< of the wire; NaN releases it
     bool done = false;
+    std::string refused;  ///< why it could not be done when its time had come: the part cannot have that value
 };
 
 class FaultPlan final : public sim::Device {
@@ -32,8 +33,8 @@ class FaultPlan final : public sim::Device {
     void begin();
     /// Between runs, whenever one was broken: does what is due.
     void apply_due();
-    /// What the run did not come to, in the order of time.
-    std::vector<std::string> not_reached() const;
+    /// Sentences about what was not done: the run ended before it, or the part refused it; in the order of time.
+    std::vector<std::string> not_done() const;
 
     void act(Instant now) override;
 

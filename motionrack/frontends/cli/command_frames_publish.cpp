@@ -134,6 +134,7 @@ int publish_rack(Run& run) {
     const Result<dds::Published> done = program ? publish_program(run, *program) : publish_standing(run);
     if (!done) return report(done.error());
     tell(run.publisher, *done, options);
+    for (const std::string& fault : run.faults.not_done()) print_warning(fault);
     if (conflict) {
         print_error("Another publisher was on the bus; listeners used only the frames of the one that they heard first.");
         return exit_machine;

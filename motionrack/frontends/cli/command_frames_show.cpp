@@ -115,6 +115,7 @@ int finish(Show& show, const rack::FrameWatch& watch, const ShowOptions& options
         static constexpr std::size_t most_told = 12;
         const auto conditions = show.rack.kernel().conditions();
         for (std::size_t i = 0; i < std::min(most_told, conditions.size()); ++i) print_warning(show.rack.describe(conditions[i]));
+        for (const std::string& fault : show.faults.not_done()) print_warning(fault);
         if (conditions.size() > most_told) print_warning(fmt::format("{} more things were reported", conditions.size() - most_told));
     }
     if (show.recorder) wrote(show.recorder->finish(), options.vcd);

@@ -105,8 +105,7 @@ int run(const RunOptions& options) {
         for (std::size_t i = 0; i < outcome.warnings.size() && i < warnings_shown; ++i) print_warning(outcome.warnings[i].text);
         if (outcome.warnings.size() > warnings_shown)
             print_warning(fmt::format("{} more are in the report", outcome.warnings.size() - warnings_shown));
-        for (const std::string& fault : (*faults)->not_reached())
-            print_warning(fmt::format("the run ended before the fault {}", fault));
+        for (const std::string& fault : (*faults)->not_done()) print_warning(fault);
     }
     const int wrote = write_results(rack, job, outcome, options, text, name);
     if (code == exit_done) code = wrote;
