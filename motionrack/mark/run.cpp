@@ -51,12 +51,26 @@ class Senses final : public rtc5::Inputs {
 
 class StationSink final : public rtc5::Sink {
   public:
-    explicit StationSink(parts::MarkingStation& station) : station_(station) {}
-    void samples(const rtc5::Samples& b) override { station_.block(b.first, b.x, b.y); }
+    /// `step`: ticks from one sample of the course to the next.
+    StationSink(parts::MarkingStation& station, std::int64_t step) : station_(station), step_(step) {}
+    void samples(const rtc5::Samples& b) override {
+        station_.block(b.first, b.x, b.y);
+        for (std::size_t i = 0; i < b.x.size(); ++i) {
+            open_ += b.laser[i];
+            if ((b.first + static_cast<std::int64_t>(i)) % step_ != 0) continue;
+            course_.push_back({static_cast<double>(b.first + static_cast<std::int64_t>(i)) * 1e-5,
+                              station_.spot({static_cast<double>(b.x[i]), static_cast<double>(b.y[i])}),
+                              static_cast<double>(open_) / static_cast<double>(rtc5::half_us_per_tick * step_)});
+            open_ = 0;
+        }
+    }
     void laser(std::int64_t half_us, bool on) override { station_.laser(half_us, on); }
+    std::vector<FieldSample> take_course() { return std::move(course_); }
 
   private:
     parts::MarkingStation& station_;
+    std::vector<FieldSample> course_;
+    std::int64_t step_, open_ = 0;
 };
 
 /// A card with the job's list, begun.
@@ -149,7 +163,7 @@ Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Followi
     MOTIONRACK_CHECK(senses.begin());
     MOTIONRACK_TRY(Engine card, card_of(job, prepared, following));
     card.set_inputs(&senses);
-    StationSink sink(station);
+    StationSink sink(station, static_cast<std::int64_t>(expected_ticks) / most_field_samples + 1);
     MOTIONRACK_CHECK(run_to_end(card, &sink, [&](std::int64_t tick) { if (progress) progress(static_cast<double>(tick) / expected_ticks); }, watch));
     const std::int64_t end = card.tick();
     // The mirrors and the laser come to their rest a little later.
@@ -164,6 +178,10 @@ Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Followi
     out.marked_mm = station.workpiece().length_mm();
     out.energy_j = station.workpiece().energy_j();
     out.flags = flags_of(card);
+    const rtc5::Extent& e = card.extent();
+    const double k = prepared.bits_per_mm;
+    out.reach = e.empty() ? box_of(prepared.drawing) : Box{{e.least_x / k, e.least_y / k}, {e.greatest_x / k, e.greatest_y / k}};
+    out.course = sink.take_course();
     return out;
 }
 
@@ -181,6 +199,7 @@ Result<Outcome> run_job(const Job& job, const Prepared& prepared, const Watch& w
     out.elements = element_count(prepared.drawing);
     const Box box = box_of(prepared.drawing);
     const double k = prepared.bits_per_mm;
+    out.field = {{rtc5::field_least / k, rtc5::field_least / k}, {rtc5::field_greatest / k, rtc5::field_greatest / k}};
     out.drawing_in_field = box.low.x * k >= rtc5::field_least && box.low.y * k >= rtc5::field_least && box.high.x * k <= rtc5::field_greatest &&
                            box.high.y * k <= rtc5::field_greatest;
     const Following with = following_of(job);

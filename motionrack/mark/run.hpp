@@ -13,6 +13,14 @@ struct FlagSeen {
     double at_s = 0;
 };
 
+/// Where the card's output had the spot at an instant, and the part of the time since the last one that its gate was open.
+struct FieldSample {
+    double at_s = 0;
+    Spot at;  ///< mm in the field, of mirrors without delay
+    double gate = 0;
+};
+inline constexpr std::int64_t most_field_samples = 10'000;
+
 /// One run.
 struct Marked {
     parts::Deviation deviation;
@@ -22,6 +30,8 @@ struct Marked {
     double duty = 0;          ///< part of it with the gate open
     double marked_mm = 0, energy_j = 0;
     std::vector<FlagSeen> flags;  ///< overflows of the corrected field
+    Box reach;  ///< mm in the field: how far the list went with its correction, were there no edge
+    std::vector<FieldSample> course;  ///< in even steps, about most_field_samples
 };
 
 struct Outcome {
@@ -34,6 +44,7 @@ struct Outcome {
     /// or movement. 0: the drawing does not fit even at rest.
     std::optional<double> fits_factor;
     bool fits_any = false;  ///< it fits at any speed that was tried (1000 times)
+    Box field;              ///< mm
     std::vector<std::string> notes;
 };
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <motionrack/mark/run.hpp>
 
@@ -51,6 +52,23 @@ TEST(MarkJob, TheReferenceSquareIsRightWithCorrectionAndShearedWithout) {
     EXPECT_NEAR(out.on.seconds, 0.08, 0.006);
     EXPECT_NEAR(out.on.duty, 0.08 / out.on.seconds, 0.01);
     EXPECT_NEAR(out.on.energy_j, 20 * 0.08, 0.01);
+}
+
+TEST(MarkJob, HowFarTheFieldIsUsedAndWhenIsKept) {
+    const Outcome out = run(job_of(belt_job + "[fly]\nmode = 'encoder'\n"));
+    EXPECT_NEAR(out.field.high.x, 60.57, 0.01);
+    // The corners are marked after 20, 40, 60 and 80 ms: the second at 10 + 4, the last at 8 mm.
+    EXPECT_NEAR(out.on.reach.high.x, 14, 0.05);
+    EXPECT_NEAR(out.on.reach.low.x, 0, 0.01);
+    EXPECT_NEAR(out.off->reach.high.x, 10, 1e-9);
+    ASSERT_GT(out.on.course.size(), 5000u);
+    double greatest = 0, open_s = 0;
+    for (std::size_t i = 0; i < out.on.course.size(); ++i) {
+        greatest = std::max(greatest, out.on.course[i].at.x);
+        if (i > 0) open_s += out.on.course[i].gate * (out.on.course[i].at_s - out.on.course[i - 1].at_s);
+    }
+    EXPECT_NEAR(greatest, out.on.reach.high.x, 0.01);
+    EXPECT_NEAR(open_s, out.on.duty * out.on.seconds, 1e-5);
 }
 
 TEST(MarkJob, EveryWayToFollowThePartGivesTheSquare) {
