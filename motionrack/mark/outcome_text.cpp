@@ -42,7 +42,10 @@ std::string outcome_text(const Job& job, const Outcome& out) {
                    "duty %", "energy J");
     row(to, out.off ? "with correction" : "without correction", out.on);
     if (out.off) row(to, "without correction", *out.off);
-    for (const FlagSeen& flag : out.on.flags) fmt::format_to(to, "{} at {:.5f} s: {}; the mirrors stayed at the edge\n", flag.name, flag.at_s, flag.meaning);
+    for (const Overflow& o : out.on.overflows)
+        fmt::format_to(to, "{} at {:.5f} to {:.5f} s: {}, by {:.3f} mm, at {:.3f}, {:.3f} mm of the drawing{}; the mirrors stayed at the edge\n", o.name, o.from_s, o.to_s,
+                       o.meaning, o.beyond_mm, o.part.x, o.part.y, o.marking ? "" : ", with the laser off");
+    if (out.on.lost_overflows > 0) fmt::format_to(to, "{} more overflows are not listed.\n", out.on.lost_overflows);
     if (!out.drawing_in_field) fmt::format_to(to, "Some of the drawing is outside the field while the part is at its begin.\n");
     if (out.on.lost_points > 0) fmt::format_to(to, "{} more points were marked than the picture keeps.\n", out.on.lost_points);
     fit(to, job, out);

@@ -52,9 +52,10 @@ class Senses final : public rtc5::Inputs {
 class StationSink final : public rtc5::Sink {
   public:
     /// `step`: ticks from one sample of the course to the next.
-    StationSink(parts::MarkingStation& station, std::int64_t step) : station_(station), step_(step) {}
+    StationSink(parts::MarkingStation& station, OverflowLog& overflows, std::int64_t step) : station_(station), overflows_(overflows), step_(step) {}
     void samples(const rtc5::Samples& b) override {
         station_.block(b.first, b.x, b.y);
+        overflows_.block(b);
         for (std::size_t i = 0; i < b.x.size(); ++i) {
             open_ += b.laser[i];
             if ((b.first + static_cast<std::int64_t>(i)) % step_ != 0) continue;
@@ -69,6 +70,7 @@ class StationSink final : public rtc5::Sink {
 
   private:
     parts::MarkingStation& station_;
+    OverflowLog& overflows_;
     std::vector<FieldSample> course_;
     std::int64_t step_, open_ = 0;
 };
@@ -105,15 +107,6 @@ Result<void> run_to_end(Engine& card, rtc5::Sink* sink, const std::function<void
         if (done) done(card.tick());
     }
     return {};
-}
-
-std::vector<FlagSeen> flags_of(const Engine& card) {
-    std::vector<FlagSeen> out;
-    const auto word = static_cast<std::uint32_t>(card.state().marking_info);
-    for (const rtc5::BitInfo& bit : rtc5::map::marking_info_bits)
-        if ((word >> bit.bit & 1u) != 0)
-            out.push_back({std::string(bit.name), std::string(bit.meaning), static_cast<double>(card.state().flag_tick[static_cast<std::size_t>(bit.bit)]) * 1e-5});
-    return out;
 }
 
 /// How far the correction went; whether the run came to its end in time.
@@ -163,12 +156,14 @@ Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Followi
     MOTIONRACK_CHECK(senses.begin());
     MOTIONRACK_TRY(Engine card, card_of(job, prepared, following));
     card.set_inputs(&senses);
-    StationSink sink(station, static_cast<std::int64_t>(expected_ticks) / most_field_samples + 1);
+    OverflowLog overflows(prepared.bits_per_mm, station.track());
+    StationSink sink(station, overflows, static_cast<std::int64_t>(expected_ticks) / most_field_samples + 1);
     MOTIONRACK_CHECK(run_to_end(card, &sink, [&](std::int64_t tick) { if (progress) progress(static_cast<double>(tick) / expected_ticks); }, watch));
     const std::int64_t end = card.tick();
     // The mirrors and the laser come to their rest a little later.
     card.run_until(end + static_cast<std::int64_t>((job.galvo.ideal ? 0 : job.galvo.dead_us / 10 + 200) + job.laser.off_delay_us / 10) + 2, &sink);
     station.workpiece().finish();
+    overflows.finish(card.tick());
     Marked out;
     out.deviation = station.workpiece().compare(prepared.segments);
     out.points.assign(station.workpiece().points().begin(), station.workpiece().points().end());
@@ -177,11 +172,12 @@ Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Followi
     out.duty = end > 0 ? static_cast<double>(card.state().laser.on_time) / (static_cast<double>(end) * rtc5::half_us_per_tick) : 0;
     out.marked_mm = station.workpiece().length_mm();
     out.energy_j = station.workpiece().energy_j();
-    out.flags = flags_of(card);
     const rtc5::Extent& e = card.extent();
     const double k = prepared.bits_per_mm;
     out.reach = e.empty() ? box_of(prepared.drawing) : Box{{e.least_x / k, e.least_y / k}, {e.greatest_x / k, e.greatest_y / k}};
     out.course = sink.take_course();
+    out.overflows = overflows.all();
+    out.lost_overflows = overflows.lost();
     return out;
 }
 

@@ -2,16 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <motionrack/mark/overflow.hpp>
 #include <motionrack/mark/plan.hpp>
 #include <motionrack/sim/parts/workpiece.hpp>
 
 namespace motionrack::mark {
-
-/// A status bit that was set, and when first.
-struct FlagSeen {
-    std::string name, meaning;
-    double at_s = 0;
-};
 
 /// Where the card's output had the spot at an instant, and the part of the time since the last one that its gate was open.
 struct FieldSample {
@@ -29,9 +24,10 @@ struct Marked {
     double seconds = 0;       ///< until the card rests
     double duty = 0;          ///< part of it with the gate open
     double marked_mm = 0, energy_j = 0;
-    std::vector<FlagSeen> flags;  ///< overflows of the corrected field
     Box reach;  ///< mm in the field: how far the list went with its correction, were there no edge
     std::vector<FieldSample> course;  ///< in even steps, about most_field_samples
+    std::vector<Overflow> overflows;    ///< every stretch in which the corrected position was outside the field, in the order of their ends
+    std::uint64_t lost_overflows = 0;   ///< more than OverflowLog::most
 };
 
 struct Outcome {

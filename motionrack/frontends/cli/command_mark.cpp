@@ -29,8 +29,10 @@ nlohmann::ordered_json json_of(const mark::Marked& m) {
                                   {"seconds", m.seconds},
                                   {"duty", m.duty},
                                   {"energy_j", m.energy_j},
-                                  {"flags", nlohmann::ordered_json::array()}};
-    for (const mark::FlagSeen& flag : m.flags) out["flags"].push_back({{"name", flag.name}, {"at_s", flag.at_s}, {"meaning", flag.meaning}});
+                                  {"overflows", nlohmann::ordered_json::array()}};
+    for (const mark::Overflow& o : m.overflows)
+        out["overflows"].push_back({{"name", o.name}, {"meaning", o.meaning}, {"from_s", o.from_s}, {"to_s", o.to_s}, {"field_mm", {o.field.x, o.field.y}},
+                                    {"part_mm", {o.part.x, o.part.y}}, {"beyond_mm", o.beyond_mm}, {"marking", o.marking}});
     return out;
 }
 
@@ -67,7 +69,7 @@ int run_mark(const MarkOptions& options) {
         if (const Result<void> done = write_text(options.picture, mark::picture_svg(*prepared, *outcome)); !done) return report(done.error());
         if (!options.json && !options.quiet) fmt::print("written: {}\n", options.picture);
     }
-    return outcome->on.flags.empty() ? exit_done : exit_machine;
+    return outcome->on.overflows.empty() ? exit_done : exit_machine;
 }
 
 }  // namespace

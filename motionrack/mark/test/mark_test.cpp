@@ -46,7 +46,7 @@ TEST(MarkJob, TheReferenceSquareIsRightWithCorrectionAndShearedWithout) {
     EXPECT_NEAR(out.drawing_mm, 40, 1e-9);
     EXPECT_LE(out.on.deviation.worst_mm, 0.0025) << "one count and one tick";
     EXPECT_EQ(out.on.deviation.missing_mm, 0);
-    EXPECT_TRUE(out.on.flags.empty());
+    EXPECT_TRUE(out.on.overflows.empty());
     ASSERT_TRUE(out.off);
     for (const Spot corner : {Spot{0, 0}, Spot{8, 0}, Spot{6, 10}, Spot{-6, 10}, Spot{-8, 0}}) EXPECT_TRUE(has_corner(*out.off, corner, 0.005)) << corner.x << ' ' << corner.y;
     EXPECT_NEAR(out.on.seconds, 0.08, 0.006);
@@ -92,11 +92,11 @@ TEST(MarkJob, TheSpeedAtWhichItJustFitsFitsAndALittleMoreDoesNot) {
     EXPECT_GT(*out.fits_factor, 6);
     EXPECT_LT(*out.fits_factor, 9);
     job.belt.speed = 100 * *out.fits_factor;
-    EXPECT_TRUE(run(job).on.flags.empty());
+    EXPECT_TRUE(run(job).on.overflows.empty());
     job.belt.speed *= 1.001;
     const Outcome over = run(job);
-    ASSERT_EQ(over.on.flags.size(), 1u);
-    EXPECT_EQ(over.on.flags[0].name, "FLY_X_OVERFLOW");
+    ASSERT_EQ(over.on.overflows.size(), 1u);
+    EXPECT_EQ(over.on.overflows[0].name, "FLY_X_OVERFLOW");
     EXPECT_NEAR(*over.fits_factor * job.belt.speed, 100 * *out.fits_factor, 0.2);
     EXPECT_THAT(outcome_text(job, over), HasSubstr("FLY_X_OVERFLOW at 0.0"));
 }

@@ -26,6 +26,7 @@ struct Samples {
     std::span<const std::int32_t> x, y;      ///< head A, bits
     std::span<const std::int32_t> x_b, y_b;  ///< head B, empty while it has no table selected
     std::span<const std::uint8_t> laser;     ///< half-microseconds on, 0 .. 20
+    std::span<const double> corrected_x, corrected_y;  ///< behind fly, before clipping; empty while no correction is on
 };
 
 class Sink {

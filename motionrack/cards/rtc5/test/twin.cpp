@@ -32,8 +32,11 @@ Sample Twin::tick() {
     starts();
     if (!paused_list) list();
     const Xy q = corrected(global.of(p), false);
-    if (fly.kind != Kind::off) flags(q);
     Sample out;
+    if (fly.kind != Kind::off) {
+        flags(q);
+        out.outside = (q.x < -524288 ? 1u : 0) | (q.x > 524287 ? 2u : 0) | (q.y < -524288 ? 4u : 0) | (q.y > 524287 ? 8u : 0);
+    }
     for (int h = 0; h < (second_head ? 2 : 1); ++h) {
         const Xy r = heads[h].of(q);
         double v[2] = {std::clamp(r.x, -524288.0, 524287.0), std::clamp(r.y, -524288.0, 524287.0)};
