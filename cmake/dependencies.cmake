@@ -8,9 +8,14 @@ set(motionrack_linked_libraries fmt tomlplusplus z)
 # Headers that only our own sources include.
 set(motionrack_private_packages "nlohmann_json 3.11" "CLI11 2.1" "CycloneDDS 0.10" "pugixml 1.13")
 
+# Those of them that have no CMake package, by their pkg-config names: pictures as PNG.
+set(motionrack_private_modules "librsvg-2.0>=2.54" "cairo-png>=1.16")
+
 macro(motionrack_find_packages)
   foreach(package IN LISTS motionrack_public_packages motionrack_private_packages)
     separate_arguments(package UNIX_COMMAND "${package}")
     find_package(${package} REQUIRED)
   endforeach()
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(RSVG REQUIRED IMPORTED_TARGET ${motionrack_private_modules})
 endmacro()

@@ -1,93 +1,219 @@
-// Two parts side by side: marked with correction and without; grey is the drawing, a ring is the worst place.
+// The pictures of a marking job, one by one for a page or together on a sheet:
+//
+//     as drawn     with correction   without       wide and pale: the drawing; thin: what was marked; a ring: the worst place
+//     the field    worst place       worst place   in the field: the way of the spot, dashed while the laser is off
+//
+// Parts that are much wider than high stand one below the other.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <motionrack/mark/run.hpp>
+#include <limits>
+#include <motionrack/mark/plot.hpp>
+#include <motionrack/mark/show.hpp>
+#include <motionrack/rack/counted.hpp>
+#include <motionrack/trace/svg_parts.hpp>
+#include <motionrack/trace/text.hpp>
 
 namespace motionrack::mark {
 
 namespace {
 
-using Out = std::back_insert_iterator<std::string>;
+constexpr int column = 380, line_width = 3 * column + 2 * 16;  // px; three columns and the gaps between them
+constexpr double wide_from = 2.6;                              // width to height from which parts stand one below the other
 
-void widen(Box& box, Spot p) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
-}
+/// What a sheet needs beside the style that trace's pictures bring; a page has its own.
+constexpr const char* sheet_style =
+    "<style>.ground{fill:#fff}.frame{fill:none;stroke:#d9e0e7}.drawn{stroke:#1f2933;stroke-width:1.2}"
+    ".without{stroke:#d9480f;stroke-width:1.5;stroke-linejoin:round}.jumps{stroke:#8a97a3;stroke-dasharray:3 4}"
+    ".reach{stroke:#d9480f;stroke-dasharray:1 3}.ring{fill:none;stroke:#1f2933;stroke-width:2}"
+    ".off-by,.over{stroke:#b3261e;stroke-width:2.5}.scale{stroke:#1f2933;stroke-width:1.5}"
+    ".halo text{paint-order:stroke;stroke:#fff;stroke-width:4px;stroke-linejoin:round;fill:#1f2933}</style>\n";
 
-/// 1, 2 or 5 times a power of ten, about a quarter of `width`.
-double scale_bar(double width) {
-    double power = 1;
-    while (power * 10 <= width / 4) power *= 10;
-    while (power > width / 4 && power > 1e-9) power /= 10;
-    for (const double step : {5.0, 2.0})
-        if (power * step <= width / 4) return power * step;
-    return power;
-}
-
-struct Page {
-    Box box;
-    double line = 0.1, gap = 0;  ///< mm
-    double x(double mm, int column) const { return mm - box.low.x + column * gap; }
-    double y(double mm) const { return box.high.y - mm; }
+/// A picture without its opening tag.
+struct Part {
+    std::string title;
+    std::vector<std::string> words;
+    std::string body;
+    int width = column, height = 0;
 };
 
-void drawing(Out to, const Page& page, const Prepared& prepared, int column) {
-    fmt::format_to(to, "<path class=\"drawing\" fill=\"none\" stroke=\"#b8b8b8\" stroke-width=\"{:.4f}\" d=\"", 2.2 * page.line);
-    Spot at{1e300, 1e300};
-    for (const parts::Segment& s : prepared.segments) {
-        if (s.from.x != at.x || s.from.y != at.y) fmt::format_to(to, "M{:.4f} {:.4f}", page.x(s.from.x, column), page.y(s.from.y));
-        fmt::format_to(to, "L{:.4f} {:.4f}", page.x(s.to.x, column), page.y(s.to.y));
-        at = s.to;
+Box grown(const Box& box, double by) { return {{box.low.x - by, box.low.y - by}, {box.high.x + by, box.high.y + by}}; }
+double size_of(const Box& box) { return std::max(box.high.x - box.low.x, box.high.y - box.low.y); }
+
+/// The place of the drawing that is nearest.
+Spot nearest_on(std::span<const parts::Segment> segments, Spot p) {
+    Spot best = p;
+    double least = std::numeric_limits<double>::infinity();
+    for (const parts::Segment& s : segments) {
+        const Spot way{s.to.x - s.from.x, s.to.y - s.from.y};
+        const double length2 = way.x * way.x + way.y * way.y;
+        const double t = length2 > 0 ? std::clamp(((p.x - s.from.x) * way.x + (p.y - s.from.y) * way.y) / length2, 0.0, 1.0) : 0;
+        const Spot on{s.from.x + t * way.x, s.from.y + t * way.y};
+        const double off = (on.x - p.x) * (on.x - p.x) + (on.y - p.y) * (on.y - p.y);
+        if (off < least) least = off, best = on;
     }
-    fmt::format_to(to, "\"/>\n");
+    return best;
 }
 
-void marks(Out to, const Page& page, const Marked& marked, int column, const char* title, const char* colour) {
-    fmt::format_to(to, "<path class=\"marked\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.4f}\" stroke-linecap=\"round\" d=\"", colour, page.line);
-    for (const parts::MarkedPoint& p : marked.points) fmt::format_to(to, "{}{:.4f} {:.4f}", p.first ? 'M' : 'L', page.x(p.at.x, column), page.y(p.at.y));
-    fmt::format_to(to, "\"/>\n");
+/// What all pictures of a job share.
+struct Scene {
+    const Prepared& prepared;
+    const Outcome& out;
+    std::vector<Node> drawing = nodes_of(std::span<const parts::Segment>(prepared.segments));
+    Box box{};  ///< of drawing and marks
+
+    Scene(const Prepared& p, const Outcome& o) : prepared(p), out(o) {
+        if (drawing.empty()) return;
+        box = mark::box_of(std::span<const Node>(drawing));
+        const Box most = grown(box, 3 * size_of(box));
+        for (const Marked* m : {&out.on, out.off ? &*out.off : nullptr})
+            if (m != nullptr && !m->points.empty()) box = joined(box, mark::box_of(nodes_of(std::span<const parts::MarkedPoint>(m->points))));
+        box = {{std::max(box.low.x, most.low.x), std::max(box.low.y, most.low.y)},
+               {std::min(box.high.x, most.high.x), std::min(box.high.y, most.high.y)}};
+    }
+    bool wide() const { return box.high.x - box.low.x > wide_from * (box.high.y - box.low.y); }
+};
+
+/// The overflows with the laser on, where it was or should have been.
+std::string crosses(const Plot& plot, const std::vector<Overflow>& overflows, Spot Overflow::*place) {
+    constexpr std::size_t most = 200;
+    std::string out;
+    std::size_t drawn = 0;
+    for (const Overflow& o : overflows)
+        if (o.marking && drawn++ < most) out += plot.cross(o.*place, fmt::format("{} at {:.5f} s, by {:.3f} mm", o.name, o.from_s, o.beyond_mm));
+    return out;
+}
+
+Part part_of(const Scene& scene, const Marked* marked, const char* title, const char* look) {
+    Part part;
+    part.title = title;
+    part.width = scene.wide() ? line_width : column;
+    const double shape = (scene.box.high.y - scene.box.low.y) / std::max(scene.box.high.x - scene.box.low.x, 1e-9);
+    constexpr double margin = 34;
+    part.height = static_cast<int>(std::clamp((part.width - 2 * margin) * shape + 2 * margin, scene.wide() ? 130.0 : 240.0, 460.0));
+    const Plot plot(scene.box, part.width, part.height, margin);
+    part.body = plot.grid() + plot.outline(scene.out.field, "box") + plot.strokes(scene.drawing, "planned");
+    if (marked == nullptr) {
+        part.words.push_back(fmt::format("{:.3f} mm in {}", scene.out.drawing_mm, rack::counted(scene.out.strokes, "stroke")));
+        part.body += plot.strokes(scene.drawing, "drawn");
+    } else {
+        const parts::Deviation& d = marked->deviation;
+        part.words = {fmt::format("worst {} at {:.3f}, {:.3f} mm; rms {}", shown_length(d.worst_mm), d.worst_at.x, d.worst_at.y, shown_length(d.rms_mm)),
+                      d.missing_mm > 0 ? fmt::format("{} of the drawing not marked", shown_length(d.missing_mm)) : "all of the drawing marked"};
+        part.body += plot.strokes(nodes_of(std::span<const parts::MarkedPoint>(marked->points)), look);
+        part.body += crosses(plot, marked->overflows, &Overflow::part);
+        if (d.worst_mm > 0) part.body += plot.ring(d.worst_at);
+    }
+    part.body += plot.scale_bar();
+    return part;
+}
+
+/// The way of the spot in the field: as marks and, dashed, as jumps.
+Part field_of(const Scene& scene) {
+    Part part;
+    const Outcome& out = scene.out;
+    part.title = "In the field";
+    part.height = 300;
+    const Room room = room_of(out, out.on);
+    part.words = {fmt::format("{:.1f} mm wide and high", out.field.high.x - out.field.low.x),
+                  room.mm >= 0 ? fmt::format("{} left at the {} edge", shown_length(room.mm), room.edge)
+                               : fmt::format("{} too far over the {} edge", shown_length(-room.mm), room.edge)};
+    const Plot plot(joined(out.field, out.on.reach), part.width, part.height, 16);
+    std::vector<Node> marks, jumps;
+    for (std::size_t i = 1; i < out.on.course.size(); ++i) {
+        const FieldSample &a = out.on.course[i - 1], &b = out.on.course[i];
+        std::vector<Node>& row = b.gate > 0 ? marks : jumps;
+        const bool goes_on = !row.empty() && row.back().at.x == a.at.x && row.back().at.y == a.at.y;
+        if (!goes_on) row.push_back({a.at, true});
+        row.push_back({b.at, false});
+    }
+    part.body = plot.grid() + plot.outline(out.field, "box") + plot.strokes(jumps, "jumps") + plot.strokes(marks, out.off ? "driven" : "without") +
+                (out.off ? plot.outline(out.on.reach, "reach") : std::string()) +
+                crosses(plot, out.on.overflows, &Overflow::field) + plot.scale_bar();
+    return part;
+}
+
+/// The surroundings of the worst place; without a body where the whole picture shows it as well.
+Part worst_of(const Scene& scene, const Marked& marked, const char* title, const char* look) {
+    Part part;
     const parts::Deviation& d = marked.deviation;
-    const double text = 9 * page.line;
-    if (d.worst_mm > 0)
-        fmt::format_to(to, "<circle cx=\"{:.4f}\" cy=\"{:.4f}\" r=\"{:.4f}\" fill=\"none\" stroke=\"#c00000\" stroke-width=\"{:.4f}\"/>\n", page.x(d.worst_at.x, column),
-                       page.y(d.worst_at.y), 6 * page.line, page.line / 2);
-    fmt::format_to(to, "<text x=\"{:.4f}\" y=\"{:.4f}\" font-size=\"{:.4f}\">{}: worst {:.4f} mm, rms {:.4f} mm</text>\n", page.x(page.box.low.x, column), -text, text,
-                   title, d.worst_mm, d.rms_mm);
+    const double reach = std::max(d.worst_mm * 2, 2e-4);
+    if (d.worst_mm <= 0 || reach > size_of(scene.box) / 8) return part;
+    const Spot on = nearest_on(scene.prepared.segments, d.worst_at), middle{(on.x + d.worst_at.x) / 2, (on.y + d.worst_at.y) / 2};
+    part.height = 300;
+    const Plot plot(grown({middle, middle}, reach), part.width, part.height);
+    part.title = title;
+    part.words = {fmt::format("{} off at {:.3f}, {:.3f} mm", shown_length(d.worst_mm), d.worst_at.x, d.worst_at.y), fmt::format("marked at {:.5f} s", d.worst_s)};
+    part.body = plot.strokes(scene.drawing, "planned") + plot.strokes(nodes_of(std::span<const parts::MarkedPoint>(marked.points)), look) +
+                plot.line(on, d.worst_at, "off-by") + plot.ring(d.worst_at) + plot.scale_bar();
+    return part;
+}
+
+struct Parts {
+    std::vector<Part> whole, details;
+};
+
+Parts parts_of(const Prepared& prepared, const Outcome& out) {
+    const Scene scene(prepared, out);
+    Parts parts;
+    parts.whole.push_back(part_of(scene, nullptr, "As drawn", ""));
+    if (out.off) parts.whole.push_back(part_of(scene, &out.on, "With correction", "driven"));
+    const Marked& without = out.off ? *out.off : out.on;
+    parts.whole.push_back(part_of(scene, &without, "Without correction", "without"));
+    parts.details.push_back(field_of(scene));
+    if (out.off) parts.details.push_back(worst_of(scene, out.on, "Worst place with correction", "driven"));
+    parts.details.push_back(worst_of(scene, without, "Worst place without correction", "without"));
+    return parts;
 }
 
 }  // namespace
 
+std::vector<trace::ReportPicture> pictures_of(const Prepared& prepared, const Outcome& out) {
+    std::vector<trace::ReportPicture> pictures;
+    const Parts parts = parts_of(prepared, out);
+    for (const std::vector<Part>* row : {&parts.whole, &parts.details})
+        for (const Part& p : *row)
+            if (!p.body.empty())
+                pictures.push_back({p.title, p.words, trace::svg_head({p.width, p.height, false}, fmt::format("{}: {}", p.title, fmt::join(p.words, "; "))) + p.body + "</svg>\n", p.width > column});
+    return pictures;
+}
+
 std::string picture_svg(const Prepared& prepared, const Outcome& out) {
-    Page page;
-    page.box = box_of(prepared.drawing);
-    for (const Marked* m : {&out.on, out.off ? &*out.off : nullptr})
-        if (m != nullptr)
-            for (const parts::MarkedPoint& p : m->points) widen(page.box, p.at);
-    const double wide = std::max({page.box.high.x - page.box.low.x, 0.3 * (page.box.high.y - page.box.low.y), 0.01});
-    const double high = std::max(page.box.high.y - page.box.low.y, 0.01);
-    page.line = std::max(wide, high) / 300;
-    page.gap = std::max(wide, 270 * page.line) * 1.08;
-    const double margin = 24 * page.line;
-    const int columns = out.off ? 2 : 1;
-    const double total_x = page.gap * columns + 2 * margin, total_y = high + 2.2 * margin;
-    std::string text;
-    const Out to(text);
-    fmt::format_to(to, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{:.4f} {:.4f} {:.4f} {:.4f}\" font-family=\"sans-serif\">\n",
-                   columns * 560.0, std::ceil(columns * 560.0 * total_y / total_x), -margin, -margin, total_x, total_y);
-    fmt::format_to(to, "<rect x=\"{:.4f}\" y=\"{:.4f}\" width=\"{:.4f}\" height=\"{:.4f}\" fill=\"white\"/>\n", -margin, -margin, total_x, total_y);
-    drawing(to, page, prepared, 0);
-    marks(to, page, out.on, 0, out.off ? "with correction" : "without correction", out.off ? "#0050a0" : "#c06000");
-    if (out.off) {
-        drawing(to, page, prepared, 1);
-        marks(to, page, *out.off, 1, "without correction", "#c06000");
+    constexpr int margin = 20, gap = 16, heading = 58, foot = 34;
+    const Parts parts = parts_of(prepared, out);
+    std::string body;
+    int x = margin, y = margin, widest = 0;
+    const auto put = [&](const Part& p) {
+        body += fmt::format("<text class=\"title\" x=\"{}\" y=\"{}\">{}</text>\n", x, y + 14, p.title);
+        for (std::size_t i = 0; i < p.words.size(); ++i) body += trace::svg_text(x, y + 31 + 15 * static_cast<int>(i), "start", p.words[i]);
+        body += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\">\n{}</svg>\n", x, y + heading, p.width, p.height, p.width, p.height, p.body);
+        body += fmt::format("<rect class=\"frame\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"6\"/>\n", x, y + heading, p.width, p.height);
+        widest = std::max(widest, x + p.width);
+    };
+    const bool wide = parts.whole.front().width > column;
+    for (const Part& p : parts.whole) {
+        put(p);
+        if (wide) y += heading + p.height + gap;
+        else x += p.width + gap;
     }
-    const double bar = scale_bar(wide), below = high + 12 * page.line;
-    fmt::format_to(to, "<path d=\"M0 {0:.4f}h{1:.4f}\" stroke=\"black\" stroke-width=\"{2:.4f}\"/>\n<text x=\"{3:.4f}\" y=\"{4:.4f}\" font-size=\"{5:.4f}\">{1:g} mm</text>\n</svg>\n",
-                   below, bar, 2 * page.line, bar + 4 * page.line, below + 3 * page.line, 9 * page.line);
-    return text;
+    if (!wide) y += heading + parts.whole.front().height + gap;
+    x = margin;
+    for (const Part& p : parts.details) {
+        if (!p.body.empty()) put(p);
+        x += column + gap;
+    }
+    y += heading + parts.details.front().height + gap;
+    x = margin;
+    for (const auto& [look, name] : {std::pair{"planned", "drawing"}, {"driven", "marked with correction"}, {"without", "marked without"}, {"box", "field"}, {"jumps", "laser off"}}) {
+        if (look == std::string_view("driven") && !out.off) continue;
+        body += fmt::format("<path class=\"{}\" d=\"M{} {}h26\"/>\n", look, x, y + 4) + trace::svg_text(x + 34, y + 8, "start", name);
+        x += 34 + 7 * static_cast<int>(std::string_view(name).size()) + 18;
+    }
+    body += fmt::format("<circle class=\"ring\" cx=\"{}\" cy=\"{}\" r=\"7\"/>\n", x + 8, y + 4) + trace::svg_text(x + 24, y + 8, "start", "worst place");
+    trace::SvgLook look;
+    look.width = widest + margin, look.height = y + foot, look.standalone = true;
+    return trace::svg_head(look, "The marked part") + sheet_style + fmt::format("<rect class=\"ground\" width=\"{}\" height=\"{}\"/>\n", look.width, look.height) + body + "</svg>\n";
 }
 
 }  // namespace motionrack::mark

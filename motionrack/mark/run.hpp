@@ -54,9 +54,4 @@ inline constexpr double greatest_seconds = 1000;  ///< of virtual time
 /// Errors: as list_of; refused: a list that is too long, a job that takes more than greatest_seconds; stopped.
 Result<Outcome> run_job(const Job& job, const Prepared& prepared, const Watch& watch = {});
 
-/// The outcome as a table for people.
-std::string outcome_text(const Job& job, const Outcome& outcome);
-/// The part with correction and without, each over the drawing, in mm, as SVG.
-std::string picture_svg(const Prepared& prepared, const Outcome& outcome);
-
 }  // namespace motionrack::mark

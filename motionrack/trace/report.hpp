@@ -97,9 +97,39 @@ struct ReportWarning {
     std::string text;
 };
 
+/// A picture beside others: an SVG that takes its style from the page.
+struct ReportPicture {
+    std::string title;
+    std::vector<std::string> words;  ///< lines below the title
+    std::string svg;
+    bool wide = false;  ///< takes the page's whole width
+};
+
+/// A table of texts; `rows` as long as `heads`.
+struct ReportTable {
+    std::string title, caption;
+    std::vector<std::string> heads;
+    std::vector<std::vector<std::string>> rows;
+};
+
+/// A line over ReportData::seconds in a chart of its own.
+struct ReportSeries {
+    std::string title;  ///< with the unit: "X, mm"
+    std::string look;   ///< "x", "y", "z", "a", "b", "c" or "d"
+    std::vector<float> values;
+    std::string limits_name;     ///< "field"
+    std::vector<double> limits;  ///< none, or two
+};
+
+/// A file as it was written.
+struct ReportSource {
+    std::string title, text;
+};
+
 /// All that a report shows. Everything may be empty; what is not there is not drawn.
 struct ReportData {
     std::string title;
+    std::string program_kind = "Program";  ///< what the file that was run is called
     std::string program_name;
     std::string rack_name;
     ReportVerdict verdict;
@@ -114,6 +144,11 @@ struct ReportData {
     std::optional<ReportStop> stop;
     std::vector<ReportBlock> blocks;  ///< in the order driven; the page lists the first 2,000
     std::vector<ReportWarning> warnings;
+    std::vector<ReportPicture> pictures;
+    std::string pictures_hint;  ///< what their lines are
+    std::vector<ReportTable> tables;
+    std::vector<ReportSeries> series;
+    std::optional<ReportSource> source;
     std::vector<std::string> notes;  ///< what this report does not show, in sentences
 };
 

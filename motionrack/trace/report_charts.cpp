@@ -68,7 +68,7 @@ std::string chart_json(const ReportData& data, const PageChart& entry, std::size
         if (!limits.empty()) limits += ',';
         limits += json_number(limit.value);
     }
-    const std::string name = entry.axis < 0 ? "deviation" : data.axes[static_cast<std::size_t>(entry.axis)].name;
+    const std::string name = entry.axis < 0 ? "" : data.axes[static_cast<std::size_t>(entry.axis)].name;
     return fmt::format(
         "{{\"name\":{},\"title\":{},\"look\":\"{}\",\"range\":[{},{}],\"limits\":[{}],\"t\":{},\"v\":{}}}",
         json_string(name), json_string(entry.chart.title), series.look, json_number(range.low), json_number(range.high),
@@ -163,6 +163,7 @@ void add_axis(const ReportData& data, std::size_t index, std::vector<PageChart>&
 std::string limits_as_text(const std::vector<SvgLimit>& limits) {
     if (limits.size() == 1) return "tolerance " + number(limits[0].value);
     const double first = limits[0].value, second = limits[1].value;
+    if (!limits[0].name.empty()) return limits[0].name + " " + number(first) + " \xE2\x80\xA6 " + number(second);
     if (first == -second && first > 0) return "limit \xC2\xB1" + number(first);
     return "travel " + number(first) + " \xE2\x80\xA6 " + number(second);
 }
@@ -203,6 +204,13 @@ std::vector<PageChart> charts_of(const ReportData& data) {
         if (data.tolerance_mm > 0) out.limits = {{data.tolerance_mm, ""}};
         charts.push_back({-1, std::move(out)});
     }
+    for (std::size_t i = 0; i < std::min(data.series.size(), most_axes); ++i) {
+        const ReportSeries& series = data.series[i];
+        if (series.values.empty()) continue;
+        SvgChart out = chart(series.title, series.look, data, series.values);
+        for (const double limit : series.limits) out.limits.push_back({limit, series.limits_name});
+        charts.push_back({-1, std::move(out)});
+    }
     return charts;
 }
 
@@ -223,9 +231,11 @@ std::string charts_html(const ReportData& data, const std::vector<PageChart>& ch
     return open >= 0 ? out + "</article>\n" : out;
 }
 
-std::string deviation_html(const ReportData&, const std::vector<PageChart>& charts) {
-    if (charts.empty() || charts.back().axis >= 0) return {};
-    return "<article class=\"card look-d\">" + chart_html(charts.back(), charts.size() - 1, 1440, 170) + "</article>\n";
+std::string series_html(const std::vector<PageChart>& charts) {
+    std::string out;
+    for (std::size_t i = 0; i < charts.size(); ++i)
+        if (charts[i].axis < 0) out += "<article class=\"card\">" + chart_html(charts[i], i, 1440, 170) + "</article>\n";
+    return out.empty() ? out : "<div class=\"series\">" + out + "</div>\n";
 }
 
 std::string drawing_json(const ReportData& data, const std::vector<PageChart>& charts) {

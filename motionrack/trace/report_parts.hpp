@@ -12,14 +12,16 @@ namespace motionrack::trace {
 inline constexpr std::size_t most_blocks = 2000;   ///< rows of the table of blocks
 inline constexpr std::size_t most_warnings = 500;  ///< rows of the table of warnings
 inline constexpr std::size_t most_axes = 16;       ///< axes with charts
+inline constexpr std::size_t most_rows = 2000;     ///< of each other table
 inline constexpr std::size_t longest_text = 2000;  ///< bytes of any text of the run that are shown
+inline constexpr std::size_t longest_source = 200'000;
 
 /// `text` cut to `most` bytes with "..." and escaped.
 std::string shown(const std::string& text, std::size_t most = longest_text);
 
-/// The charts of the page: position, speed and acceleration of each axis that has them, then the deviation.
+/// The charts of the page: position, speed and acceleration of each axis that has them, then the deviation and other series.
 struct PageChart {
-    int axis = -1;  ///< in ReportData::axes; -1: the deviation
+    int axis = -1;  ///< in ReportData::axes; -1: of none
     SvgChart chart;
 };
 std::vector<PageChart> charts_of(const ReportData& data);
@@ -29,7 +31,11 @@ std::optional<Xyz> driven_at(const ReportData& data, double seconds);
 
 std::string header_html(const ReportData& data);
 std::string charts_html(const ReportData& data, const std::vector<PageChart>& charts);
-std::string deviation_html(const ReportData& data, const std::vector<PageChart>& charts);
+/// The charts that are of no axis.
+std::string series_html(const std::vector<PageChart>& charts);
+std::string pictures_html(const ReportData& data);
+std::string tables_html(const ReportData& data);
+std::string source_html(const ReportData& data);
 std::string axes_html(const ReportData& data);
 std::string blocks_html(const ReportData& data);
 std::string warnings_html(const ReportData& data);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <motionrack/trace/report_parts.hpp>
 #include <motionrack/trace/text.hpp>
+#include <sstream>
 
 namespace motionrack::trace {
 
@@ -111,7 +112,7 @@ std::optional<Xyz> driven_at(const ReportData& data, double seconds) {
 
 std::string header_html(const ReportData& data) {
     std::string out = "<h1>" + shown(data.title.empty() ? "Motionrack run" : data.title) + "</h1>\n<p class=\"from\">";
-    if (!data.program_name.empty()) out += "Program <b>" + shown(data.program_name) + "</b>";
+    if (!data.program_name.empty()) out += shown(data.program_kind) + " <b>" + shown(data.program_name) + "</b>";
     if (!data.program_name.empty() && !data.rack_name.empty()) out += " on ";
     if (!data.rack_name.empty()) out += "rack <b>" + shown(data.rack_name) + "</b>";
     out += fmt::format(
@@ -178,6 +179,46 @@ std::string warnings_html(const ReportData& data) {
     return section("warnings", "Warnings",
                    note + table("warning-table", "Warnings, in the order they came",
                                 {"Time, s", "Line", "Machine at, mm", "What happened"}, rows));
+}
+
+std::string pictures_html(const ReportData& data) {
+    if (data.pictures.empty()) return {};
+    std::string inside = data.pictures_hint.empty() ? std::string() : "<p class=\"hint\">" + shown(data.pictures_hint) + "</p>\n";
+    inside += "<div class=\"pictures\">\n";
+    for (const ReportPicture& p : data.pictures) {
+        inside += fmt::format("<figure class=\"card{}\"><figcaption><span class=\"name\">{}</span>", p.wide ? " wide" : "", shown(p.title));
+        for (const std::string& line : p.words) inside += "<span>" + shown(line) + "</span>";
+        inside += "</figcaption>\n<div class=\"picture\">" + p.svg + "</div></figure>\n";
+    }
+    return section("pictures", "Pictures", inside + "</div>\n");
+}
+
+std::string tables_html(const ReportData& data) {
+    std::string out;
+    for (std::size_t i = 0; i < data.tables.size(); ++i) {
+        const ReportTable& t = data.tables[i];
+        std::vector<std::string> heads;
+        for (const std::string& head : t.heads) heads.push_back(shown(head));
+        std::string rows;
+        for (std::size_t r = 0; r < std::min(t.rows.size(), most_rows); ++r) {
+            rows += "<tr>";
+            for (const std::string& text : t.rows[r]) rows += cell(shown(text), "t");
+            rows += "</tr>\n";
+        }
+        if (t.rows.size() > most_rows)
+            rows += fmt::format("<tr><td colspan=\"{}\">and {} more</td></tr>\n", heads.size(), grouped(static_cast<long long>(t.rows.size() - most_rows)));
+        const std::string id = fmt::format("table-{}", i);
+        out += section(id.c_str(), shown(t.title).c_str(), table((id + "-rows").c_str(), shown(t.caption).c_str(), heads, rows));
+    }
+    return out;
+}
+
+std::string source_html(const ReportData& data) {
+    if (!data.source) return {};
+    std::string lines;
+    std::istringstream in(cut(data.source->text, longest_source));
+    for (std::string line; std::getline(in, line);) lines += escaped(line) + "\n";
+    return section("source", shown(data.source->title).c_str(), "<pre class=\"card\">" + lines + "</pre>\n");
 }
 
 std::string notes_html(const ReportData& data) {

@@ -5,17 +5,21 @@
 #include <memory>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/png.hpp>
 #include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/mark/run.hpp>
+#include <motionrack/mark/show.hpp>
+#include <motionrack/trace/report.hpp>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace motionrack::cli {
 
 namespace {
 
 struct MarkOptions {
-    std::string job, picture = "mark.svg";
+    std::string job, report;
+    std::vector<std::string> pictures = {"mark.svg"};
     bool json = false, quiet = false;
 };
 
@@ -40,8 +44,34 @@ std::string json_text(const mark::Outcome& out) {
     nlohmann::ordered_json all = {{"drawing_mm", out.drawing_mm}, {"strokes", out.strokes}, {"elements", out.elements}, {"marked", json_of(out.on)}};
     if (out.off) all["without_correction"] = json_of(*out.off);
     if (out.fits_factor) all["fits_times_the_speed"] = *out.fits_factor;
+    const mark::Room room = mark::room_of(out, out.on);
+    all["room"] = {{"mm", room.mm}, {"edge", room.edge}};
+    all["warnings"] = mark::warnings_of(out);
     all["notes"] = out.notes;
     return all.dump(2);
+}
+
+/// Empty: the name tells a kind of picture.
+std::string picture_trouble(const std::string& path) {
+    const auto ends_in = [&](std::string_view end) { return path.size() > end.size() && std::string_view(path).substr(path.size() - end.size()) == end; };
+    return path.empty() || ends_in(".svg") || ends_in(".png") ? std::string() : fmt::format("the picture {} is neither .svg nor .png", path);
+}
+
+bool is_png(const std::string& path) { return path.size() > 4 && path.compare(path.size() - 4, 4, ".png") == 0; }
+
+/// Everything that was asked for, or the first error.
+Result<void> write_files(const MarkOptions& options, const mark::Job& job, const mark::Prepared& prepared, const mark::Outcome& outcome, std::string_view text) {
+    const std::string svg = options.pictures.empty() ? std::string() : mark::picture_svg(prepared, outcome);
+    for (const std::string& path : options.pictures) {
+        if (!is_png(path)) {
+            MOTIONRACK_CHECK(write_text(path, svg));
+            continue;
+        }
+        MOTIONRACK_TRY(const std::string png, png_of(svg));
+        MOTIONRACK_CHECK(write_text(path, png));
+    }
+    if (!options.report.empty()) MOTIONRACK_CHECK(write_text(options.report, trace::report_html(mark::report_of(job, prepared, outcome, text))));
+    return {};
 }
 
 int run_mark(const MarkOptions& options) {
@@ -55,20 +85,21 @@ int run_mark(const MarkOptions& options) {
     const auto load = [&](const std::string& path) { return read_text(!path.empty() && path[0] == '/' ? path : folder + path); };
     const Result<mark::Prepared> prepared = mark::prepare(*read.job, load);
     if (!prepared) return report(prepared.error());
+    std::vector<std::string> files = options.pictures;
+    if (!options.report.empty()) files.push_back(options.report);
+    for (const std::string& path : files)
+        if (const Result<void> good = check_writable(path); !good) return report(good.error());
     stop_on_signals();
     ProgressLine progress(options.quiet || options.json);
     const mark::Watch watch{[&](double part) { progress.show(part, "marking"); }, [] { return stop_asked.load(); }};
     const Result<mark::Outcome> outcome = mark::run_job(*read.job, *prepared, watch);
     progress.clear();
     if (!outcome) return report(outcome.error());
-    if (options.json)
-        fmt::print("{}\n", json_text(*outcome));
-    else
-        fmt::print("{}", mark::outcome_text(*read.job, *outcome));
-    if (!options.picture.empty()) {
-        if (const Result<void> done = write_text(options.picture, mark::picture_svg(*prepared, *outcome)); !done) return report(done.error());
-        if (!options.json && !options.quiet) fmt::print("written: {}\n", options.picture);
-    }
+    fmt::print("{}", options.json ? json_text(*outcome) + "\n" : mark::outcome_text(*read.job, *outcome));
+    if (!options.json)
+        for (const std::string& warning : mark::warnings_of(*outcome)) print_warning(warning);
+    if (const Result<void> done = write_files(options, *read.job, *prepared, *outcome, *text); !done) return report(done.error());
+    if (!options.json && !options.quiet && !files.empty()) fmt::print("written: {}\n", fmt::join(files, ", "));
     return outcome->on.overflows.empty() ? exit_done : exit_machine;
 }
 
@@ -78,12 +109,21 @@ void add_mark(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<MarkOptions>();
     CLI::App* command = app.add_subcommand("mark", "Mark a drawing on a moving part with the virtual RTC5: what is on the part, and how far off");
     command->add_option("JOB", options->job, "job file (TOML), '-': standard input; its files are looked for beside it")->required();
-    command->add_option("--picture", options->picture, "the part with correction and without, as SVG; '': none")->capture_default_str();
+    command->add_option("--picture", options->pictures, "NAME.svg or NAME.png: the part as drawn, with correction and without; may be given more than once; '': none")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->check(CLI::Validator(picture_trouble, "FILE"))
+        ->capture_default_str();
+    command->add_option("--report", options->report, "page with the pictures, tables, charts and the job (HTML)");
     command->add_flag("--json", options->json, "print the table as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");
-    command->footer("Example: motionrack mark square.toml --picture square.svg\n"
+    command->footer("Example: motionrack mark square.toml --picture square.png --report square.html\n"
+                    "Nothing is written if the job is refused or stopped.\n"
                     "Exit code 4: the correction left the field, so that some of the drawing was not marked where it should be.");
-    command->callback([options, &chosen] { chosen = [options] { return run_mark(*options); }; });
+    command->callback([options, &chosen] {
+        std::erase(options->pictures, std::string());
+        chosen = [options] { return run_mark(*options); };
+    });
 }
 
 }  // namespace motionrack::cli

@@ -1,5 +1,6 @@
 // Reading and writing files, errors, progress.
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -55,13 +56,33 @@ Result<std::string> read_text(const std::string& path) {
     return text;
 }
 
+namespace {
+
+tl::unexpected<Error> not_writable(const std::string& path, int why) {
+    return fail(Trouble::io, fmt::format("{} cannot be written: {}. Choose another name or make room.", path, std::strerror(why)));
+}
+
+}  // namespace
+
+Result<void> check_writable(const std::string& path) {
+    struct stat found {};
+    if (path == "-") return {};
+    if (::stat(path.c_str(), &found) == 0) {
+        if (S_ISDIR(found.st_mode)) return not_writable(path, EISDIR);
+        return ::access(path.c_str(), W_OK) == 0 ? Result<void>{} : not_writable(path, errno);
+    }
+    if (errno != ENOENT) return not_writable(path, errno);
+    const std::size_t slash = path.rfind('/');
+    const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    return ::access(folder.c_str(), W_OK | X_OK) == 0 ? Result<void>{} : not_writable(path, errno);
+}
+
 Result<void> write_text(const std::string& path, std::string_view text) {
     std::FILE* file = path == "-" ? stdout : std::fopen(path.c_str(), "wb");
     bool good = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
     const int why = errno;
     if (file != nullptr) good = (file == stdout ? std::fflush(file) : std::fclose(file)) == 0 && good;
-    if (!good) return fail(Trouble::io, fmt::format("{} cannot be written: {}. Choose another name or make room.", path, std::strerror(why)));
-    return {};
+    return good ? Result<void>{} : not_writable(path, why);
 }
 
 int report(const Error& error) {

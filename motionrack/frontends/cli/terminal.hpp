@@ -16,6 +16,8 @@ void print_warning(std::string_view sentence);
 
 /// Reads a whole file, "-" is standard input. Errors: io, with what to do.
 Result<std::string> read_text(const std::string& path);
+/// Whether a file can be written there, before the work that it is to hold; changes nothing. Errors: io.
+Result<void> check_writable(const std::string& path);
 /// Writes a whole file. Errors: io.
 Result<void> write_text(const std::string& path, std::string_view text);
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <motionrack/mark/run.hpp>
+#include <motionrack/mark/show.hpp>
 
 namespace motionrack::mark {
 namespace {
@@ -126,17 +126,6 @@ TEST(MarkJob, CirclesTextAndGcodeAreMarkedAsDrawn) {
     EXPECT_EQ(gcode.strokes, 1u);
     EXPECT_NEAR(gcode.drawing_mm, 5 + 5 * 3.14159265, 1e-6);
     EXPECT_LE(gcode.on.deviation.worst_mm, 0.001);
-}
-
-TEST(MarkJob, ThePictureHasBothPartsAndStaysXml) {
-    const Job job = job_of(belt_job + "[fly]\nmode = 'simulated'\n");
-    const Result<Prepared> prepared = prepare(job, one_file(square_svg));
-    const Result<Outcome> out = run_job(job, *prepared);
-    const std::string picture = picture_svg(*prepared, *out);
-    EXPECT_THAT(picture, HasSubstr("with correction: worst 0.00"));
-    EXPECT_THAT(picture, HasSubstr("without correction: worst "));
-    EXPECT_EQ(picture.find("nan"), std::string::npos);
-    EXPECT_EQ(picture.rfind("</svg>\n"), picture.size() - 7);
 }
 
 TEST(MarkJob, WrongJobsAreRefusedWithTheirPlaces) {

@@ -133,7 +133,7 @@ const listenToChart = (view) => {
 const chartViews = [...document.querySelectorAll("figure.chart")].map((figure) => {
   const chart = charts[Number(figure.dataset.chart)];
   const view = {
-    chart, canvas: canvasIn(figure.querySelector(".plot"), (chart.name === "deviation" ? "" : "Axis " + chart.name + ": ") + chart.title + " over time"),
+    chart, canvas: canvasIn(figure.querySelector(".plot"), (chart.name === "" ? "" : "Axis " + chart.name + ": ") + chart.title + " over time"),
     output: figure.querySelector("output"), dragFrom: null, dragTo: 0,
   };
   listenToChart(view);

@@ -1,0 +1,54 @@
+// A rectangle of a picture that shows a part of the plane in mm, Y up: lines clipped to it and thinned to what the eye can see.
+#pragma once
+
+#include <motionrack/mark/drawing.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace motionrack::mark {
+
+/// A point of a row of strokes.
+struct Node {
+    Spot at;
+    bool first = false;  ///< a stroke begins here
+};
+std::vector<Node> nodes_of(std::span<const parts::Segment> segments);
+std::vector<Node> nodes_of(std::span<const parts::MarkedPoint> points);
+
+/// The box that has both.
+Box joined(const Box& a, const Box& b);
+Box box_of(std::span<const Node> nodes);  ///< there must be some
+
+class Plot {
+  public:
+    /// Shows `box` and what is around it, in the middle of `width` x `height` px.
+    Plot(const Box& box, int width, int height, double margin = 18);
+
+    double x(double mm) const { return (mm - low_.x) * scale_; }
+    double y(double mm) const { return height_ - (mm - low_.y) * scale_; }
+    int width() const { return width_; }
+    int height() const { return height_; }
+    double width_mm() const { return width_ / scale_; }
+
+    /// Lines in steps of 1, 2 or 5 with their mm.
+    std::string grid() const;
+    std::string strokes(std::span<const Node> nodes, const char* look) const;
+    std::string outline(const Box& box, const char* look) const;
+    std::string line(Spot from, Spot to, const char* look) const;
+    std::string ring(Spot at) const;
+    std::string cross(Spot at, const std::string& title) const;
+    std::string scale_bar() const;
+
+  private:
+    std::vector<Node> clipped(std::span<const Node> nodes) const;
+
+    Spot low_;  // mm at the lower left corner
+    int width_, height_;
+    double scale_ = 1;  // px a mm
+};
+
+/// "12 mm", "40 µm".
+std::string shown_length(double mm);
+
+}  // namespace motionrack::mark

@@ -1,0 +1,182 @@
+// The commands `mark` and `calibrate` as a user calls them, and their page.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <tests/ran.hpp>
+
+namespace motionrack {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string square = "[drawing]\nsvg = 'examples/marking/square.svg'\nanchor = 'origin'\n";
+
+class MarkCommand : public InFolder {
+  protected:
+    bool there(const std::string& name) const { return std::filesystem::exists(folder / name); }
+    /// Marks a job that is wrong: its exit code, that it says so, and that nothing was written.
+    void refused(const std::string& job, int code, const std::string& said) const {
+        write("job.toml", job);
+        const Ran ran = motionrack("mark job.toml --picture p.svg --report r.html");
+        EXPECT_EQ(ran.code, code) << ran.out;
+        EXPECT_THAT(ran.out, HasSubstr(said)) << job;
+        EXPECT_FALSE(there("p.svg") || there("r.html")) << job;
+    }
+};
+
+/// A number of a PNG's header, at a byte.
+std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
+    std::uint32_t out = 0;
+    for (std::size_t i = 0; i < 4; ++i) out = out << 8 | static_cast<unsigned char>(bytes.at(at + i));
+    return out;
+}
+
+TEST_F(MarkCommand, ItsPageShowsWhatItsCommandsPrint) {
+    std::map<std::string, int> codes = run_page("docs/howto/marking.md");
+    ASSERT_GE(codes.size(), 4u);
+    for (const auto& [arguments, code] : codes) EXPECT_EQ(code, 0) << arguments;
+    EXPECT_EQ(text_of(folder / "square.svg"), text_of(root / "docs/pictures/marking_square.svg"))
+        << "make it anew: motionrack mark examples/marking/square.toml --picture docs/pictures/marking_square.svg";
+}
+
+TEST_F(MarkCommand, WritesPicturesOfBothKindsAndAPage) {
+    const Ran ran = motionrack("mark examples/marking/square.toml --picture a.svg --picture b.png --report c.html");
+    EXPECT_EQ(ran.code, 0) << ran.out;
+    EXPECT_THAT(ran.out, HasSubstr("written: a.svg, b.png, c.html\n"));
+    const std::string svg = text_of(folder / "a.svg"), png = text_of(folder / "b.png"), page = text_of(folder / "c.html");
+    int width = 0, height = 0;
+    ASSERT_EQ(std::sscanf(svg.c_str() + svg.find("viewBox=\"0 0 "), "viewBox=\"0 0 %d %d", &width, &height), 2);
+    ASSERT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n");
+    EXPECT_EQ(big_endian(png, 16), 2u * static_cast<unsigned>(width));
+    EXPECT_EQ(big_endian(png, 20), 2u * static_cast<unsigned>(height));
+    EXPECT_THAT(page, HasSubstr("Without correction"));
+    EXPECT_THAT(page, HasSubstr("svg = &quot;square.svg&quot;"));
+    EXPECT_FALSE(there("mark.svg"));
+}
+
+TEST_F(MarkCommand, WritesMarkSvgUnlessToldOtherwise) {
+    EXPECT_THAT(motionrack("mark examples/marking/square.toml").out, HasSubstr("written: mark.svg"));
+    EXPECT_TRUE(there("mark.svg"));
+    std::filesystem::remove(folder / "mark.svg");
+    EXPECT_EQ(motionrack("mark examples/marking/square.toml --picture ''").out.find("written"), std::string::npos);
+    EXPECT_FALSE(there("mark.svg"));
+}
+
+TEST_F(MarkCommand, PrintsTheSameAsJson) {
+    const Ran ran = motionrack("mark examples/marking/square.toml --json --picture ''");
+    EXPECT_EQ(ran.code, 0);
+    const nlohmann::json all = nlohmann::json::parse(ran.out);
+    EXPECT_EQ(all["strokes"], 1);
+    EXPECT_EQ(all["drawing_mm"], 40);
+    EXPECT_LT(all["marked"]["worst_mm"].get<double>(), 0.0025);
+    EXPECT_NEAR(all["without_correction"]["worst_mm"].get<double>(), 8, 0.01);
+    EXPECT_NEAR(all["fits_times_the_speed"].get<double>(), 7.57, 0.01);
+    EXPECT_NEAR(all["room"]["mm"].get<double>(), 46.568, 0.001);
+    EXPECT_EQ(all["room"]["edge"], "right");
+    EXPECT_TRUE(all["marked"]["overflows"].empty());
+    EXPECT_TRUE(all["warnings"].empty());
+}
+
+TEST_F(MarkCommand, WarnsBeforeTheFieldOverflowsAndTellsEachOverflowByName) {
+    write("job.toml", square + "[belt]\nspeed_mm_s = 720\n[fly]\nmode = 'encoder'\n");
+    const Ran near = motionrack("mark job.toml");
+    EXPECT_EQ(near.code, 0);
+    EXPECT_THAT(near.out, HasSubstr("warning: only "));
+    EXPECT_THAT(near.out, HasSubstr("mm are left at the right edge of the field"));
+    write("job.toml", square + "[belt]\nspeed_mm_s = 900\n[fly]\nmode = 'encoder'\n");
+    const Ran over = motionrack("mark job.toml --report r.html");
+    EXPECT_EQ(over.code, 4);
+    EXPECT_THAT(over.out, HasSubstr("FLY_X_OVERFLOW at 0.0"));
+    EXPECT_THAT(over.out, HasSubstr("It just fits the field at 75"));
+    EXPECT_THAT(text_of(folder / "r.html"), HasSubstr("<h2>Overflows</h2>"));
+    const Ran json = motionrack("mark job.toml --json -q");
+    EXPECT_EQ(json.code, 4);
+    const nlohmann::json all = nlohmann::json::parse(json.out);
+    EXPECT_EQ(all["marked"]["overflows"][0]["name"], "FLY_X_OVERFLOW");
+    EXPECT_GT(all["marked"]["overflows"][0]["beyond_mm"].get<double>(), 0);
+}
+
+TEST_F(MarkCommand, ReadsAJobFromStandardInput) {
+    const Ran ran = shell("printf '[drawing]\\ntext = \"A1\"\\n' | " MOTIONRACK_PROGRAM " mark - --picture ''");
+    EXPECT_EQ(ran.code, 0) << ran.out;
+    EXPECT_THAT(ran.out, HasSubstr("drawing: "));
+}
+
+TEST_F(MarkCommand, RefusesWrongJobsWithTheirPlaces) {
+    refused("[drawing]\ntext = \n", 2, "job.toml:2:");
+    refused("[drawing]\n", 2, "job.toml:1:");
+    refused("[drawing]\ntext = 'A'\n[pace]\nmark_mm_s = nan\n", 2, "job.toml:4:");
+    refused("[drawing]\ntext = 'A'\n[bolt]\n", 2, "belt");
+    refused("[drawing]\ntext = 'A'\n[belt]\nspeed_mm_s = 'fast'\n", 2, "job.toml:4:");
+    refused("[drawing]\ntext = 'A'\n[pace]\nmark_mm_s = 200000\n", 3, "bits/ms");
+    const Ran missing = motionrack("mark none.toml");
+    EXPECT_EQ(missing.code, 5);
+    EXPECT_THAT(missing.out, HasSubstr("none.toml cannot be read"));
+    EXPECT_EQ(motionrack("mark").code, 1);
+    EXPECT_EQ(motionrack("mark examples").code, 5) << "a folder";
+}
+
+TEST_F(MarkCommand, RefusesWrongDrawingsAndTablesWithTheirPlaces) {
+    const std::string job = "[drawing]\nsvg = 'd.svg'\n";
+    refused(job, 5, "d.svg cannot be read");
+    const auto drawing = [&](const std::string& svg, const std::string& said) {
+        write("d.svg", svg);
+        refused(job, 2, said);
+    };
+    drawing("<svg><path d='M0 0\nL 1'/>\n</svg>", "d.svg:2:");
+    drawing("<svg>\n<path d='M0 0 L 1 1'/>", "d.svg:");
+    drawing("<svg>\n <text x='1'>no</text></svg>", "d.svg:2:3: the element 'text' is not supported");
+    drawing("<svg><image href='x.png'/></svg>", "'image' is not supported");
+    drawing("<svg><path stroke-dasharray='1 2' d='M0 0L1 1'/></svg>", "d.svg:1:");
+    drawing("<svg/>", "Nothing was marked");
+    write("bad.ct5", std::string(100, 'x'));
+    refused("[drawing]\ntext = 'A'\n[optics]\nct5 = 'bad.ct5'\n", 2, "bad.ct5");
+    write("d.ngc", "G21\nG1 X5 F\n");
+    refused("[drawing]\ngcode = 'd.ngc'\n", 2, "d.ngc:2:");
+}
+
+TEST_F(MarkCommand, SaysBeforeTheRunThatAFileCannotBeWritten) {
+    const std::string marking = "mark examples/marking/square.toml ";
+    for (const char* option : {"--picture no_such_folder/p.png --report r.html", "--picture p.svg --report examples"}) {
+        const Ran ran = motionrack(marking + option);
+        EXPECT_EQ(ran.code, 5) << ran.out;
+        EXPECT_THAT(ran.out, HasSubstr("cannot be written"));
+        EXPECT_THAT(ran.out, Not(HasSubstr("worst mm")));
+        EXPECT_FALSE(there("p.svg") || there("r.html"));
+    }
+    const Ran kind = motionrack(marking + "--picture p.gif");
+    EXPECT_EQ(kind.code, 1);
+    EXPECT_THAT(kind.out, HasSubstr("p.gif is neither .svg nor .png"));
+}
+
+TEST_F(MarkCommand, ShowsItsProgressAndWritesNothingWhenStopped) {
+    write("long.toml", "[drawing]\ntext = 'AAAAAAAAAAAAAAAAAAAAAAAA'\n[pace]\nmark_mm_s = 2\n[belt]\nspeed_mm_s = 0.1\n[fly]\nmode = 'encoder'\n[galvo]\nideal = false\n");
+    // A terminal of its own, so that there is somebody to show progress to.
+    EXPECT_THAT(shell("script -qec 'timeout --foreground -s INT 2 " MOTIONRACK_PROGRAM " mark long.toml' /dev/null").out, HasSubstr(" %  marking"));
+    const Ran stopped = shell("timeout -s INT 0.3 " MOTIONRACK_PROGRAM " mark long.toml --report r.html");
+    EXPECT_TRUE(stopped.code == 124 || stopped.code == 130) << stopped.code << stopped.out;
+    EXPECT_THAT(stopped.out, HasSubstr("Stopped; nothing was written."));
+    EXPECT_FALSE(there("mark.svg") || there("r.html"));
+}
+
+TEST_F(MarkCommand, CalibratesOrSaysWhyNot) {
+    EXPECT_THAT(motionrack("calibrate scale --readings 1000 51000 --distance 50").out, HasSubstr("1000 +- "));
+    struct Case {
+        const char* arguments;
+        int code;
+        const char* said;
+    };
+    for (const Case& c : {Case{"scale --readings 5 5 --distance 50", 3, "readings"}, Case{"scale --readings 1 2 --distance 0", 3, "distance"}, Case{"scale --readings 1 --distance 5", 1, "--readings"},
+                          Case{"scale --readings 1 nan --distance 5", 3, ""}, Case{"rotary --marks 0 0 0 1 1 100 2 2 200", 3, "line"}, Case{"rotary --marks 1 2 3", 1, "--marks"},
+                          Case{"lag --speeds 100 100 --shifts 0.1 0.2", 3, "speed"}, Case{"lag --speeds 100 500 --shifts 0.1 -9", 3, ""}, Case{"", 1, "subcommand"}}) {
+        const Ran ran = motionrack(std::string("calibrate ") + c.arguments);
+        EXPECT_EQ(ran.code, c.code) << c.arguments << ": " << ran.out;
+        EXPECT_THAT(ran.out, HasSubstr(c.said)) << c.arguments;
+    }
+}
+
+}  // namespace
+}  // namespace motionrack

@@ -1,0 +1,62 @@
+// The program as a user calls it, in a folder of its own that has the project's examples.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <tests/text_of.hpp>
+
+namespace motionrack {
+
+struct Ran {
+    int code = -1;
+    std::string out;
+};
+
+/// A folder for commands that write files.
+class InFolder : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::filesystem::remove_all(folder);
+        std::filesystem::create_directories(folder);
+        std::filesystem::create_directory_symlink(root / "examples", folder / "examples");
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    /// Runs a command of the shell; what it says to the terminal, warnings too.
+    Ran shell(const std::string& line) const {
+        Ran ran;
+        std::FILE* pipe = ::popen(("cd '" + folder.string() + "' && " + line + " 2>&1").c_str(), "r");
+        if (!pipe) return ran;
+        std::array<char, 4096> buffer{};
+        for (std::size_t got; (got = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) ran.out.append(buffer.data(), got);
+        const int status = ::pclose(pipe);
+        if (WIFEXITED(status)) ran.code = WEXITSTATUS(status);
+        return ran;
+    }
+    Ran motionrack(const std::string& arguments) const { return shell(MOTIONRACK_PROGRAM " " + arguments); }
+    /// Runs each command of a page, which must print what the page says; the exit codes by the commands' arguments.
+    std::map<std::string, int> run_page(const std::string& path) const {
+        const std::string page = text_of(root / path), begin = "```\n$ motionrack ";
+        std::map<std::string, int> codes;
+        for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at + 1)) {
+            const std::size_t command = at + begin.size(), end_of_line = page.find('\n', command), end = page.find("```", end_of_line);
+            const std::string arguments = page.substr(command, end_of_line - command);
+            const Ran ran = motionrack(arguments);
+            EXPECT_EQ(ran.out, page.substr(end_of_line + 1, end - end_of_line - 1)) << arguments;
+            codes[arguments] = ran.code;
+        }
+        return codes;
+    }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name, std::ios::binary) << text; }
+
+    const std::filesystem::path root = MOTIONRACK_SOURCE_DIR;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("motionrack_test_" + std::to_string(::getpid()));
+};
+
+}  // namespace motionrack
