@@ -6,6 +6,7 @@
 #include <limits>
 #include <motionrack/cards/grating_bus/map.hpp>
 #include <motionrack/cards/ioflex02/map.hpp>
+#include <motionrack/cards/rtc5/map.hpp>
 #include <motionrack/rack/grating.hpp>
 #include <motionrack/rack/card_types.hpp>
 
@@ -281,7 +282,24 @@ void* grating_decoder_of(RackCard& card) {
     return &card.grating_decoder;
 }
 
-constexpr std::array<CardType, 5> table = {{
+// ---- rtc5 -----------------------------------------------------------------------------------------------------------
+
+constexpr auto rtc5_pins = [] {
+    auto out = own_pins<std::size(rtc5::map::pins)>(rtc5::map::pins.data());
+    for (std::size_t i = 0; i < out.size(); ++i) out[i].bits = rtc5::map::lines[i].bits;
+    return out;
+}();
+
+constexpr std::array<Field, 1> rtc5_settings = {
+    field<&Rtc5Settings::list_memory>("list_memory", rtc5::least_list_memory, rtc5::greatest_list_memory, "",
+                                      "positions for list commands; a copy of the rack copies them all"),
+};
+
+void* rtc5_of(RackCard& card) {
+    return &card.rtc5;
+}
+
+constexpr std::array<CardType, 6> table = {{
     {"mcx314", "four-axis pulse chip with interpolation", "xyzu", mcx314_channel_pins, mcx314_chip_pins, mcx314_wires,
      "emgn", mcx314_settings, mcx314_of, mcx314_pulse_hz, mcx314_accel_hz_s, mcx314_encoder_hz, 2'147'483'647,
      mcx314_stops, mcx314_stops},
@@ -299,6 +317,8 @@ constexpr std::array<CardType, 5> table = {{
      "called `decoder`", "", {},
      grating_decoder_pins, {}, "", grating_decoder_settings, grating_decoder_of, nothing, nothing, nothing, 2'147'483'647, {}, {}, false, grating_decoder_flaw,
      grating_decoder_pin_count},
+    {"rtc5", "control of a laser scan head that marks moving parts; it moves no axis and has no bus: programs use the commands of its library", "", {},
+     rtc5_pins, {}, "", rtc5_settings, rtc5_of, nothing, nothing, nothing, 2'147'483'647},
 }};
 
 }  // namespace
@@ -325,8 +345,8 @@ std::vector<Pin> pins_of(const CardType& type) {
     std::vector<Pin> out;
     for (int channel = 0; channel < type.channel_count(); ++channel)
         for (const PinType& pin : type.channel_pins)
-            out.push_back({std::string(type.channel_name(channel)).append(pin.name), pin.direction, channel, pin.volts, pin.kind});
-    for (const PinType& pin : type.chip_pins) out.push_back({std::string(pin.name), pin.direction, -1, pin.volts, pin.kind});
+            out.push_back({std::string(type.channel_name(channel)).append(pin.name), pin.direction, channel, pin.volts, pin.kind, pin.bits});
+    for (const PinType& pin : type.chip_pins) out.push_back({std::string(pin.name), pin.direction, -1, pin.volts, pin.kind, pin.bits});
     return out;
 }
 

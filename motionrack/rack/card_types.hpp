@@ -26,6 +26,7 @@ struct PinType {
     std::string_view doc;
     double volts = 0;  ///< of an analog pin: V for one unit of its wire's level; 0: a digital pin
     PinKind kind = PinKind::plain;
+    int bits = 1;  ///< of a wire that carries a whole number
 };
 
 /// A wire that is there unless the rack file says otherwise: pin `pin` of the axis' channel, end `end` of the axis
@@ -84,6 +85,7 @@ struct Pin {
     int channel;   ///< index into `channels`, -1 for the chip's own
     double volts;  ///< see PinType
     PinKind kind;
+    int bits;
 };
 std::vector<Pin> pins_of(const CardType& type);
 /// Those that this card has; none if its type is unknown.

@@ -12,6 +12,7 @@
 #include <motionrack/cards/mcx314/map.hpp>
 #include <motionrack/cards/mcx314/chip/byte_bus.hpp>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/rtc5/map.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 #include <optional>
@@ -173,6 +174,7 @@ constexpr CardKind kinds[] = {
     {"ioflex02", &ioflex02::card_map, &make_ioflex02},
     {"grating_bus", &grating_bus::card_map, &make_grating_bus},
     {"grating_decoder", &grating_bus::decoder_map, &make_grating_decoder},
+    {"rtc5", &rtc5::card_map, &make_rtc5},
 };
 
 }  // namespace

@@ -41,7 +41,7 @@ class Card {
     const MotionCard* motion() const { return const_cast<Card*>(this)->motion(); }
     /// Registers as the host sees them; nullptr if the card has none.
     virtual sim::RegisterDevice* registers() { return nullptr; }
-    /// Widths in bits (8, 16, 32) of the accesses that the card's bus makes.
+    /// Widths in bits (8, 16, 32) of the accesses that the card's bus makes; none: it has no bus.
     virtual std::span<const int> bus_widths() const = 0;
     /// Where the map's offset 0 is on the host's bus.
     virtual std::uint32_t bus_base() const { return 0; }
@@ -64,6 +64,8 @@ class Card {
     virtual bool fault(std::string_view, double, Instant) { return false; }
     /// Wires by their full names that it shares with other cards ("bus.clk"); from outside they can be driven like its own.
     virtual std::span<const std::string> shared_wires() const { return {}; }
+    /// What no snapshot of the kernel holds becomes that of `other`, a card of the same kind in another rack.
+    virtual void copy_from(const Card& other) { (void)other; }
     /// All cards of the rack are there. Once, before the kernel starts.
     virtual void complete() {}
     /// The host's side: time and the interrupt line.
@@ -134,6 +136,9 @@ std::unique_ptr<Card> make_grating_decoder(sim::Kernel& kernel, const RackCard& 
                                            std::span<const std::unique_ptr<Card>> before);
 std::unique_ptr<Card> make_databoard4002(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
                                          std::span<const std::unique_ptr<Card>> before);
+
+std::unique_ptr<Card> make_rtc5(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,
+                                std::span<const std::unique_ptr<Card>> before);
 
 std::span<const CardKind> card_kinds();
 /// nullptr if there is no such kind.

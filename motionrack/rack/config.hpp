@@ -91,6 +91,11 @@ struct GratingDecoderSettings {
     std::int64_t bus_access_ns = 500;  ///< 0 .. 100,000 ns
 };
 
+/// Settings of a card of type rtc5; the model's are in cards/rtc5/model/settings.hpp.
+struct Rtc5Settings {
+    std::int64_t list_memory = 1 << 20;  ///< 16 .. 1,048,576 positions
+};
+
 /// One card; only the settings of its own type mean something. Defaults of the members are the rack file's defaults.
 struct RackCard {
     std::string name;             ///< as the wires call it: letters, digits, '_'
@@ -101,6 +106,7 @@ struct RackCard {
     Ioflex02Settings ioflex02;
     GratingBusSettings grating_bus;
     GratingDecoderSettings grating_decoder;
+    Rtc5Settings rtc5;
 };
 
 // ---- Axes -------------------------------------------------------------------------------------------------------

@@ -6,7 +6,7 @@
 namespace motionrack::rack {
 namespace {
 
-constexpr std::array<std::string_view, 5> card_type_names = {"mcx314", "databoard4002", "ioflex02", "grating_bus", "grating_decoder"};
+constexpr std::array<std::string_view, 6> card_type_names = {"mcx314", "databoard4002", "ioflex02", "grating_bus", "grating_decoder", "rtc5"};
 constexpr std::array<std::string_view, 2> kinds = {"linear", "rotary"};
 
 constexpr std::array<Field, 1> rack_table = {

@@ -15,10 +15,12 @@
 namespace motionrack::rack {
 namespace {
 
+constexpr std::string_view logic = "a logic level", voltage = "a voltage", number = "a number";
+
 struct KnownEnd {
     WireEnd end;
     PinDirection direction = PinDirection::input;
-    bool analog = false;
+    std::string_view carries = logic;
     std::string missing;  ///< not empty: the name is right, but the rack has no such part; why
 };
 
@@ -27,7 +29,7 @@ class WireResolver {
     WireResolver(const RackConfig& config, Problems& problems) : config_(config), problems_(problems) {
         for (std::size_t i = 0; i < config.cards.size(); ++i) add_card(static_cast<int>(i));
         for (std::size_t i = 0; i < config.axes.size(); ++i) add_axis(static_cast<int>(i));
-        known_["estop"] = {{EndOwner::estop, 0, ""}, PinDirection::output, false, {}};
+        known_["estop"] = {{EndOwner::estop, 0, ""}, PinDirection::output, logic, {}};
     }
 
     void default_rule() {
@@ -88,14 +90,14 @@ class WireResolver {
             return;
         }
         for (Pin& pin : pins_of(card)) {
-            known_[card.name + "." + pin.name] = {{EndOwner::card, index, pin.name}, pin.direction, pin.volts > 0, {}};
+            known_[card.name + "." + pin.name] = {{EndOwner::card, index, pin.name}, pin.direction, pin.volts > 0 ? voltage : pin.bits > 1 ? number : logic, {}};
         }
     }
 
     void add_axis(int index) {
         const RackAxis& axis = config_.axes[static_cast<std::size_t>(index)];
         for (const AxisEnd& end : axis_ends()) {
-            KnownEnd known{{EndOwner::axis, index, std::string(end.name)}, end.direction, end.volts > 0, {}};
+            KnownEnd known{{EndOwner::axis, index, std::string(end.name)}, end.direction, end.volts > 0 ? voltage : logic, {}};
             if (!end.present(axis)) {
                 known.missing =
                     fmt::format("axis {} needs {} to have it", axis.letter, with_unit(end.needs, axis.unit()));
@@ -181,9 +183,8 @@ class WireResolver {
                             node.text));
         } else if (right.direction == input) {
             inputs_[name] = &node;
-        } else if (left.analog != right.analog) {
-            error(node.key_place, fmt::format("{} is {} and {} {}; they cannot be wired together.", name, left.analog ? "a voltage" : "a logic level",
-                                              node.text, right.analog ? "a voltage" : "a logic level"));
+        } else if (left.carries != right.carries) {
+            error(node.key_place, fmt::format("{} is {} and {} {}; they cannot be wired together.", name, left.carries, node.text, right.carries));
         } else {
             wires_.insert_or_assign(name, RackWire{right.end, left.end, false});
         }

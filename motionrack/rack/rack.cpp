@@ -202,6 +202,11 @@ void Rack::start() {
     }
 }
 
+void Rack::copy_from(Rack& other) {
+    kernel_.restore(other.kernel_.snapshot());
+    for (std::size_t i = 0; i < cards_.size(); ++i) cards_[i]->copy_from(*other.cards_[i]);
+}
+
 Result<control::PathAxes*> Rack::path_axes() {
     if (axes_.empty())
         return fail(Trouble::refused, "The rack has no axes, so no program can run on it; add an [axis.X] section to the rack file.");

@@ -62,6 +62,8 @@ class Rack {
     /// nullptr if there is no such stage.
     RunningStage* stage(std::string_view name);
     sim::InputLog& input_log() { return log_; }
+    /// Takes the state of another rack of the same config. Both are started and between runs.
+    void copy_from(Rack& other);
 
     /// No more parts: virtual time can run.
     void start();

@@ -81,6 +81,9 @@ Result<Card*> Session::find_card(std::string_view name) {
 Result<Card*> Session::bus_of(std::string_view name, int bits, std::uint32_t address, bool writing) {
     MOTIONRACK_TRY(Card * card, find_card(name));
     const std::span<const int> widths = card->bus_widths();
+    if (widths.empty())
+        return fail(Trouble::refused, fmt::format("Card {} is an {}: it has no registers on a bus. Nothing was done; use its own commands.",
+                                                  card->name(), card->map().name));
     if (std::find(widths.begin(), widths.end(), bits) == widths.end())
         return fail(Trouble::refused,
                     fmt::format("Card {} is a {}: its bus makes accesses of {} bits, not of {}. Nothing was done.",
@@ -136,7 +139,7 @@ Result<void> Session::fault(std::string_view fault, std::string_view target) { r
 
 std::unique_ptr<Session> Session::copy() {
     std::unique_ptr<Session> out(new Session(rack_.config()));
-    out->rack_.kernel().restore(rack_.kernel().snapshot());
+    out->rack_.copy_from(rack_);
     out->desk_.copy_from(desk_);
     return out;
 }

@@ -13,7 +13,7 @@ constexpr double most_volts = 15;  // of an analog input
 }
 
 WireDesk::WireDesk(Rack& rack) : rack_(rack) {
-    wires_["estop"] = {Kind::plain, rack_.kernel().find_wire("estop"), -1, 0, 1, {}};
+    wires_["estop"] = {Kind::plain, rack_.kernel().find_wire("estop"), -1, 0, 1, 1, {}};
     add_cards();
     add_axes();
     add_encoders();
@@ -24,14 +24,14 @@ void WireDesk::add_cards() {
     for (const RackCard& card : rack_.config().cards)
         for (const Pin& pin : pins_of(card)) {
             const std::string name = card.name + "." + pin.name;
-            Wire wire{Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, {}};
+            Wire wire{Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, pin.bits, {}};
             if (pin.volts > 0) wire.unit = pin.volts;
             if (pin.direction == PinDirection::output)
                 wire.refused = fmt::format("{} is an output of the card; inputs, switches and the emergency stop can be driven", name);
             wires_[name] = std::move(wire);
         }
     for (const auto& card : rack_.cards())
-        for (const std::string& name : card->shared_wires()) wires_[name] = {Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, {}};
+        for (const std::string& name : card->shared_wires()) wires_[name] = {Kind::plain, rack_.kernel().find_wire(name), -1, 0, 1, 1, {}};
 }
 
 void WireDesk::add_axes() {
@@ -40,7 +40,7 @@ void WireDesk::add_axes() {
         for (const AxisEnd& end : axis_ends()) {
             if (!end.present(config.axes[i])) continue;
             const std::string name = fmt::format("{}.{}", config.axes[i].letter, end.name);
-            Wire wire{Kind::plain, rack_.kernel().find_wire(name), static_cast<int>(i), 0, 1, {}};
+            Wire wire{Kind::plain, rack_.kernel().find_wire(name), static_cast<int>(i), 0, 1, 1, {}};
             if (end.name == "enc_a" || end.name == "enc_b") {
                 wire.kind = Kind::track;
                 wire.which = end.name == "enc_b";
@@ -143,6 +143,12 @@ Result<void> WireDesk::check(std::string_view name, double value) const {
         if (std::fabs(value) <= most_volts) return {};
         return fail(Trouble::refused, fmt::format("{} cannot be driven with {} V; it takes -{} .. {} V. Nothing was done.", name, value,
                                                   most_volts, most_volts));
+    }
+    if (wire->bits > 1) {
+        const double greatest = std::ldexp(1.0, wire->bits - 1);
+        if (value >= -greatest && value < greatest && value == std::floor(value)) return {};
+        return fail(Trouble::refused, fmt::format("{} cannot be driven with {}: it takes whole numbers from {:.0f} to {:.0f}. Nothing was done.",
+                                                  name, value, -greatest, greatest - 1));
     }
     if (value != 0 && value != 1)
         return fail(Trouble::refused, fmt::format("{} cannot be driven with {}: it is a digital wire, 0 or 1 (NaN releases it). "

@@ -45,6 +45,7 @@ class WireDesk {
         int index = -1;                      ///< counted: of encoders_; track: of the axis
         int which = 0;                       ///< 0: A, 1: B
         double unit = 1;                     ///< of an analog pin: V for one unit of the level
+        int bits = 1;                        ///< of a wire that carries a whole number
         std::string refused;                 ///< why it cannot be driven; empty: it can
     };
     static constexpr int no_axis = -1;  ///< the ideal motor of a card

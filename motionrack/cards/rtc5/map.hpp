@@ -4,6 +4,7 @@
 #include <motionrack/base/card_map.hpp>
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/time.hpp>
+#include <motionrack/cards/rtc5/map/card.hpp>
 #include <motionrack/cards/rtc5/map/commands.hpp>
 #include <motionrack/cards/rtc5/map/pins.hpp>
 #include <motionrack/cards/rtc5/map/status.hpp>
@@ -18,7 +19,7 @@ inline constexpr double field_least = -524288, field_greatest = 524287;  ///< th
 inline constexpr double z_least = -32768, z_greatest = 32767;
 inline constexpr int encoder_count = 2, head_count = 2, table_count = 4, start_queue = 8;
 inline constexpr int simulated_counts = 10;  ///< a tick: 1 MHz
-inline constexpr std::int64_t greatest_list_memory = 1 << 20;
+inline constexpr std::int64_t least_list_memory = 16, greatest_list_memory = 1 << 20;
 inline constexpr double least_resolution = 100;  ///< counts a turn; under it rotary corrections are off
 
 /// Bits of set_control_mode.
@@ -36,15 +37,6 @@ inline Result<Command> list_command(Op op, std::initializer_list<double> paramet
 /// The names of the bits set, for people: "FLY_X_OVERFLOW: the corrected X was above 524287".
 std::vector<std::string> decoded(std::uint32_t word, std::span<const BitInfo> bits);
 
-namespace map {
-inline constexpr CardMap card = {"rtc5",
-                                 "Control of laser scan heads: lists of vectors, processing on the fly by encoders or "
-                                 "position words, field correction",
-                                 {},
-                                 {},
-                                 {},
-                                 pins};
-}
 /// The whole map, for documents, inspectors and traces.
 inline const CardMap& card_map() {
     return map::card;

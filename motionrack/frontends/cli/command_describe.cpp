@@ -40,7 +40,7 @@ int describe(const DescribeOptions& options) {
 void add_describe(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<DescribeOptions>();
     CLI::App* command = app.add_subcommand("describe", "Tell a card's registers, commands, states and pins, or the keys of a rack file");
-    command->add_option("CARD", options->what, "a card type (mcx314, databoard4002, ioflex02), or rack-file")->required();
+    command->add_option("CARD", options->what, "a card type (mcx314, databoard4002, ioflex02, rtc5), or rack-file")->required();
     auto* markdown = command->add_flag("--markdown", options->markdown, "as Markdown, as in docs/reference");
     command->add_flag("--json", options->json, "as JSON")->excludes(markdown);
     command->footer("Example: motionrack describe mcx314 | less");

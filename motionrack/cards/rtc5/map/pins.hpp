@@ -1,26 +1,38 @@
 // The RTC5's lines, in the order in which the model has its wires.
 #pragma once
 
+#include <array>
 #include <motionrack/base/card_map.hpp>
 
 namespace motionrack::rtc5::map {
 
-inline constexpr PinDirection in = PinDirection::input, out = PinDirection::output;
-inline constexpr PinInfo pins[] = {
-    {"enc0_a", in, false, "encoder 0 (X), line A"},
-    {"enc0_b", in, false, "encoder 0 (X), line B"},
-    {"enc1_a", in, false, "encoder 1 (Y), line A"},
-    {"enc1_b", in, false, "encoder 1 (Y), line B"},
-    {"start", in, false, "external start, at the rising edge"},
-    {"stop", in, false, "external stop, at the rising edge"},
-    {"mcbsp_word", in, false, "the 32-bit word of the last complete transfer, as a number"},
-    {"mcbsp_frame", in, false, "changes when a word is complete"},
-    {"laser", out, false, "LASERON: the gate"},
-    {"x", out, false, "scan head A, X, -524288 to 524287 bits, as a number"},
-    {"y", out, false, "scan head A, Y"},
-    {"busy", out, false, "a list is running"},
-    {"io", out, false, "the 16 digital outputs, as a number"},
+/// A line and what its wire shows: a level, or a whole number of so many bits.
+struct Line {
+    PinInfo pin;
+    int bits = 1;
 };
+
+inline constexpr PinDirection in = PinDirection::input, out = PinDirection::output;
+inline constexpr Line lines[] = {
+    {{"enc0_a", in, false, "encoder 0 (X), line A"}},
+    {{"enc0_b", in, false, "encoder 0 (X), line B"}},
+    {{"enc1_a", in, false, "encoder 1 (Y), line A"}},
+    {{"enc1_b", in, false, "encoder 1 (Y), line B"}},
+    {{"start_n", in, true, "external start, at the falling edge; high when open"}},
+    {{"stop_n", in, true, "external stop, at the falling edge; high when open"}},
+    {{"mcbsp", in, false, "the 32-bit word of the last complete transfer, as a number; a change is a new word"}, 32},
+    {{"mcbsp_frame", in, false, "changes when a word was complete that is equal to the one before"}},
+    {{"laser_on", out, false, "LASERON: the gate"}},
+    {{"xout", out, false, "scan head A, X, -524288 to 524287 bits, as a number"}, 20},
+    {{"yout", out, false, "scan head A, Y"}, 20},
+    {{"busy", out, false, "a list is running"}},
+    {{"io", out, false, "the 16 digital outputs, as a number"}, 16},
+};
+inline constexpr auto pins = [] {
+    std::array<PinInfo, std::size(lines)> found{};
+    for (std::size_t i = 0; i < found.size(); ++i) found[i] = lines[i].pin;
+    return found;
+}();
 static_assert(declared<pins_flaw(pins)>());
 
 }  // namespace motionrack::rtc5::map

@@ -12,17 +12,17 @@ enum Pin : int {
     enc0_b,
     enc1_a,
     enc1_b,
-    start,
-    stop,
-    mcbsp_word,
+    start_n,
+    stop_n,
+    mcbsp,
     mcbsp_frame,
-    laser_gate,
-    head_x,
-    head_y,
+    laser_on,
+    xout,
+    yout,
     busy,
     io
 };
-static_assert(map::pins[laser_gate].name == "laser" && map::pins[io].name == "io" && std::size(map::pins) == io + 1);
+static_assert(map::pins[laser_on].name == "laser_on" && map::pins[io].name == "io" && std::size(map::pins) == io + 1);
 
 constexpr Duration half_us = nanoseconds(500);
 
@@ -36,20 +36,29 @@ Card::Card(sim::Kernel& kernel, const std::string& name, const Settings& setting
     kernel.add(lists_, sim::Phase::cards, name + ".lists");
     kernel.add(inputs_, sim::Phase::cards, name + ".lines");
     for (std::size_t i = 0; i < wires_.size(); ++i) {
-        wires_[i] = kernel.add_wire(name + "." + std::string(map::pins[i].name), 0);
-        if (map::pins[i].direction == PinDirection::input && i != mcbsp_word)
-            kernel.listen(wires_[i], id_, static_cast<int>(i));
+        const PinInfo& pin = map::pins[i];
+        wires_[i] = kernel.add_wire(name + "." + std::string(pin.name), pin.active_low, map::lines[i].bits);
+        if (pin.direction == PinDirection::input) kernel.listen(wires_[i], id_, static_cast<int>(i));
     }
-    for (const Pin pin : {head_x, head_y}) kernel.drive_lazily(wire(pin), id_, pin);
+    for (const Pin pin : {xout, yout}) kernel.drive_lazily(wire(pin), id_, pin);
     kernel.schedule(id_, Instant{0});
 }
 
 Engine& Card::engine() {
-    catch_up(kernel_.now());
+    caught_up();
     // What is asked of it may move it: look in the next tick.
     kernel_.schedule(id_, std::min((kernel_.now() / tick_time + 1) * tick_time,
                                    lines_.change_count > 0 ? Instant{lines_.changes[0]} : never));
     return engine_;
+}
+
+const Engine& Card::caught_up() {
+    catch_up(kernel_.now());
+    return engine_;
+}
+
+sim::WireId Card::busy_wire() const {
+    return wire(busy);
 }
 
 /// Works off the ticks up to and including `now`.
@@ -85,24 +94,24 @@ void Card::put_out() {
         l.change_count -= done;
         std::fill(l.changes.begin() + l.change_count, l.changes.end(), 0);
     }
-    kernel_.set_wire(wire(laser_gate), static_cast<int>(l.laser));
+    kernel_.set_wire(wire(laser_on), static_cast<int>(l.laser));
     kernel_.set_wire(wire(busy), engine_.busy());
     kernel_.set_wire(wire(io), static_cast<int>(engine_.state().io));
-    if (kernel_.wanted(wire(head_x))) kernel_.set_wire(wire(head_x), engine_.output().a[0]);
-    if (kernel_.wanted(wire(head_y))) kernel_.set_wire(wire(head_y), engine_.output().a[1]);
+    if (kernel_.wanted(wire(xout))) kernel_.set_wire(wire(xout), engine_.output().a[0]);
+    if (kernel_.wanted(wire(yout))) kernel_.set_wire(wire(yout), engine_.output().a[1]);
 }
 
 /// The next instant at which a wire may change.
 void Card::plan(Instant now) {
     Instant next = lines_.change_count > 0 ? Instant{lines_.changes[0]} : never;
-    const bool looked_at = kernel_.wanted(wire(head_x)) || kernel_.wanted(wire(head_y));
+    const bool looked_at = kernel_.wanted(wire(xout)) || kernel_.wanted(wire(yout));
     if (!engine_.at_rest() || (looked_at && engine_.state().fly.on()))
         next = std::min(next, (now / tick_time + 1) * tick_time);
     kernel_.schedule(id_, next);
 }
 
 int Card::level_at(int pin, Instant) const {
-    return engine_.output().a[pin == head_x ? 0 : 1];
+    return engine_.output().a[pin == xout ? 0 : 1];
 }
 
 void Card::wanted_changed(int, bool wanted, Instant now) {
@@ -118,14 +127,15 @@ void Card::on_wire(int pin, int level, Instant now) {
         case enc1_b:
             count_line(static_cast<std::size_t>(pin / 2), pin % 2, level, now);
             break;
-        case start:
-            if (level != 0) engine_.external_start();
+        case start_n:
+            if (level == 0) engine_.external_start();
             break;
-        case stop:
-            if (level != 0) engine_.external_stop();
+        case stop_n:
+            if (level == 0) engine_.external_stop();
             break;
+        case mcbsp:
         case mcbsp_frame:
-            engine_.receive(static_cast<std::uint32_t>(kernel_.level(wire(mcbsp_word))));
+            engine_.receive(static_cast<std::uint32_t>(kernel_.level(wire(mcbsp))));
             break;
         default:
             break;

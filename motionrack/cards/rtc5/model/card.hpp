@@ -1,9 +1,8 @@
 // The RTC5 on the wires of a rack: Engine in virtual time.
 //
-//   enc0_a ─┐ enc0_b ─┐ ..   start ─┐ mcbsp_frame ─┐                    tick k is at k * 10 us; it sees what changed
-//   before that instant ────────▼─────────▼─────────────▼──────────────▼──┬──────────┬──    and puts x, y and the
-//   laser's changes of its 10 us out
-//                                                   tick k    tick k+1
+//   enc0_a ─┐ enc0_b ─┐ ..  start_n ─┐ mcbsp ─┐          tick k is at k * 10 us; it sees what changed before
+//   ────────▼─────────▼──────────────▼────────▼──┬──────────┬──    that instant and puts x, y and the laser's
+//                                             tick k     tick k+1  changes of its 10 us out
 //
 // While nothing moves and nobody wants x and y it does not act at all; ticks are worked off when somebody asks.
 #pragma once
@@ -23,7 +22,14 @@ class Card final : public sim::Device, private Sink {
 
     /// The card's commands and answers, at the present instant. Between runs only, and not kept over one.
     Engine& engine();
+    /// The same to look at only: as it was when the run ended.
+    const Engine& engine() const { return engine_; }
+    /// The same at the present instant, in a run too.
+    const Engine& caught_up();
+    /// What no snapshot holds: tables.
+    void copy_tables(const Card& other) { engine_.copy_tables(other.engine_); }
     sim::DeviceId id() const { return id_; }
+    sim::WireId busy_wire() const;
 
     void act(Instant now) override;
     void on_wire(int pin, int level, Instant now) override;

@@ -50,7 +50,7 @@ void load(Engine& card, std::initializer_list<Command> list) {
 TEST(Rtc5Card, TheLaserWireChangesAtHalfMicroseconds) {
     sim::Kernel kernel;
     Card card(kernel, "scan", small);
-    Listener listener(kernel, {"scan.laser", "scan.busy"});
+    Listener listener(kernel, {"scan.laser_on", "scan.busy"});
     kernel.start();
     load(card.engine(), {*list_command(Op::set_laser_delays, {7, 3}), *list_command(Op::set_mark_speed, {1000}),
                          *list_command(Op::mark_abs, {100, 0}), *list_command(Op::set_end_of_list, {})});
@@ -62,13 +62,13 @@ TEST(Rtc5Card, TheLaserWireChangesAtHalfMicroseconds) {
                                                    {1, 0, microseconds(110)},
                                                    {0, 0, microseconds(110) + nanoseconds(1'500)}};
     EXPECT_EQ(listener.heard, expected);
-    EXPECT_EQ(kernel.level(kernel.find_wire("scan.x")), 100);
+    EXPECT_EQ(kernel.level(kernel.find_wire("scan.xout")), 100);
 }
 
 TEST(Rtc5Card, OutputsComeTickByTickToWhoWantsThem) {
     sim::Kernel kernel;
     Card card(kernel, "scan", small);
-    Listener listener(kernel, {"scan.x"});
+    Listener listener(kernel, {"scan.xout"});
     kernel.start();
     listener.want(kernel);
     load(card.engine(), {*list_command(Op::set_mark_speed, {1000}), *list_command(Op::mark_abs, {40, 0}),
@@ -106,8 +106,7 @@ TEST(Rtc5Card, AWordOnTheMcbspIsTakenInTheNextTick) {
     Card card(kernel, "scan", small);
     kernel.start();
     ASSERT_TRUE(card.engine().set_mcbsp_in(1, 1));
-    kernel.force(kernel.find_wire("scan.mcbsp_word"), -70);
-    kernel.force(kernel.find_wire("scan.mcbsp_frame"), 1);
+    kernel.force(kernel.find_wire("scan.mcbsp"), -70);
     kernel.run_until(microseconds(10));
     EXPECT_EQ(card.engine().output().a[0], -70);
     EXPECT_EQ(card.engine().read_mcbsp(1), -70);
@@ -120,16 +119,16 @@ TEST(Rtc5Card, StartAndStopLinesWorkAndALostStartIsTold) {
     load(card.engine(), {*list_command(Op::long_delay, {1000}), *list_command(Op::set_end_of_list, {})});
     card.engine().set_control_mode(control_ext_start);
     const auto pulse = [&](const char* wire) {
-        kernel.force(kernel.find_wire(wire), 1);
-        kernel.run_until(kernel.now() + microseconds(50));
         kernel.force(kernel.find_wire(wire), 0);
         kernel.run_until(kernel.now() + microseconds(50));
+        kernel.force(kernel.find_wire(wire), 1);
+        kernel.run_until(kernel.now() + microseconds(50));
     };
-    pulse("scan.start");
+    pulse("scan.start_n");
     EXPECT_TRUE(card.engine().busy());
     EXPECT_EQ(kernel.level(kernel.find_wire("scan.busy")), 1);
-    pulse("scan.start");
-    pulse("scan.stop");
+    pulse("scan.start_n");
+    pulse("scan.stop_n");
     EXPECT_FALSE(card.engine().busy());
     const auto conditions = kernel.conditions();
     ASSERT_EQ(conditions.size(), 2u);
@@ -141,7 +140,7 @@ TEST(Rtc5Card, StartAndStopLinesWorkAndALostStartIsTold) {
 TEST(Rtc5Card, ASnapshotBringsTheSameFutureAndRunsDoNotAllocate) {
     sim::Kernel kernel;
     Card card(kernel, "scan", small);
-    Listener listener(kernel, {"scan.x", "scan.laser"});
+    Listener listener(kernel, {"scan.xout", "scan.laser_on"});
     kernel.start();
     listener.want(kernel);
     ASSERT_TRUE(card.engine().simulate_encoder(1));

@@ -1,0 +1,25 @@
+// The map against its page.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <motionrack/base/describe.hpp>
+#include <motionrack/cards/rtc5/map.hpp>
+#include <sstream>
+
+namespace motionrack::rtc5 {
+namespace {
+
+TEST(Rtc5Map, TheReferencePageIsCurrent) {
+    std::ifstream file(std::string(MOTIONRACK_SOURCE_DIR) + "/docs/reference/rtc5.md");
+    std::stringstream stored;
+    stored << file.rdbuf();
+    EXPECT_EQ(stored.str(), describe_markdown(card_map())) << "make it anew: motionrack describe rtc5 --markdown > docs/reference/rtc5.md";
+}
+
+TEST(Rtc5Map, CommandsTellTheirParameters) {
+    EXPECT_EQ(command_named(map::commands, "mark_abs").meaning, "(X, Y): straight, laser on, at the mark speed");
+    EXPECT_EQ(command_named(map::commands, "list_nop").meaning, "one tick");
+}
+
+}  // namespace
+}  // namespace motionrack::rtc5

@@ -1,0 +1,125 @@
+// The RTC5 in a rack: no bus, no axes; its lines are wires, and programs give it commands.
+#include <algorithm>
+#include <motionrack/cards/rtc5/map.hpp>
+#include <motionrack/rack/catalogue.hpp>
+#include <motionrack/rack/rtc5_card.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+using rtc5::Engine;
+
+/// Lists as at power-up, or the two halves of a small memory.
+rtc5::Settings settings_of(const Rtc5Settings& s) {
+    rtc5::Settings out;
+    out.list_memory = s.list_memory;
+    out.list1 = out.list2 = std::min(out.list1, s.list_memory / 2);
+    return out;
+}
+
+/// What can be inspected, beside the status words.
+struct Value {
+    std::string_view name;
+    std::int64_t (*get)(const Engine& engine);
+};
+constexpr Value values[] = {
+    {"STATUS", [](const Engine& e) { return std::int64_t{e.status()}; }},
+    {"MARKING_INFO", [](const Engine& e) { return e.state().marking_info; }},
+    {"STARTSTOP_INFO", [](const Engine& e) { return e.state().startstop_info; }},
+    {"XOUT", [](const Engine& e) { return std::int64_t{e.output().a[0]}; }},
+    {"YOUT", [](const Engine& e) { return std::int64_t{e.output().a[1]}; }},
+    {"XOUT_B", [](const Engine& e) { return std::int64_t{e.output().b[0]}; }},
+    {"YOUT_B", [](const Engine& e) { return std::int64_t{e.output().b[1]}; }},
+    {"LIST_POSITION", [](const Engine& e) { return e.list_position(); }},
+    {"INPUT_POSITION", [](const Engine& e) { return e.input_pointer(); }},
+    {"ENCODER0", [](const Engine& e) { return std::int64_t{e.encoder(0)}; }},
+    {"ENCODER1", [](const Engine& e) { return std::int64_t{e.encoder(1)}; }},
+    {"MCBSP0", [](const Engine& e) { return std::int64_t{e.read_mcbsp(0)}; }},
+    {"MCBSP1", [](const Engine& e) { return std::int64_t{e.read_mcbsp(1)}; }},
+    {"MCBSP2", [](const Engine& e) { return std::int64_t{e.read_mcbsp(2)}; }},
+    {"MCBSP3", [](const Engine& e) { return std::int64_t{e.read_mcbsp(3)}; }},
+    {"STARTS_WAITING", [](const Engine& e) { return e.state().starts.waiting; }},
+    {"IO", [](const Engine& e) { return e.state().io; }},
+    {"TICK", [](const Engine& e) { return e.tick(); }},
+};
+
+struct Number {
+    std::string_view name;
+    double (*get)(const Engine& engine);
+};
+constexpr Number numbers[] = {
+    {"jump_speed_bits_ms", [](const Engine& e) { return e.state().jump_speed; }},
+    {"mark_speed_bits_ms", [](const Engine& e) { return e.state().mark_speed; }},
+    {"corrected_x_bits", [](const Engine& e) { return e.output().corrected.x; }},
+    {"corrected_y_bits", [](const Engine& e) { return e.output().corrected.y; }},
+    {"encoder_speed_counts_ms", [](const Engine& e) { return e.encoder_speed(); }},
+};
+
+/// Time as a program beside the card has it; the end of a list stands for an interrupt.
+class Host final : public sim::VirtualHost {
+  public:
+    Host(sim::Kernel& kernel, const rtc5::Card& card, sim::InputLog& log)
+        : VirtualHost(kernel, card.id(), card.busy_wire(), 0, Duration{0}, &log) {}
+};
+
+class Rtc5Card final : public Card {
+  public:
+    Rtc5Card(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log)
+        : name_(config.name),
+          card_(kernel, config.name, settings_of(config.rtc5)),
+          host_(kernel, card_, log) {}
+
+    rtc5::Card& card() { return card_; }
+
+    const std::string& name() const override { return name_; }
+    sim::DeviceId device() const override { return card_.id(); }
+    const CardMap& map() const override { return rtc5::card_map(); }
+    std::span<const int> bus_widths() const override { return {}; }
+    std::uint32_t bus_read(int, std::uint32_t) override { return 0; }
+    void bus_write(int, std::uint32_t, std::uint32_t) override {}
+
+    Result<std::int64_t> inspect(std::string_view name) const override {
+        std::vector<std::string_view> more;
+        for (const auto& [known, get] : values) {
+            if (known == name) return get(card_.engine());
+            if (more.empty() && known != "XOUT") continue;  // the map has the status words
+            more.push_back(known);
+        }
+        return no_such_value(*this, name, more);
+    }
+    std::vector<CardCounter> counters() const override { return {{"encoder0", 0, true}, {"encoder1", 1, true}}; }
+    std::int64_t counter(const CardCounter& which) override { return card_.caught_up().encoder(which.channel); }
+    std::optional<double> quantity(std::string_view name) const override {
+        for (const Number& number : numbers)
+            if (number.name == name) return number.get(card_.engine());
+        return std::nullopt;
+    }
+    std::vector<std::string_view> quantity_names() const override {
+        std::vector<std::string_view> out;
+        for (const Number& number : numbers) out.push_back(number.name);
+        return out;
+    }
+    void copy_from(const Card& other) override { card_.copy_tables(dynamic_cast<const Rtc5Card&>(other).card_); }
+
+    sim::VirtualHost& host() override { return host_; }
+    std::string describe(const sim::Condition& condition) const override { return rtc5::describe(condition, name_); }
+
+  private:
+    std::string name_;
+    rtc5::Card card_;
+    Host host_;
+};
+
+}  // namespace
+
+std::unique_ptr<Card> make_rtc5(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log, std::span<const std::unique_ptr<Card>>) {
+    return std::make_unique<Rtc5Card>(kernel, config, log);
+}
+
+rtc5::Card* rtc5_card_of(Rack& rack, std::string_view name) {
+    auto* card = dynamic_cast<Rtc5Card*>(rack.card(name));
+    return card ? &card->card() : nullptr;
+}
+
+}  // namespace motionrack::rack
