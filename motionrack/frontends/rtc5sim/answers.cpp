@@ -89,8 +89,7 @@ void ask_two(std::string_view who, UINT number, Number* a, Number* b, Call call)
 
 }  // namespace
 
-// ---- Cards
-// -------------------------------------------------------------------------------------------------------------
+// ---- Cards ----
 
 UINT init_rtc5_dll() {
     return with_bench(__func__, UINT{RTC5_PARAM_ERROR}, [](Bench& bench) -> Result<UINT> {
@@ -114,8 +113,7 @@ void free_rtc5_dll() {
     });
 }
 
-// ---- Files and tables
-// --------------------------------------------------------------------------------------------------
+// ---- Files and tables ----
 
 UINT n_load_program_file(UINT CardNo, const char*) {
     return with_card(__func__, CardNo, UINT{no_such_card}, [](Card& card) -> Result<UINT> {
@@ -151,8 +149,7 @@ double n_get_head_para(UINT CardNo, UINT HeadNo, UINT ParaNo) {
     });
 }
 
-// ---- Lists and settings
-// ------------------------------------------------------------------------------------------------
+// ---- Lists and settings ----
 
 void n_get_status(UINT CardNo, UINT* Status, UINT* Pos) {
     ask_two(__func__, CardNo, Status, Pos, [&](Card& card) {
@@ -172,8 +169,7 @@ void n_set_delay_mode(UINT CardNo, UINT VarPoly, UINT, UINT EdgeLevel, UINT MinJ
     });
 }
 
-// ---- Encoders, starts, McBSP
-// -------------------------------------------------------------------------------------------
+// ---- Encoders, starts, McBSP ----
 
 void n_get_encoder(UINT CardNo, long* Encoder0, long* Encoder1) {
     ask_two(__func__, CardNo, Encoder0, Encoder1, [&](Card& card) {
@@ -230,50 +226,4 @@ long n_read_multi_mcbsp(UINT CardNo, UINT No) {
         MOTIONRACK_CHECK(check_range("No", No, 0, 7));
         return card.engine.read_multi_mcbsp(small(No));
     });
-}
-
-// ---- The same on the selected card
-// -------------------------------------------------------------------------------------
-
-UINT load_program_file(const char* Path) {
-    return n_load_program_file(selected(), Path);
-}
-UINT load_correction_file(const char* Name, UINT No, UINT Dim) {
-    return n_load_correction_file(selected(), Name, No, Dim);
-}
-double get_table_para(UINT TableNo, UINT ParaNo) {
-    return n_get_table_para(selected(), TableNo, ParaNo);
-}
-double get_head_para(UINT HeadNo, UINT ParaNo) {
-    return n_get_head_para(selected(), HeadNo, ParaNo);
-}
-long load_fly_2d_table(const char* Name, UINT No) {
-    return n_load_fly_2d_table(selected(), Name, No);
-}
-void get_status(UINT* Status, UINT* Pos) {
-    n_get_status(selected(), Status, Pos);
-}
-void set_delay_mode(UINT VarPoly, UINT DirectMove3D, UINT EdgeLevel, UINT MinJumpDelay, UINT JumpLengthLimit) {
-    n_set_delay_mode(selected(), VarPoly, DirectMove3D, EdgeLevel, MinJumpDelay, JumpLengthLimit);
-}
-void get_encoder(long* Encoder0, long* Encoder1) {
-    n_get_encoder(selected(), Encoder0, Encoder1);
-}
-void read_encoder(long* Encoder0_1, long* Encoder1_1, long* Encoder0_2, long* Encoder1_2) {
-    n_read_encoder(selected(), Encoder0_1, Encoder1_1, Encoder0_2, Encoder1_2);
-}
-void set_fly_tracking_error(UINT TrackingErrorX, UINT TrackingErrorY) {
-    n_set_fly_tracking_error(selected(), TrackingErrorX, TrackingErrorY);
-}
-void get_fly_2d_offset(long* OffsetX, long* OffsetY) {
-    n_get_fly_2d_offset(selected(), OffsetX, OffsetY);
-}
-void set_extstart_pos(UINT Pos) {
-    n_set_extstart_pos(selected(), Pos);
-}
-long read_mcbsp(UINT No) {
-    return n_read_mcbsp(selected(), No);
-}
-long read_multi_mcbsp(UINT No) {
-    return n_read_multi_mcbsp(selected(), No);
 }

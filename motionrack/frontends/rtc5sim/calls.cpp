@@ -64,8 +64,7 @@ Shared& shared() {
     return one;
 }
 
-// ---- the belt
-// -----------------------------------------------------------------------------------------------------------
+// ---- the belt ----
 
 std::int64_t Belt::count(std::size_t encoder, std::int64_t tick) const {
     const Line& line = lines_[encoder];
@@ -79,8 +78,7 @@ void Belt::counts(int encoder, std::int64_t first, std::span<std::int32_t> out) 
             static_cast<std::uint32_t>(count(static_cast<std::size_t>(encoder), first + static_cast<std::int64_t>(i))));
 }
 
-// ---- the bench
-// ----------------------------------------------------------------------------------------------------------
+// ---- the bench ----
 
 Result<void> Bench::open() {
     if (!cards_.empty()) return {};
@@ -152,8 +150,7 @@ Result<bool> Bench::run_to_rest(std::int64_t ticks) {
     return true;
 }
 
-// ---- errors
-// -------------------------------------------------------------------------------------------------------------
+// ---- errors ----
 
 void failed(std::string_view who, std::string_view sentence) noexcept {
     try {

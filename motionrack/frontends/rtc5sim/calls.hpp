@@ -6,12 +6,14 @@
 
 #include <array>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <motionrack/cards/rtc5/model/engine.hpp>
 #include <mutex>
 #include <new>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace motionrack::rtc5sim {
@@ -135,6 +137,19 @@ void command(std::string_view who, UINT number, Call call) noexcept {
     with_card(who, number, false, [&](Card& card) -> Result<bool> {
         MOTIONRACK_CHECK(call(card));
         return true;
+    });
+}
+
+/// A command that is one call of the card's engine.
+template <class Member, class... Parameters>
+void call(std::string_view who, UINT number, Member member, Parameters... parameters) noexcept {
+    command(who, number, [&](Card& card) -> Result<void> {
+        if constexpr (std::is_void_v<std::invoke_result_t<Member, rtc5::Engine&, Parameters...>>) {
+            std::invoke(member, card.engine, parameters...);
+            return {};
+        } else {
+            return std::invoke(member, card.engine, parameters...);
+        }
     });
 }
 

@@ -48,8 +48,7 @@ void move(Card& card, std::size_t encoder, std::int64_t count, double counts_per
 
 }  // namespace
 
-// ---- time
-// -------------------------------------------------------------------------------------------------------------
+// ---- time ----
 
 int rtc5sim_question_us(int64_t us) {
     return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
@@ -81,8 +80,7 @@ int64_t rtc5sim_now_us(void) {
     });
 }
 
-// ---- what comes to a card
-// -----------------------------------------------------------------------------------------------
+// ---- what comes to a card ----
 
 int rtc5sim_encoder_speed(UINT CardNo, UINT Encoder, double counts_per_s) {
     return done(__func__, CardNo, [&](Card& card) -> Result<void> {
@@ -125,8 +123,7 @@ int rtc5sim_stop(UINT CardNo) {
     });
 }
 
-// ---- what it does
-// ---------------------------------------------------------------------------------------------------------
+// ---- what it does ----
 
 int rtc5sim_output(UINT CardNo, int32_t* x, int32_t* y, int* laser) {
     return done(__func__, CardNo, [&](Card& card) -> Result<void> {

@@ -63,11 +63,15 @@ enum rtc5_error {
 /* ---- Cards ---- */
 
 /* A program may begin with init_rtc5_dll, which gives 0. Card numbers are 1 .. rtc5_count_cards(); select_rtc gives
- * the number, 0 if there is no such card. Error bits: enum rtc5_error; those of get_error stay until reset_error. */
+ * the number, 0 if there is no such card. These four are of the process: they have no n_.. */
 RTC5_API UINT init_rtc5_dll(void);
 RTC5_API UINT rtc5_count_cards(void);
 RTC5_API UINT select_rtc(UINT CardNo);
 RTC5_API void free_rtc5_dll(void);
+
+/* ---- Errors ---- */
+
+/* Error bits: enum rtc5_error; those of get_error stay until reset_error. */
 RTC5_API UINT get_error(void);
 RTC5_API UINT get_last_error(void);
 RTC5_API void reset_error(UINT Code);
