@@ -19,6 +19,8 @@ Result<double> checked(const ListCommandInfo& command, const ParamInfo& param, d
     const std::string_view blank = kind.unit.empty() ? "" : " ";
     if ((value < kind.least || value > kind.greatest) && !kind.clipped)
         return refuse(fmt::format("is {}, outside {} to {}{}{}", value, kind.least, kind.greatest, blank, kind.unit));
+    if (param.kind == Kind::signal && signal_info(static_cast<std::int64_t>(value)) == nullptr)
+        return refuse(fmt::format("is {}, and the card has no signal of that number", value));
     if (kind.whole && value != std::floor(value)) return refuse(fmt::format("is {}, but must be whole", value));
     return std::clamp(value, kind.least, kind.greatest);
 }
@@ -50,6 +52,8 @@ Result<void> command_ranges(const ListCommandInfo& info, const Command& c) {
         case Op::set_mcbsp_in_list:
             if (c.p[0] < 0 || c.p[0] > 3) return refuse("Mode", c.p[0], "0 to 3");
             return {};
+        case Op::apply_mcbsp_list:
+            return up_to(0, 3);
         case Op::set_laser_delays:
             if (c.p[1] < 0) return refuse("LaserOffDelay", c.p[1], "0 to 65535");
             return {};
@@ -81,7 +85,7 @@ Result<Command> list_command(Op op, std::span<const double> parameters) {
     std::size_t next = 0;
     for (std::size_t i = 0; i < wanted; ++i) {
         MOTIONRACK_TRY(const double value, checked(command, command.params[i], parameters[i]));
-        if (command.params[i].kind == Kind::head)
+        if (command.params[i].kind == Kind::head || next == out.p.size())
             out.head = static_cast<std::int32_t>(value);
         else
             out.p[next++] = value;

@@ -92,7 +92,7 @@ void ask_two(std::string_view who, UINT number, Number* a, Number* b, Call call)
 // ---- Cards ----
 
 UINT init_rtc5_dll() {
-    return with_bench(__func__, UINT{RTC5_PARAM_ERROR}, [](Bench& bench) -> Result<UINT> {
+    return with_bench(__func__, UINT{RTC5_NO_CARD}, [](Bench& bench) -> Result<UINT> {
         MOTIONRACK_CHECK(bench.count());
         return 0u;
     });
@@ -206,10 +206,10 @@ void n_set_fly_tracking_error(UINT CardNo, UINT TrackingErrorX, UINT TrackingErr
     });
 }
 
-void n_set_extstart_pos(UINT CardNo, UINT Pos) {
+void n_set_extstartpos(UINT CardNo, UINT Pos) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {
         MOTIONRACK_CHECK(check_range("Pos", Pos, 0, static_cast<UINT>(card.engine.settings().list_memory - 1)));
-        card.engine.set_extstart_pos(Pos);
+        card.engine.set_extstartpos(Pos);
         return {};
     });
 }
@@ -225,5 +225,62 @@ long n_read_multi_mcbsp(UINT CardNo, UINT No) {
     return question(__func__, CardNo, 0L, [&](Card& card) -> Result<long> {
         MOTIONRACK_CHECK(check_range("No", No, 0, 7));
         return card.engine.read_multi_mcbsp(small(No));
+    });
+}
+
+void n_mcbsp_init(UINT CardNo, UINT XDelay, UINT RDelay) {
+    command(__func__, CardNo, [&](Card&) -> Result<void> {
+        MOTIONRACK_CHECK(check_range("XDelay", XDelay, 0, 2));
+        return check_range("RDelay", RDelay, 0, 2);
+    });
+}
+
+void n_mcbsp_init_spi(UINT CardNo, UINT ClockLevel, UINT ClockDelay) {
+    command(__func__, CardNo, [&](Card&) -> Result<void> {
+        MOTIONRACK_CHECK(check_range("ClockLevel", ClockLevel, 0, 1));
+        return check_range("ClockDelay", ClockDelay, 0, 1);
+    });
+}
+
+UINT n_set_mcbsp_freq(UINT CardNo, UINT Freq) {
+    return with_card(__func__, CardNo, UINT{}, [&](Card&) -> Result<UINT> {
+        MOTIONRACK_CHECK(check_range("Freq", Freq, 1, 50'000'000));
+        return Freq;
+    });
+}
+
+void n_set_mcbsp_out(UINT CardNo, UINT Signal1, UINT Signal2) {
+    call(__func__, CardNo, &rtc5::Engine::set_mcbsp_out, std::array<std::uint32_t, 2>{Signal1, Signal2});
+}
+
+void n_set_mcbsp_out_ptr(UINT CardNo, UINT Number, ULONG_PTR SignalPtr) {
+    command(__func__, CardNo, [&](Card& card) -> Result<void> {
+        MOTIONRACK_CHECK(check_range("Number", Number, 0, rtc5::sent_signals));
+        const auto* const signals = reinterpret_cast<const std::uint32_t*>(SignalPtr);
+        if (Number > 0) MOTIONRACK_CHECK(check_pointer(signals, "SignalPtr"));
+        return card.engine.set_mcbsp_out({signals, Number});
+    });
+}
+
+// ---- Recording ----
+
+void n_measurement_status(UINT CardNo, UINT* Busy, UINT* Pos) {
+    ask_two(__func__, CardNo, Busy, Pos, [&](Card& card) {
+        const rtc5::Recording& r = card.engine.recording();
+        *Busy = r.period != 0;
+        *Pos = static_cast<UINT>(r.count) - 1;  // 2^32 - 1: nothing was recorded
+    });
+}
+
+void n_get_waveform(UINT CardNo, UINT Channel, UINT Number, ULONG_PTR Ptr) {
+    command(__func__, CardNo, [&](Card& card) -> Result<void> {
+        const rtc5::Recording& r = card.engine.recording();
+        if (r.count == 0) return fail(Trouble::refused, "nothing was recorded (set_trigger); nothing was given");
+        MOTIONRACK_CHECK(check_range("Channel", Channel, 1, static_cast<UINT>(r.channels)));
+        MOTIONRACK_CHECK(check_range("Number", Number, 1, static_cast<UINT>(r.count)));
+        auto* const to = reinterpret_cast<std::int32_t*>(Ptr);
+        MOTIONRACK_CHECK(check_pointer(to, "Ptr"));
+        for (UINT i = 0; i < Number; ++i) to[i] = card.engine.recorded(Channel - 1, i);
+        return {};
     });
 }

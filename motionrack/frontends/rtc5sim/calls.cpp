@@ -173,13 +173,12 @@ UINT error_bits(Trouble trouble) {
     switch (trouble) {
         case Trouble::bad_input:
         case Trouble::refused:
+        case Trouble::io:
             return RTC5_PARAM_ERROR;
         case Trouble::machine:
             return RTC5_BUSY;
         case Trouble::stopped:
             return RTC5_REJECTED;
-        case Trouble::io:
-            return RTC5_ACCESS_DENIED;
     }
     return RTC5_REJECTED;
 }

@@ -15,8 +15,8 @@ bool busy(const Card& card) {
 Trouble busy_or_wrong(const Card& card) {
     return busy(card) ? Trouble::machine : Trouble::refused;
 }
-Result<void> execute(Card& card, UINT list) {
-    return as(busy_or_wrong(card), card.engine.execute_list(small(list)));
+void execute(const char* who, UINT number, UINT list, UINT position = 0) {
+    command(who, number, [&](Card& card) { return as(busy_or_wrong(card), card.engine.execute_list(list, position)); });
 }
 
 }  // namespace
@@ -24,13 +24,13 @@ Result<void> execute(Card& card, UINT list) {
 // ---- Cards ----
 
 UINT n_get_error(UINT CardNo) {
-    return with_bench(__func__, UINT{RTC5_NO_CARD}, [&](Bench& bench) -> Result<UINT> {
+    return with_bench(__func__, UINT{RTC5_ACCESS_DENIED}, [&](Bench& bench) -> Result<UINT> {
         MOTIONRACK_TRY(Card * card, bench.card(CardNo));
         return card->errors;
     });
 }
 UINT n_get_last_error(UINT CardNo) {
-    return with_bench(__func__, UINT{RTC5_NO_CARD}, [&](Bench& bench) -> Result<UINT> {
+    return with_bench(__func__, UINT{RTC5_ACCESS_DENIED}, [&](Bench& bench) -> Result<UINT> {
         MOTIONRACK_TRY(Card * card, bench.card(CardNo));
         return card->last_error;
     });
@@ -52,16 +52,24 @@ void n_select_cor_table(UINT CardNo, UINT HeadA, UINT HeadB) {
 // ---- Running lists ----
 
 void n_config_list(UINT CardNo, UINT Mem1, UINT Mem2) {
-    call(__func__, CardNo, &rtc5::Engine::config_list, Mem1, Mem2);
+    // -1 stands for the rest.
+    call(__func__, CardNo, &rtc5::Engine::config_list, Mem1, Mem2 == 0xFFFFFFFF ? -1 : std::int64_t{Mem2});
 }
 void n_set_start_list(UINT CardNo, UINT ListNo) {
-    call(__func__, CardNo, &rtc5::Engine::set_start_list, small(ListNo));
+    call(__func__, CardNo, &rtc5::Engine::set_start_list, ListNo, 0);
+}
+void n_set_start_list_pos(UINT CardNo, UINT ListNo, UINT Pos) {
+    call(__func__, CardNo, &rtc5::Engine::set_start_list, ListNo, Pos);
 }
 void n_set_start_list_1(UINT CardNo) {
-    call(__func__, CardNo, &rtc5::Engine::set_start_list, 1);
+    call(__func__, CardNo, &rtc5::Engine::set_start_list, 1, 0);
 }
 void n_set_start_list_2(UINT CardNo) {
-    call(__func__, CardNo, &rtc5::Engine::set_start_list, 2);
+    call(__func__, CardNo, &rtc5::Engine::set_start_list, 2, 0);
+}
+UINT n_load_list(UINT CardNo, UINT ListNo, UINT Pos) {
+    return question(__func__, CardNo, UINT{},
+                    [&](Card& card) -> Result<UINT> { return card.engine.load_list(ListNo, Pos); });
 }
 UINT n_get_input_pointer(UINT CardNo) {
     return with_card(__func__, CardNo, UINT{},
@@ -73,13 +81,16 @@ UINT n_get_list_space(UINT CardNo) {
     });
 }
 void n_execute_list(UINT CardNo, UINT ListNo) {
-    command(__func__, CardNo, [&](Card& card) -> Result<void> { return execute(card, ListNo); });
+    execute(__func__, CardNo, ListNo);
 }
 void n_execute_list_1(UINT CardNo) {
-    command(__func__, CardNo, [&](Card& card) -> Result<void> { return execute(card, 1); });
+    execute(__func__, CardNo, 1);
 }
 void n_execute_list_2(UINT CardNo) {
-    command(__func__, CardNo, [&](Card& card) -> Result<void> { return execute(card, 2); });
+    execute(__func__, CardNo, 2);
+}
+void n_execute_list_pos(UINT CardNo, UINT ListNo, UINT Pos) {
+    execute(__func__, CardNo, ListNo, Pos);
 }
 void n_execute_at_pointer(UINT CardNo, UINT Pos) {
     command(__func__, CardNo,
@@ -102,6 +113,9 @@ void n_restart_list(UINT CardNo) {
 }
 void n_stop_execution(UINT CardNo) {
     call(__func__, CardNo, &rtc5::Engine::stop_execution);
+}
+UINT n_read_status(UINT CardNo) {
+    return question(__func__, CardNo, UINT{}, [](Card& card) -> Result<UINT> { return card.engine.list_status(); });
 }
 void n_goto_xy(UINT CardNo, long X, long Y) {
     command(__func__, CardNo, [&](Card& card) -> Result<void> {

@@ -7,15 +7,9 @@ namespace rtc5 = motionrack::rtc5;
 
 namespace {
 
-/// What online positioning does at present.
-struct Online {
-    double x = 0, y = 0, turn = 0;
-};
-Online online(const Card& card) {
-    const rtc5::McBsp& m = card.engine.state().mcbsp;
-    if (m.online_matrix) return {};
-    return {m.online_x ? m.online_scale_x : 0, m.online_y ? m.online_scale_y : 0,
-            m.online_rot ? m.online_resolution : 0};
+/// What is taken and changes nothing.
+void taken(const char* who, UINT number) {
+    command(who, number, [](Card&) -> Result<void> { return {}; });
 }
 
 }  // namespace
@@ -62,6 +56,10 @@ UINT n_get_startstop_info(UINT CardNo) {
 
 // ---- McBSP ----
 
+long n_get_mcbsp(UINT CardNo) {
+    return question(__func__, CardNo, 0L, [](Card& card) -> Result<long> { return card.engine.get_mcbsp(); });
+}
+
 void n_set_mcbsp_in(UINT CardNo, UINT Mode, double Scale) {
     call(__func__, CardNo, &rtc5::Engine::set_mcbsp_in, small(Mode), Scale);
 }
@@ -69,22 +67,13 @@ void n_set_multi_mcbsp_in(UINT CardNo, UINT Ctrl, UINT P, UINT Mode) {
     call(__func__, CardNo, &rtc5::Engine::set_multi_mcbsp_in, small(Ctrl), P, small(Mode));
 }
 void n_set_mcbsp_x(UINT CardNo, double ScaleX) {
-    command(__func__, CardNo, [&](Card& card) -> Result<void> {
-        const Online o = online(card);
-        return card.engine.set_mcbsp_online(ScaleX, o.y, o.turn);
-    });
+    call(__func__, CardNo, &rtc5::Engine::set_mcbsp_x, ScaleX);
 }
 void n_set_mcbsp_y(UINT CardNo, double ScaleY) {
-    command(__func__, CardNo, [&](Card& card) -> Result<void> {
-        const Online o = online(card);
-        return card.engine.set_mcbsp_online(o.x, ScaleY, o.turn);
-    });
+    call(__func__, CardNo, &rtc5::Engine::set_mcbsp_y, ScaleY);
 }
 void n_set_mcbsp_rot(UINT CardNo, double Resolution) {
-    command(__func__, CardNo, [&](Card& card) -> Result<void> {
-        const Online o = online(card);
-        return card.engine.set_mcbsp_online(o.x, o.y, Resolution);
-    });
+    call(__func__, CardNo, &rtc5::Engine::set_mcbsp_rot, Resolution);
 }
 void n_set_mcbsp_matrix(UINT CardNo) {
     call(__func__, CardNo, &rtc5::Engine::set_mcbsp_matrix);
@@ -93,32 +82,51 @@ void n_apply_mcbsp(UINT CardNo, UINT HeadNo, UINT at_once) {
     call(__func__, CardNo, &rtc5::Engine::apply_mcbsp, small(HeadNo), small(at_once));
 }
 
+// ---- Signals and recording ----
+
+long n_get_value(UINT CardNo, UINT Signal) {
+    return question(__func__, CardNo, 0L, [&](Card& card) -> Result<long> { return card.engine.get_value(Signal); });
+}
+void n_stop_trigger(UINT CardNo) {
+    call(__func__, CardNo, &rtc5::Engine::stop_trigger);
+}
+
 // ---- Laser signals ----
 
+void n_enable_laser(UINT CardNo) {
+    call(__func__, CardNo, &rtc5::Engine::enable_laser);
+}
+void n_disable_laser(UINT CardNo) {
+    call(__func__, CardNo, &rtc5::Engine::disable_laser);
+}
+void n_set_laser_timing(UINT CardNo, UINT, UINT, UINT, UINT) {
+    taken(__func__, CardNo);
+}
+
 void n_set_laser_mode(UINT CardNo, UINT) {
-    command(__func__, CardNo, [](Card&) -> Result<void> { return {}; });
+    taken(__func__, CardNo);
 }
 void n_set_laser_control(UINT CardNo, UINT) {
-    command(__func__, CardNo, [](Card&) -> Result<void> { return {}; });
+    taken(__func__, CardNo);
 }
 void n_set_standby(UINT CardNo, UINT, UINT) {
-    command(__func__, CardNo, [](Card&) -> Result<void> { return {}; });
+    taken(__func__, CardNo);
 }
 void n_set_laser_pulses_ctrl(UINT CardNo, UINT, UINT) {
-    command(__func__, CardNo, [](Card&) -> Result<void> { return {}; });
+    taken(__func__, CardNo);
 }
 void n_set_firstpulse_killer(UINT CardNo, UINT) {
-    command(__func__, CardNo, [](Card&) -> Result<void> { return {}; });
+    taken(__func__, CardNo);
 }
 void n_set_qswitch_delay(UINT CardNo, UINT) {
-    command(__func__, CardNo, [](Card&) -> Result<void> { return {}; });
+    taken(__func__, CardNo);
 }
 void n_set_laser_pulses(UINT CardNo, UINT, UINT) {
-    command(__func__, CardNo, [](Card&) -> Result<void> { return {}; });
+    taken(__func__, CardNo);
 }
 void n_set_firstpulse_killer_list(UINT CardNo, UINT) {
-    command(__func__, CardNo, [](Card&) -> Result<void> { return {}; });
+    taken(__func__, CardNo);
 }
 void n_set_qswitch_delay_list(UINT CardNo, UINT) {
-    command(__func__, CardNo, [](Card&) -> Result<void> { return {}; });
+    taken(__func__, CardNo);
 }

@@ -134,6 +134,14 @@ int rtc5sim_output(UINT CardNo, int32_t* x, int32_t* y, int* laser) {
     });
 }
 
+int rtc5sim_sent(UINT CardNo, int32_t* word) {
+    return done(__func__, CardNo, [&](Card& card) -> Result<void> {
+        MOTIONRACK_CHECK(check_pointer(word, "The place for the word"));
+        *word = card.engine.mcbsp_sent();
+        return {};
+    });
+}
+
 void rtc5sim_on_samples(rtc5sim_samples_handler handler, void* user) {
     with_bench(__func__, false, [&](Bench& bench) -> Result<bool> {
         bench.samples = handler;

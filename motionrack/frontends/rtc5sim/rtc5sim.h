@@ -20,8 +20,9 @@
  * Cards. There is one, or as many as the environment variable RTC5SIM_CARDS says, 1 .. 16. Each function exists twice:
  * on the selected card, at first card 1, and, in rtc5sim_cards.h, as n_.. with the card's number before its arguments.
  *
- * Time. It is virtual, one for all cards, and passes in questions (get_status, get_encoder, read_encoder, read_mcbsp,
- * read_multi_mcbsp, get_marking_info, get_startstop_info, get_io_status): 10 us each, or what rtc5sim_question_us()
+ * Time. It is virtual, one for all cards, and passes in questions (get_status, read_status, get_encoder, read_encoder,
+ * get_mcbsp, read_mcbsp, read_multi_mcbsp, get_marking_info, get_startstop_info, get_io_status, get_value,
+ * measurement_status, load_list): 10 us each, or what rtc5sim_question_us()
  * says; and in rtc5sim_advance_us() and rtc5sim_run(). Nothing else takes time. A program that sleeps 1 ms between
  * questions should make them 1,000 us.
  *
@@ -50,8 +51,12 @@ extern "C" {
 
 typedef unsigned int UINT;
 
-/* Bits of get_last_error and get_error: there is no such card; a file could not be read; a parameter is wrong; a list
- * is running; the list is full. */
+/* An address as a number, as some commands take it: (ULONG_PTR)values. What is behind it has 32 bits a number, on every
+ * system. */
+typedef uintptr_t ULONG_PTR;
+
+/* Bits of get_last_error and get_error, as the manual has them: init_rtc5_dll found no card; there is no such card; a
+ * parameter is wrong; a list is running, or the card moves; the list is full, or none is open. */
 enum rtc5_error {
     RTC5_NO_CARD = 1,
     RTC5_ACCESS_DENIED = 2,
@@ -71,7 +76,9 @@ RTC5_API void free_rtc5_dll(void);
 
 /* ---- Errors ---- */
 
-/* Error bits: enum rtc5_error; those of get_error stay until reset_error. */
+/* Error bits: enum rtc5_error; those of get_last_error are of the command before, those of get_error stay until
+ * reset_error. Bits of the board that no virtual card has: 4 not sent, 8 no answer, 128 ignored, 256 wrong version.
+ * A list command with a wrong parameter is not put into the list (the board puts a list_nop). */
 RTC5_API UINT get_error(void);
 RTC5_API UINT get_last_error(void);
 RTC5_API void reset_error(UINT Code);
@@ -80,7 +87,8 @@ RTC5_API void reset_error(UINT Code);
 
 /* load_program_file sets the card back to power-up; the name is not looked at. load_correction_file loads a .ct5 file
  * as table No 1 .. 4, a null pointer a 1:1 table; Dim is 2 or 3 (3D parts of a file are not used). 0, or 1 the file is
- * damaged, 3 it cannot be read, 10 a wrong parameter; the table is then as before. ParaNo 0 .. 15 are the words of its
+ * damaged, 3 it cannot be read, 10 a wrong parameter, 11 no such card; the table is then as before. These numbers are
+ * from memory: no page of the manual that has them was at hand. ParaNo 0 .. 15 are the words of its
  * head, 1 is K in bits/mm. load_fly_2d_table: 0, 1 or 3; a null pointer is no table. */
 RTC5_API UINT load_program_file(const char* Path);
 RTC5_API UINT load_correction_file(const char* Name, UINT No, UINT Dim);
@@ -91,17 +99,24 @@ RTC5_API long load_fly_2d_table(const char* Name, UINT No);
 
 /* ---- Running lists ---- */
 
-/* Lists are 1, 2 and, for loading only, 3. What is put goes on from set_start_list. Positions count from 0 over all
- * lists. get_status: bit 0 a list is running, 7 the card moves by itself, 15 paused; Pos is where the list is. */
+/* What is put goes on from set_start_list: list 1 (odd numbers) or 2 (even ones), also while it runs; load_list opens a
+ * list only if it does not run (1, 2; 0: the free one, 3: the free one that ran to its end) and gives its number, or 0:
+ * then no list is open. Pos of these and of execute_list_pos counts from the list's begin, behind its end it is 0; Pos
+ * elsewhere counts from 0 over all lists. Mem2 of config_list may be -1: what is left. get_status: bit 0 a list is
+ * running, 7 the card moves by itself, 15 paused; Pos is where the list is. read_status: bits 0, 1 list 1, 2 is being
+ * loaded; 2, 3 its end was put; 4, 5 it is running; 6, 7 it ran to its end. */
 RTC5_API void config_list(UINT Mem1, UINT Mem2);
 RTC5_API void set_start_list(UINT ListNo);
 RTC5_API void set_start_list_1(void);
 RTC5_API void set_start_list_2(void);
+RTC5_API void set_start_list_pos(UINT ListNo, UINT Pos);
+RTC5_API UINT load_list(UINT ListNo, UINT Pos);
 RTC5_API UINT get_input_pointer(void);
 RTC5_API UINT get_list_space(void);
 RTC5_API void execute_list(UINT ListNo);
 RTC5_API void execute_list_1(void);
 RTC5_API void execute_list_2(void);
+RTC5_API void execute_list_pos(UINT ListNo, UINT Pos);
 RTC5_API void execute_at_pointer(UINT Pos);
 RTC5_API void auto_change(void);
 RTC5_API void start_loop(void);
@@ -110,6 +125,7 @@ RTC5_API void pause_list(void);
 RTC5_API void restart_list(void);
 RTC5_API void stop_execution(void);
 RTC5_API void get_status(UINT* Status, UINT* Pos);
+RTC5_API UINT read_status(void);
 RTC5_API void goto_xy(long X, long Y);
 
 /* ---- Settings ---- */
@@ -132,7 +148,8 @@ RTC5_API UINT get_io_status(void);
 
 /* simulate_encoder: 0 off, 1 X, 2 Y, 3 both, 1,000,000 counts/s. Tracking errors in 10 us, 0 .. 65,535. Speed in
  * counts/ms, Smooth 0 .. 1. External starts need set_control_mode bit 0; Delay is the track delay in counts, Pos where
- * the list begins. */
+ * the list begins. get_startstop_info: bit 0 a list was started, 1 from outside; 2 a list was stopped, 3 from outside;
+ * 4 no stop signal, 9 the laser is enabled, 11 a start was lost. */
 RTC5_API void simulate_encoder(UINT EncoderNo);
 RTC5_API void get_encoder(long* Encoder0, long* Encoder1);
 RTC5_API void read_encoder(long* Encoder0_1, long* Encoder1_1, long* Encoder0_2, long* Encoder1_2);
@@ -142,7 +159,7 @@ RTC5_API void init_fly_2d(long OffsetX, long OffsetY);
 RTC5_API void get_fly_2d_offset(long* OffsetX, long* OffsetY);
 RTC5_API void set_encoder_speed_ctrl(UINT EncoderNo, double Speed, double Smooth);
 RTC5_API void set_ext_start_delay(long Delay, UINT EncoderNo);
-RTC5_API void set_extstart_pos(UINT Pos);
+RTC5_API void set_extstartpos(UINT Pos);
 RTC5_API void simulate_ext_start_ctrl(void);
 RTC5_API void simulate_ext_stop(void);
 RTC5_API UINT get_marking_info(void);
@@ -150,9 +167,18 @@ RTC5_API UINT get_startstop_info(void);
 
 /* ---- McBSP ---- */
 
-/* Words of 32 bits come by rtc5sim_receive. read_mcbsp: memory location 0 .. 3; read_multi_mcbsp: type 0 .. 7.
- * set_mcbsp_in: Mode 1 X, 2 Y, 3 both. set_mcbsp_x, _y, _rot and _matrix are online positioning, which apply_mcbsp
- * brings to a head. */
+/* Words of 32 bits come by rtc5sim_receive. get_mcbsp: the present one, put to location 0 too; read_mcbsp: memory
+ * location 0 .. 3; read_multi_mcbsp: type 0 .. 7. set_mcbsp_in: Mode 1 X, 2 Y, 3 both. set_mcbsp_x, _y, _rot and
+ * _matrix are online positioning, which apply_mcbsp brings to a head.
+ *
+ * set_mcbsp_out sends two signals (see "Signals and recording") in turn, one word in 10 us; set_mcbsp_out_ptr up to
+ * 8, whose numbers are at SignalPtr; Number 0 ends it. rtc5sim_sent has the words. The frame on the wire is not
+ * there: mcbsp_init takes delays of 0 .. 2 bits, mcbsp_init_spi 0 or 1, set_mcbsp_freq 1 .. 50,000,000 Hz, which it
+ * gives back; they change nothing. */
+RTC5_API void mcbsp_init(UINT XDelay, UINT RDelay);
+RTC5_API void mcbsp_init_spi(UINT ClockLevel, UINT ClockDelay);
+RTC5_API UINT set_mcbsp_freq(UINT Freq);
+RTC5_API long get_mcbsp(void);
 RTC5_API long read_mcbsp(UINT No);
 RTC5_API long read_multi_mcbsp(UINT No);
 RTC5_API void set_mcbsp_in(UINT Mode, double Scale);
@@ -162,10 +188,37 @@ RTC5_API void set_mcbsp_y(double ScaleY);
 RTC5_API void set_mcbsp_rot(double Resolution);
 RTC5_API void set_mcbsp_matrix(void);
 RTC5_API void apply_mcbsp(UINT HeadNo, UINT at_once);
+RTC5_API void set_mcbsp_out(UINT Signal1, UINT Signal2);
+RTC5_API void set_mcbsp_out_ptr(UINT Number, ULONG_PTR SignalPtr);
+
+/* ---- Signals and recording ---- */
+
+/* set_trigger and set_trigger4 (lists) record; measurement_status: Busy is not 0 while they do, Pos + 1 samples are
+ * there. get_waveform puts the first Number samples of Channel 1 .. 4 to Ptr, an array of int32_t. stop_trigger ends
+ * a recording, its samples stay. get_value: a signal in the last 10 us. Signals:
+ *
+ *     0               1 while the laser is on
+ *     1, 2; 4, 5      X, Y as head A, head B answer: what is put out, without the mirrors' lag
+ *     7, 8, 9         X, Y, Z after the correction
+ *     10, 11; 13, 14  X, Y of head A, head B behind the table
+ *     12, 15          Z as it is put out
+ *     16, 17; 18, 19  as 1, 2; 4, 5 while the laser is on, else -524288
+ *     20, 21; 22, 23  X, Y of head A, head B as they are put out
+ *     25, 26; 28, 29  X, Y of head A, head B behind matrix and offset, before the table
+ *     35              the 16 digital outputs
+ *     43, 44          counts of encoder 0, 1
+ *     45              the mark speed, bits/ms */
+RTC5_API long get_value(UINT Signal);
+RTC5_API void measurement_status(UINT* Busy, UINT* Pos);
+RTC5_API void get_waveform(UINT Channel, UINT Number, ULONG_PTR Ptr);
+RTC5_API void stop_trigger(void);
 
 /* ---- Laser signals ---- */
 
-/* The laser here is a gate, on or off: its mode and pulses are taken and change nothing, in lists nothing is put. */
+/* The laser here is a gate, on or off. disable_laser switches it off, and nothing switches it on until enable_laser;
+ * it is enabled at first. Its mode and pulses are taken and change nothing, in lists nothing is put. */
+RTC5_API void enable_laser(void);
+RTC5_API void disable_laser(void);
 RTC5_API void set_laser_mode(UINT Mode);
 RTC5_API void set_laser_control(UINT Ctrl);
 RTC5_API void set_standby(UINT HalfPeriod, UINT PulseLength);
@@ -173,6 +226,7 @@ RTC5_API void set_laser_pulses_ctrl(UINT HalfPeriod, UINT PulseLength);
 RTC5_API void set_firstpulse_killer(UINT Length);
 RTC5_API void set_qswitch_delay(UINT Delay);
 RTC5_API void set_laser_pulses(UINT HalfPeriod, UINT PulseLength);
+RTC5_API void set_laser_timing(UINT HalfPeriod, UINT PulseLength1, UINT PulseLength2, UINT TimeBase);
 RTC5_API void set_firstpulse_killer_list(UINT Length);
 RTC5_API void set_qswitch_delay_list(UINT Delay);
 
@@ -259,6 +313,19 @@ RTC5_API void simulate_ext_start(long Delay, UINT EncoderNo);
 RTC5_API void set_control_mode_list(UINT Mode);
 RTC5_API void set_encoder_speed(UINT EncoderNo, double Speed, double Smooth);
 
+/* ---- Lists: McBSP and recording ---- */
+
+/* As the commands without _list. Period in 10 us, 0 ends the recording; one sample is taken at once, then one a period
+ * while a list runs, at most 1,048,576 (set_trigger), 524,288 (set_trigger4). */
+RTC5_API void get_mcbsp_list(void);
+RTC5_API void set_mcbsp_x_list(double ScaleX);
+RTC5_API void set_mcbsp_y_list(double ScaleY);
+RTC5_API void set_mcbsp_rot_list(double Resolution);
+RTC5_API void set_mcbsp_matrix_list(void);
+RTC5_API void apply_mcbsp_list(UINT HeadNo, UINT at_once);
+RTC5_API void set_trigger(UINT Period, UINT Signal1, UINT Signal2);
+RTC5_API void set_trigger4(UINT Period, UINT Signal1, UINT Signal2, UINT Signal3, UINT Signal4);
+
 /* ---- Lists: transforms ---- */
 
 /* As set_matrix, set_offset, set_angle and set_scale; Ind1, Ind2 are row and column of the coefficient, 0 or 1. */
@@ -300,6 +367,9 @@ RTC5_API int rtc5sim_stop(UINT CardNo);
 
 /* Where head A of a card is (bits) and whether its laser is on; null pointers are left out. Takes no time. 0, or -1. */
 RTC5_API int rtc5sim_output(UINT CardNo, int32_t *x, int32_t *y, int *laser);
+
+/* The McBSP word that a card sent in the last 10 us, 0 while it sends nothing. Takes no time. 0, or -1. */
+RTC5_API int rtc5sim_sent(UINT CardNo, int32_t *word);
 
 /* Called while cards run, with what head A does in consecutive ticks of 10 us: x and y in bits, and for how many half-
  * microseconds of it, 0 .. 20, the laser is on. The arrays hold until it returns; it must not call functions of this

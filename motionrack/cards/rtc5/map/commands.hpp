@@ -19,20 +19,23 @@ enum class Op : std::uint32_t {
     wait_for_encoder_mode, wait_for_encoder_in_range, wait_for_mcbsp, set_fly_limits, set_fly_limits_z, if_fly_x_overflow,
     if_fly_y_overflow, if_fly_z_overflow, if_not_fly_x_overflow, if_not_fly_y_overflow, if_not_fly_z_overflow, clear_fly_overflow,
     park_position, park_return, set_ext_start_delay_list, simulate_ext_start, set_control_mode_list, set_encoder_speed,
-    set_mcbsp_in_list, set_multi_mcbsp_in_list, set_matrix_list, set_offset_list, set_angle_list, set_scale_list, count
+    set_mcbsp_in_list, set_multi_mcbsp_in_list, get_mcbsp_list, set_mcbsp_x_list, set_mcbsp_y_list, set_mcbsp_rot_list,
+    set_mcbsp_matrix_list, apply_mcbsp_list, set_matrix_list, set_offset_list, set_angle_list, set_scale_list, set_trigger, set_trigger4,
+    count
 };
 inline constexpr std::size_t op_count = static_cast<std::size_t>(Op::count);
 
 /// How long a command takes. A command of the pipeline changes what comes behind the position or asks it.
 enum class Timing : std::uint8_t {
     shortly,   ///< no tick of its own, and the path goes on through it
+    across,    ///< the same, but it looks at what comes behind the position, or changes it
     pipeline,  ///< no tick of its own; a polyline ends before it
     normal,    ///< a tick or more; a command of the pipeline
     motion     ///< a tick or more; moves the position or holds it
 };
 
 /// What a parameter is; it decides the range.
-enum class Kind : std::uint8_t { coordinate, centre, number, count, ticks, half_us, switching, micros, speed, angle, scale, factor, head, index, port };
+enum class Kind : std::uint8_t { coordinate, centre, number, count, ticks, half_us, switching, micros, speed, angle, scale, factor, head, index, port, signal };
 
 struct ParamInfo {
     std::string_view name;
@@ -55,7 +58,8 @@ struct ListCommandInfo {
     }
 };
 
-/// One command in the list memory. HeadNo is in `head`; the other parameters are in `p` in their order (whole numbers too: they fit).
+/// One command in the list memory. HeadNo is in `head`; the other parameters are in `p` in their order (whole numbers too: they fit),
+/// a fifth one is in `head`.
 struct Command {
     Op op = Op::none;
     std::int32_t head = 0;
@@ -88,6 +92,7 @@ constexpr KindInfo kind_info(Kind kind) {
         case Kind::head: return {1, 4, false, true, ""};
         case Kind::index: return {0, 255, false, true, ""};
         case Kind::port: return {0, 65535, false, true, ""};
+        case Kind::signal: return {0, 255, false, true, ""};
     }
     return {};
 }
@@ -188,6 +193,13 @@ inline constexpr ListCommandInfo list_commands[op_count] = {
      "X (1), Y (2) or both (3) move with the McBSP word; 0 is off"},
     {"set_multi_mcbsp_in_list", Op::set_multi_mcbsp_in_list, Timing::pipeline, 1,
      {{{"Ctrl", Kind::index}, {"P", Kind::ticks}, pmode}}, "McBSP words carry their type: x, y, z, laser power and parameters"},
+    {"get_mcbsp_list", Op::get_mcbsp_list, Timing::pipeline, 1, {}, "puts the present McBSP word to memory location 0"},
+    {"set_mcbsp_x_list", Op::set_mcbsp_x_list, Timing::pipeline, 1, {{pscale_x}}, "online positioning of X; 0 is off"},
+    {"set_mcbsp_y_list", Op::set_mcbsp_y_list, Timing::pipeline, 1, {{pscale_y}}, "online positioning of Y; 0 is off"},
+    {"set_mcbsp_rot_list", Op::set_mcbsp_rot_list, Timing::pipeline, 1, {{{"Resolution", Kind::scale}}},
+     "online positioning of the angle; under 100 is off"},
+    {"set_mcbsp_matrix_list", Op::set_mcbsp_matrix_list, Timing::pipeline, 1, {}, "online positioning of matrix coefficients"},
+    {"apply_mcbsp_list", Op::apply_mcbsp_list, Timing::pipeline, 1, {{phead, ponce}}, "what came by online positioning, to a head"},
     {"set_matrix_list", Op::set_matrix_list, Timing::pipeline, 2,
      {{phead, {"Ind1", Kind::index}, {"Ind2", Kind::index}, {"Mij", Kind::factor}, ponce}}, "one coefficient of the matrix"},
     {"set_offset_list", Op::set_offset_list, Timing::pipeline, 1, {{phead, {"XOffset", Kind::centre}, {"YOffset", Kind::centre}, ponce}},
@@ -195,6 +207,11 @@ inline constexpr ListCommandInfo list_commands[op_count] = {
     {"set_angle_list", Op::set_angle_list, Timing::pipeline, 1, {{phead, {"Angle", Kind::angle}, ponce}},
      "rotation, counter-clockwise"},
     {"set_scale_list", Op::set_scale_list, Timing::pipeline, 1, {{phead, {"Scale", Kind::factor}, ponce}}, "scaling, -16 to 16"},
+    {"set_trigger", Op::set_trigger, Timing::across, 1, {{{"Period", Kind::ticks}, {"Signal1", Kind::signal}, {"Signal2", Kind::signal}}},
+     "records two signals from this tick on, one sample a period; 0 ends it"},
+    {"set_trigger4", Op::set_trigger4, Timing::normal, 1,
+     {{{"Period", Kind::ticks}, {"Signal1", Kind::signal}, {"Signal2", Kind::signal}, {"Signal3", Kind::signal}, {"Signal4", Kind::signal}}},
+     "as set_trigger, four signals"},
 };
 
 constexpr Flaw list_commands_flaw(std::span<const ListCommandInfo> commands) {

@@ -36,8 +36,12 @@ inline constexpr BitInfo marking_info_bits[] = {
 };
 
 inline constexpr BitInfo startstop_info_bits[] = {
-    {"START", 0, "an external start came since the last reading"},
-    {"STOP", 1, "an external stop came since the last reading"},
+    {"INTERNAL_START", 0, "execute_list or the like started a list since the last reading"},
+    {"EXTERNAL_START", 1, "an external start started a list since the last reading"},
+    {"INTERNAL_STOP", 2, "stop_execution came since the last reading"},
+    {"EXTERNAL_STOP", 3, "an external stop came since the last reading"},
+    {"NO_STOP_SIGNAL", 4, "no stop signal is present"},
+    {"LASER_ENABLED", 9, "the laser is not disabled"},
     {"START_LOST", 11, "a start was lost: a list was running, or eight starts were waiting"},
 };
 
@@ -47,11 +51,22 @@ inline constexpr BitInfo status_bits[] = {
     {"PAUSED", 15, "a list was paused"},
 };
 
+inline constexpr BitInfo list_status_bits[] = {
+    {"LOAD1", 0, "list commands go into list 1"},
+    {"LOAD2", 1, "list commands go into list 2"},
+    {"READY1", 2, "set_end_of_list was put into list 1"},
+    {"READY2", 3, "set_end_of_list was put into list 2"},
+    {"BUSY1", 4, "list 1 is running"},
+    {"BUSY2", 5, "list 2 is running"},
+    {"USED1", 6, "list 1 ran to its end, and nothing was put into it since"},
+    {"USED2", 7, "list 2 ran to its end, and nothing was put into it since"},
+};
+
 constexpr Flaw bits_flaw(std::span<const BitInfo> bits) {
     return names_flaw("the status words", "bit", bits);
 }
 static_assert(declared<bits_flaw(marking_info_bits)>() && declared<bits_flaw(startstop_info_bits)>() &&
-              declared<bits_flaw(status_bits)>());
+              declared<bits_flaw(status_bits)>() && declared<bits_flaw(list_status_bits)>());
 
 consteval std::uint32_t bit_named(std::span<const BitInfo> bits, std::string_view name) {
     for (const BitInfo& bit : bits)
@@ -70,6 +85,11 @@ consteval std::uint32_t startstop_bit(std::string_view name) {
 }
 consteval std::uint32_t status_bit(std::string_view name) {
     return map::bit_named(map::status_bits, name);
+}
+
+/// A bit of read_status.
+consteval std::uint32_t list_status_bit(std::string_view name) {
+    return map::bit_named(map::list_status_bits, name);
 }
 
 /// These stay when get_marking_info is read; the others are cleared by it.

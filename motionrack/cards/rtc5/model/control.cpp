@@ -8,103 +8,6 @@
 
 namespace motionrack::rtc5 {
 
-namespace {
-
-bool finite(std::initializer_list<double> values) {
-    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
-bool within(double v, double least, double greatest) {
-    return v >= least && v <= greatest;  // false for NaN
-}
-
-/// Scale * Angle * Matrix, and whether it does nothing.
-void multiply(Transform& t) {
-    const SinCos turn = sin_cos(t.angle_deg * (pi / 180));
-    const double c = t.scale * turn.cos, s = t.scale * turn.sin;
-    const auto& m = t.matrix;
-    t.product = {c * m[0] - s * m[2], c * m[1] - s * m[3], s * m[0] + c * m[2], s * m[1] + c * m[3]};
-    t.neutral = t.product == std::array<double, 4>{1, 0, 0, 1} && t.offset.x == 0 && t.offset.y == 0;
-}
-
-}  // namespace
-
-/// Changes the transforms of `head` (1 A, 2 B, 3 both, 4 global), now or with the next jump.
-template <class Change>
-Result<void> Engine::change_transform(int head, int at_once, const Change& change) {
-    if (head < 1 || head > 4)
-        return fail(Trouble::refused,
-                    fmt::format("there is no scan head {}; 1, 2, 3 (both) or 4 (before the correction)", head));
-    if (at_once < 0 || at_once > 3) return fail(Trouble::refused, fmt::format("at_once is {}; 0 to 3", at_once));
-    Transform* const now[3] = {&state_.heads[0].transform, &state_.heads[1].transform, &state_.global};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const bool meant = i == 2 ? head == 4 : head != 4 && (head >> i & 1);
-        if (!meant) continue;
-        const std::int64_t bit = std::int64_t{1} << i;
-        Transform changed = state_.later_count & bit ? state_.later[i] : *now[i];
-        change(changed);
-        multiply(changed);
-        if (at_once == 2) {
-            state_.later[i] = changed;
-            state_.later_count |= bit;
-        } else {
-            *now[i] = changed;
-            state_.later_count &= ~bit;
-        }
-    }
-    return {};
-}
-
-void Engine::transforms_of_jump() {
-    if (state_.later_count == 0) return;
-    if (state_.later_count & 1) state_.heads[0].transform = state_.later[0];
-    if (state_.later_count & 2) state_.heads[1].transform = state_.later[1];
-    if (state_.later_count & 4) state_.global = state_.later[2];
-    state_.later_count = 0;
-}
-
-Result<void> Engine::set_matrix(int head, std::array<double, 4> matrix, int at_once) {
-    for (const double m : matrix)
-        if (!within(m, -50, 50))
-            return fail(Trouble::refused,
-                        fmt::format("set_matrix: a coefficient is {}, outside -50 to 50; nothing was changed", m));
-    return change_transform(head, at_once, [&](Transform& t) { t.matrix = matrix; });
-}
-
-Result<void> Engine::set_offset(int head, Point offset, int at_once) {
-    if (!within(offset.x, -8388608, 8388607) || !within(offset.y, -8388608, 8388607))
-        return fail(Trouble::refused,
-                    fmt::format("set_offset: ({}, {}) is outside -8388608 to 8388607 bits; nothing was changed",
-                                offset.x, offset.y));
-    return change_transform(head, at_once, [&](Transform& t) { t.offset = offset; });
-}
-
-Result<void> Engine::set_angle(int head, double degrees, int at_once) {
-    if (!within(degrees, -3600, 3600))
-        return fail(Trouble::refused,
-                    fmt::format("set_angle: {} is outside -3600 to 3600 degrees; nothing was changed", degrees));
-    return change_transform(head, at_once, [&](Transform& t) { t.angle_deg = degrees; });
-}
-
-Result<void> Engine::set_scale(int head, double scale, int at_once) {
-    if (!within(scale, -16, 16))
-        return fail(Trouble::refused, fmt::format("set_scale: {} is outside -16 to 16; nothing was changed", scale));
-    return change_transform(head, at_once, [&](Transform& t) { t.scale = scale; });
-}
-
-void Engine::transform_command(const Command& c) {
-    const int at_once = static_cast<int>(c.op == Op::set_matrix_list   ? c.p[3]
-                                         : c.op == Op::set_offset_list ? c.p[2]
-                                                                       : c.p[1]) &
-                        3;
-    const auto change = [&](Transform& t) {
-        if (c.op == Op::set_matrix_list) t.matrix[static_cast<std::size_t>(c.p[0] * 2 + c.p[1])] = c.p[2];
-        if (c.op == Op::set_offset_list) t.offset = {c.p[0], c.p[1]};
-        if (c.op == Op::set_angle_list) t.angle_deg = c.p[0];
-        if (c.op == Op::set_scale_list) t.scale = c.p[0];
-    };
-    static_cast<void>(change_transform(c.head, at_once, change));
-}
-
 void Engine::load_program_file() {
     State fresh;
     fresh.tick = state_.tick, fresh.sampled = state_.sampled;
@@ -214,7 +117,7 @@ Result<void> Engine::set_encoder_speed(int encoder, double counts_ms, double smo
     if (encoder < 0 || encoder > 3)
         return fail(Trouble::refused,
                     fmt::format("set_encoder_speed: there is no encoder {}; 0, 1, or 2, 3 for both", encoder));
-    if (!finite({counts_ms}) || !within(smooth, 0, 1))
+    if (!std::isfinite(counts_ms) || !within(smooth, 0, 1))
         return fail(Trouble::refused,
                     fmt::format("set_encoder_speed: speed {}, smoothing {} (0 to 1)", counts_ms, smooth));
     State& s = state_;
@@ -239,85 +142,10 @@ void Engine::init_fly_2d(std::int32_t offset_x, std::int32_t offset_y) {
     state_.fly_2d_offset = {static_cast<double>(offset_x), static_cast<double>(offset_y)};
 }
 
-Result<void> Engine::set_mcbsp_in(int mode, double scale) {
-    MOTIONRACK_CHECK(list_command(Op::set_mcbsp_in_list, {static_cast<double>(mode), scale}));
-    mcbsp_in(mode, scale);
-    return {};
-}
-
-Result<void> Engine::set_multi_mcbsp_in(int port, std::int64_t factor, int mode) {
-    MOTIONRACK_CHECK(list_command(Op::set_multi_mcbsp_in_list,
-                                  {static_cast<double>(port), static_cast<double>(factor), static_cast<double>(mode)}));
-    McBsp& m = state_.mcbsp;
-    m.power_port = port, m.power_factor = factor, m.power_mode = mode;
-    end_online();
-    m.multi = 1;
-    m.in_mode = 0;
-    m.round = 0;
-    m.typed = {};
-    m.memory = {};
-    state_.fly = Fly{FlyKind::multi, 1, 1};
-    state_.fly.scale_x = state_.fly.scale_y = 1;
-    return {};
-}
-
-Result<void> Engine::set_mcbsp_online(double scale_x, double scale_y, double resolution) {
-    if (!finite({scale_x, scale_y, resolution}))
-        return fail(Trouble::refused, "set_mcbsp_x, _y, _rot: a scale is no number; nothing was changed");
-    McBsp& m = state_.mcbsp;
-    m.online_x = scale_x != 0, m.online_y = scale_y != 0, m.online_rot = std::abs(resolution) >= least_resolution;
-    m.online_scale_x = scale_x, m.online_scale_y = scale_y, m.online_resolution = resolution;
-    const bool online = m.online_x || m.online_y || m.online_rot;
-    const FlyKind kind = state_.fly.kind;
-    m.online_matrix = 0;
-    if (!online) return {};
-    m.in_mode = m.multi = 0;
-    if (kind == FlyKind::mcbsp || kind == FlyKind::mcbsp_rot || kind == FlyKind::multi) state_.fly = {};
-    return {};
-}
-
-void Engine::set_mcbsp_matrix() {
-    static_cast<void>(set_mcbsp_online(1, 0, 0));
-    state_.mcbsp.online_matrix = 1;
-}
-
-Result<void> Engine::apply_mcbsp(int head, int at_once) {
-    const McBsp& m = state_.mcbsp;
-    if (m.online_matrix) {
-        const std::int32_t coefficient = m.memory[1];
-        return change_transform(head, at_once, [&](Transform& t) {
-            t.matrix[static_cast<std::size_t>(coefficient & 3)] = static_cast<double>(coefficient >> 2) / 16777216;
-        });
-    }
-    // With rotation, bit 31 tells the two kinds of words apart: 31 bits of offset or angle, or 15 bits each of x and y
-    // (low, high).
-    const auto word = static_cast<std::uint32_t>(m.memory[1]);
-    const bool both = m.online_x && m.online_y;
-    const auto sign_extended = [](std::uint32_t v, int bits) {
-        return static_cast<double>(static_cast<std::int32_t>(v << (32 - bits)) >> (32 - bits));
-    };
-    double x = 0, y = 0;
-    if (both)
-        x = m.online_rot ? sign_extended(word, 15) : sign_extended(word, 16),
-        y = m.online_rot ? sign_extended(word >> 15, 15) : sign_extended(word >> 16, 16);
-    else
-        x = y = m.online_rot ? sign_extended(word, 31) : sign_extended(word, 32);
-    const double turn =
-        m.online_rot
-            ? std::fmod(static_cast<double>(static_cast<std::uint32_t>(m.memory[2]) & 0x7FFFFFFF) / m.online_resolution,
-                        1.0) *
-                  360
-            : 0;
-    return change_transform(head, at_once, [&](Transform& t) {
-        if (m.online_x) t.offset.x = x * m.online_scale_x;
-        if (m.online_y) t.offset.y = y * m.online_scale_y;
-        if (m.online_rot) t.angle_deg = turn;
-    });
-}
-
 void Engine::external_stop() {
-    state_.startstop_info |= startstop_bit("STOP");
+    const std::int64_t before = state_.startstop_info;
     stop_execution();
+    state_.startstop_info = before | startstop_bit("EXTERNAL_STOP");
 }
 
 void Engine::encoder_sequence_error(int encoder) {
@@ -328,6 +156,12 @@ std::uint32_t Engine::status() const {
     const Lists& l = state_.lists;
     return (l.running ? status_bit("BUSY") : 0) | (l.moving_alone ? status_bit("INTERNAL_BUSY") : 0) |
            (l.paused ? status_bit("PAUSED") : 0);
+}
+
+std::uint32_t Engine::list_status() const {
+    const Lists& l = state_.lists;
+    const std::uint32_t busy = l.running ? list_status_bit("BUSY1") << (l.current < l.begin[1] ? 0 : 1) : 0;
+    return static_cast<std::uint32_t>(l.loaded) | busy;
 }
 
 std::array<std::int32_t, 2> Engine::read_encoder(int pos) const {
@@ -348,7 +182,8 @@ std::uint32_t Engine::get_marking_info() {
 }
 
 std::uint32_t Engine::get_startstop_info() {
-    const auto out = static_cast<std::uint32_t>(state_.startstop_info);
+    const auto out = static_cast<std::uint32_t>(state_.startstop_info) | startstop_bit("NO_STOP_SIGNAL") |
+                     (state_.laser.disabled ? 0 : startstop_bit("LASER_ENABLED"));
     state_.startstop_info = 0;
     return out;
 }

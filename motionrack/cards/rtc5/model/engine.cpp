@@ -7,7 +7,7 @@
 
 namespace motionrack::rtc5 {
 
-void Engine::Free::operator()(Command* memory) const {
+void Engine::Free::operator()(void* memory) const {
     std::free(memory);
 }
 
@@ -16,7 +16,8 @@ Engine::Engine(const Settings& settings) : settings_(settings), scratch_(std::ma
     // Zeros are empty places; pages that no list touches cost nothing.
     static_assert(static_cast<int>(Op::none) == 0);
     memory_.reset(static_cast<Command*>(std::calloc(static_cast<std::size_t>(settings.list_memory), sizeof(Command))));
-    MOTIONRACK_ASSERT(memory_ != nullptr);
+    recorded_.reset(static_cast<std::int32_t*>(std::calloc(record_values, sizeof(std::int32_t))));
+    MOTIONRACK_ASSERT(memory_ != nullptr && recorded_ != nullptr);
     state_.lists.begin = {0, settings.list1, settings.list1 + settings.list2, settings.list_memory};
     state_.lists.input_end = settings.list1;
 }
@@ -58,7 +59,8 @@ void Engine::piece(std::int64_t end, Sink* sink) {
     begin_tick();
     std::int64_t limit = end - state_.tick;
     if (state_.starts.waiting > 0) limit = ticks_to_start(limit);
-    if (sink == nullptr && skip(limit)) return;
+    limit = std::min(limit, std::max<std::int64_t>(1, ticks_to_sample()));
+    if (sink == nullptr && ticks_to_sample() > 0 && skip(limit)) return;
     const std::size_t n = produce(static_cast<std::size_t>(std::min<std::int64_t>(limit, block)));
     run_pipeline(n, sink);
     advance(static_cast<std::int64_t>(n));
@@ -75,7 +77,7 @@ std::size_t Engine::produce(std::size_t room) {
             return room;
         }
         if (!next_step(n)) break;
-        if (n == 0 && state_.starts.asked_count > 0) room = 1;
+        if (n == 0 && (state_.starts.asked_count > 0 || samples_now())) room = 1;
         // The tick that finds the end is done, too, whoever looks.
         if (state_.activity.kind == ActivityKind::none && until_rest_) room = n + 1;
         n = fill(n, room);
@@ -160,7 +162,7 @@ Point Engine::position_of(const Activity& a, std::int64_t done) const {
 bool Engine::skip(std::int64_t limit) {
     State& s = state_;
     if (!s.lists.paused) next_step(0);
-    if (s.speed_watched || s.mcbsp.multi) return false;
+    if (s.speed_watched || s.mcbsp.multi || samples_now()) return false;
     if (s.starts.asked_count > 0) limit = 1;
     Activity& a = s.activity;
     const bool still = s.lists.paused || a.kind == ActivityKind::none || a.kind == ActivityKind::hold;

@@ -53,13 +53,19 @@ class Engine {
     explicit Engine(const Settings& settings = {});
 
     // ---- lists (lists.cpp)
+    /// list2 of -1: what is left.
     Result<void> config_list(std::int64_t list1, std::int64_t list2);
-    /// Where put() goes from here on: the begin of list 1, 2 or 3. Refused while that list runs.
-    Result<void> set_start_list(int list);
+    /// Where put() goes from here on: list 1 (odd numbers) or 2 (even ones), also while it runs. Positions are 0 ..
+    /// 1048575; behind the list's end they are 0.
+    Result<void> set_start_list(std::uint32_t list, std::int64_t position = 0);
+    /// The same for a list that is not running: 1, 2, or the one that is free (0), free and run to its end (3). The list
+    /// opened, or 0: none, and put() is refused until one is.
+    Result<std::uint32_t> load_list(std::uint32_t list, std::int64_t position);
     /// Appends; refused when the list is full (nothing is changed). `command` must come from list_command().
     Result<void> put(const Command& command);
     std::int64_t input_pointer() const { return state_.lists.input; }
-    Result<void> execute_list(int list);
+    /// As set_start_list takes them.
+    Result<void> execute_list(std::uint32_t list, std::int64_t position = 0);
     Result<void> execute_at(std::int64_t position);
     void auto_change() { state_.lists.auto_change = 1; }
     void start_loop() { state_.lists.loop = 1; }
@@ -93,7 +99,7 @@ class Engine {
     void set_tracking_error(std::uint16_t x, std::uint16_t y) { state_.tracking_error = {x, y}; }
     void set_control_mode(std::uint32_t mode) { state_.control_mode = mode; }
     Result<void> set_ext_start_delay(std::int32_t delay, int encoder);
-    void set_extstart_pos(std::int64_t position) { state_.starts.position = position; }
+    void set_extstartpos(std::int64_t position) { state_.starts.position = position; }
     Result<void> set_encoder_speed(int encoder, double counts_ms, double smooth);
     void load_fly_2d_table(std::shared_ptr<const FlyTable> table) { fly_table_ = std::move(table); }
     /// Correction and compensation tables as the other card has them; they are no part of the state.
@@ -104,9 +110,22 @@ class Engine {
     Result<void> set_multi_mcbsp_in(int port, std::int64_t factor, int mode);
     /// Online positioning: scale 0 is off, resolution under 100 too.
     Result<void> set_mcbsp_online(double scale_x, double scale_y, double resolution);
+    /// One of the three; the others stay.
+    Result<void> set_mcbsp_x(double scale);
+    Result<void> set_mcbsp_y(double scale);
+    Result<void> set_mcbsp_rot(double resolution);
     /// Online positioning of matrix coefficients: words of (M * 2^24) * 4 + 2 i + j, |M| < 32.
     void set_mcbsp_matrix();
     Result<void> apply_mcbsp(int head, int at_once);
+    /// The present word, put to location 0 too.
+    std::int32_t get_mcbsp();
+    /// Signals that are sent from the next tick on, one a tick, in turn; none: sending ends. At most 8.
+    Result<void> set_mcbsp_out(std::span<const std::uint32_t> signals);
+    /// Disabled, the laser goes off, and what would switch it on does not, until it is enabled.
+    void enable_laser() { state_.laser.disabled = 0; }
+    void disable_laser();
+    /// Ends a recording; its samples stay.
+    void stop_trigger() { state_.recording.period = 0; }
 
     // ---- what comes from outside
     void external_start() { ++state_.starts.triggers; }
@@ -130,6 +149,7 @@ class Engine {
     // ---- answers
     bool busy() const { return state_.lists.running != 0; }
     std::uint32_t status() const;
+    std::uint32_t list_status() const;
     std::int64_t list_position() const { return state_.lists.current; }
     std::int32_t encoder(int number) const { return state_.encoders[static_cast<std::size_t>(number)].count(); }
     std::int32_t read_mcbsp(int location) const { return state_.mcbsp.memory[static_cast<std::size_t>(location & 3)]; }
@@ -141,6 +161,15 @@ class Engine {
     /// What set_multi_mcbsp_in puts to the port: the value of type 3 (mode 0), factor * value / 16384 (mode 1).
     std::int64_t multi_power() const;
     std::uint32_t get_startstop_info();
+    /// A signal's value in the last tick.
+    Result<std::int32_t> get_value(std::uint32_t signal) const;
+    /// The word that was sent in the last tick; 0 while nothing is sent.
+    std::int32_t mcbsp_sent() const;
+    const Recording& recording() const { return state_.recording; }
+    /// Sample `i` of `channel` (0 ..) of the recording.
+    std::int32_t recorded(std::int64_t channel, std::int64_t i) const {
+        return recorded_[static_cast<std::size_t>(i * state_.recording.channels + channel)];
+    }
     /// Counts/ms behind the filters; 0 while not watched.
     double encoder_speed() const;
     /// x, y of head A in the last tick.
@@ -243,26 +272,36 @@ class Engine {
     void raise(std::uint32_t bits, std::int64_t tick);
     void check_flags(std::size_t n);
     void check_z(std::size_t n);
+    double z_now() const;
     void run_head(std::size_t number, std::size_t n);
     void keep_output(std::size_t n);
     void evaluate();
     const Table* table(std::int64_t number) const;
     std::optional<Extent> steady_extent(const Activity& a, std::int64_t n) const;
 
+    // recording.cpp
+    void set_trigger(const Command& c, std::int64_t tick);
+    std::int64_t ticks_to_sample() const;
+    bool samples_now() const;
+    void record();
+    std::int32_t value_of(const SignalInfo& signal) const;
+
     // laser.cpp
     void switch_laser(std::int64_t half_us, bool on, std::int64_t tick);
     void laser_until(std::int64_t tick);
 
     // control.cpp
+    void set_online(std::size_t which, double value);
     template <class Change>
     Result<void> change_transform(int head, int at_once, const Change& change);
     void transforms_of_jump();
 
     Settings settings_;
     struct Free {
-        void operator()(Command* memory) const;
+        void operator()(void* memory) const;
     };
     std::unique_ptr<Command[], Free> memory_;
+    std::unique_ptr<std::int32_t[], Free> recorded_;
     State state_;
     Inputs* inputs_ = nullptr;
     std::array<std::shared_ptr<const Table>, table_count> tables_;
@@ -272,6 +311,7 @@ class Engine {
     std::int64_t filled_ = 0;  // the laser's samples are there up to this tick
     bool until_rest_ = false;  // the run ends when the card rests
     Extent extent_;
+    double block_z_ = 0;  // of the block's last tick
     bool evaluated_ = true;  // the output is that of the last tick
 };
 

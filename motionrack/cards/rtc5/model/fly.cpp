@@ -88,6 +88,18 @@ void Engine::control_command(const Command& c) {
         case Op::set_multi_mcbsp_in_list:
             static_cast<void>(set_multi_mcbsp_in(static_cast<int>(whole(0)), whole(1), static_cast<int>(whole(2))));
             return;
+        case Op::get_mcbsp_list:
+            static_cast<void>(get_mcbsp());
+            return;
+        case Op::set_mcbsp_x_list:
+        case Op::set_mcbsp_y_list:
+        case Op::set_mcbsp_rot_list:
+            return set_online(static_cast<std::size_t>(c.op) - static_cast<std::size_t>(Op::set_mcbsp_x_list), c.p[0]);
+        case Op::set_mcbsp_matrix_list:
+            return set_mcbsp_matrix();
+        case Op::apply_mcbsp_list:
+            static_cast<void>(apply_mcbsp(c.head, static_cast<int>(c.p[0])));
+            return;
         default:
             return;
     }

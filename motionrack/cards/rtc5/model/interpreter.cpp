@@ -44,13 +44,14 @@ bool Engine::next_step(std::size_t n) {
         }
         if (!l.running) return true;
         if (l.next >= l.begin[3]) {
+            if (n > 0) return false;  // whether a list runs is the same in all ticks of a block
             l.current = l.next;
             end_list(false, tick);
             continue;
         }
         const Command& c = memory_[static_cast<std::size_t>(l.next)];
         const ListCommandInfo& what = info(c.op);
-        if (n > 0 && (what.timing == Timing::pipeline || what.timing == Timing::normal)) return false;
+        if (n > 0 && what.timing != Timing::shortly && what.timing != Timing::motion) return false;
         if (n > 0 && state_.later_count != 0) return false;  // a jump would change transforms
         if (l.skip) {
             l.skip = 0;
@@ -100,7 +101,7 @@ const Command* Engine::next_mark() const {
     for (std::int64_t at = l.next; at < l.begin[3];) {
         const Command& c = memory_[static_cast<std::size_t>(at)];
         if (is_mark(c.op)) return &c;
-        if (info(c.op).timing != Timing::shortly) return nullptr;
+        if (info(c.op).timing != Timing::shortly && info(c.op).timing != Timing::across) return nullptr;
         at += info(c.op).positions;
     }
     return nullptr;
@@ -214,6 +215,10 @@ void Engine::take(const Command& c, std::int64_t tick) {
         case Op::write_io_port_list:
             s.io = whole(0);
             return;
+        case Op::set_trigger:
+        case Op::set_trigger4:
+            set_trigger(c, tick);
+            return c.op == Op::set_trigger4 ? begin_hold(1) : void();
         default:
             break;
     }

@@ -7,6 +7,7 @@ namespace motionrack::rtc5 {
 void Engine::switch_laser(std::int64_t half_us, bool on, std::int64_t tick) {
     laser_until(tick);
     Laser& l = state_.laser;
+    if (on && l.disabled) return;
     half_us = std::max(half_us, tick * half_us_per_tick);
     const auto place = [&](std::int64_t i) { return static_cast<std::size_t>((l.head + i) % Laser::capacity); };
     while (l.count > 0 && l.at[place(l.count - 1)] >= half_us) --l.count;
@@ -17,6 +18,13 @@ void Engine::switch_laser(std::int64_t half_us, bool on, std::int64_t tick) {
         return;
     }
     l.at[place(l.count++)] = half_us;
+}
+
+void Engine::disable_laser() {
+    filled_ = state_.tick;
+    state_.laser.count = 0;
+    switch_laser(state_.tick * half_us_per_tick, false, state_.tick);
+    state_.laser.disabled = 1;
 }
 
 /// Carries out what comes before `tick`, and its samples if somebody looks.

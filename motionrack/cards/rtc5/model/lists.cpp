@@ -22,31 +22,70 @@ Result<void> Engine::config_list(std::int64_t list1, std::int64_t list2) {
         return fail(Trouble::refused,
                     "config_list: a list is running; the memory was left as it is. Stop the list first");
     Settings changed = settings_;
-    changed.list1 = list1, changed.list2 = list2;
+    changed.list1 = list1, changed.list2 = list2 == -1 ? settings_.list_memory - list1 : list2;
     MOTIONRACK_CHECK(check(changed));
-    state_.lists.begin = {0, list1, list1 + list2, settings_.list_memory};
-    state_.lists.input = 0;
-    state_.lists.input_end = list1;
+    state_.lists.begin = {0, list1, list1 + changed.list2, settings_.list_memory};
+    return set_start_list(1);
+}
+
+namespace {
+
+Result<void> check_position(std::string_view who, std::int64_t position) {
+    if (position >= 0 && position < greatest_list_memory) return {};
+    return fail(Trouble::refused, fmt::format("{}: position {} is outside 0 to {}; nothing was changed", who, position,
+                                              greatest_list_memory - 1));
+}
+
+/// 0 list 1, 1 list 2; without memory list 2 is list 1.
+std::size_t list_of(std::uint32_t number, const Lists& l) {
+    return number % 2 == 0 && l.begin[2] > l.begin[1] ? 1 : 0;
+}
+/// The place at `position` of list `list`.
+std::int64_t place(std::size_t list, std::int64_t position, const Lists& l) {
+    const std::int64_t begin = l.begin[list];
+    return position < l.begin[list + 1] - begin ? begin + position : begin;
+}
+
+}  // namespace
+
+Result<void> Engine::set_start_list(std::uint32_t list, std::int64_t position) {
+    MOTIONRACK_CHECK(check_position("set_start_list", position));
+    Lists& l = state_.lists;
+    const std::size_t number = list_of(list, l);
+    l.input = place(number, position, l);
+    l.input_end = l.begin[number + 1];
+    l.loaded &= ~std::int64_t{list_status_bit("LOAD1") | list_status_bit("LOAD2")};
+    l.loaded &= ~(std::int64_t{list_status_bit("READY1") | list_status_bit("USED1")} << number);
+    l.loaded |= std::int64_t{list_status_bit("LOAD1")} << number;
     return {};
 }
 
-Result<void> Engine::set_start_list(int list) {
-    if (list < 1 || list > 3)
-        return fail(Trouble::refused, fmt::format("set_start_list: there is no list {}; 1, 2 or 3", list));
+Result<std::uint32_t> Engine::load_list(std::uint32_t list, std::int64_t position) {
+    MOTIONRACK_CHECK(check_position("load_list", position));
     Lists& l = state_.lists;
-    const auto number = static_cast<std::size_t>(list);
-    if (l.running && l.next > l.begin[number - 1] && l.next <= l.begin[number])
-        return fail(
-            Trouble::refused,
-            fmt::format("set_start_list: list {} is running; nothing was changed. Load the other list, or wait", list));
-    l.input = l.begin[number - 1];
-    l.input_end = l.begin[number];
-    return {};
+    const std::uint32_t status = list_status();
+    const auto free = [&](std::size_t i, bool used) {
+        return !(status & list_status_bit("BUSY1") << i) && (!used || status & list_status_bit("USED1") << i);
+    };
+    const std::uint32_t wanted = list & 3;
+    const std::size_t next = l.current < l.begin[1] ? 1 : 0;  // what auto_change would run
+    for (const std::size_t i : {wanted == 3 ? next : std::size_t{0}, wanted == 3 ? 1 - next : std::size_t{1}}) {
+        if ((wanted == 1 && i == 1) || (wanted == 2 && list_of(2, l) != i) || (i == 1 && list_of(2, l) == 0)) continue;
+        if (!free(i, wanted == 3)) continue;
+        MOTIONRACK_CHECK(set_start_list(static_cast<std::uint32_t>(i + 1), position));
+        return static_cast<std::uint32_t>(i + 1);
+    }
+    l.input = l.input_end = -1;
+    return 0u;
 }
 
 Result<void> Engine::put(const Command& command) {
     Lists& l = state_.lists;
     const ListCommandInfo& what = info(command.op);
+    if (l.input < 0)
+        return fail(Trouble::refused, fmt::format("{}: no list is open; the command was not put into one. Open a list "
+                                                  "(load_list, set_start_list)",
+                                                  what.name));
     if (l.input + what.positions > l.input_end)
         return fail(Trouble::refused, fmt::format("{}: the list is full at position {}; the command was not put into "
                                                   "it. Split the job over two lists (auto_change), or give "
@@ -55,13 +94,17 @@ Result<void> Engine::put(const Command& command) {
     memory_[static_cast<std::size_t>(l.input)] = command;
     for (int i = 1; i < what.positions; ++i) memory_[static_cast<std::size_t>(l.input + i)] = {};
     l.input += what.positions;
+    if (command.op == Op::set_end_of_list) {
+        const std::size_t number = l.input > l.begin[1] ? 1 : 0;
+        l.loaded |= std::int64_t{list_status_bit("READY1")} << number;
+        l.loaded &= ~(std::int64_t{list_status_bit("LOAD1")} << number);
+    }
     return {};
 }
 
-Result<void> Engine::execute_list(int list) {
-    if (list < 1 || list > 2)
-        return fail(Trouble::refused, fmt::format("execute_list: there is no list {}; 1 or 2", list));
-    return execute_at(state_.lists.begin[static_cast<std::size_t>(list - 1)]);
+Result<void> Engine::execute_list(std::uint32_t list, std::int64_t position) {
+    MOTIONRACK_CHECK(check_position("execute_list", position));
+    return execute_at(place(list_of(list, state_.lists), position, state_.lists));
 }
 
 Result<void> Engine::execute_at(std::int64_t position) {
@@ -76,6 +119,7 @@ Result<void> Engine::execute_at(std::int64_t position) {
                                 l.begin[3] - 1));
     l.running = 1;
     l.next = l.current = position;
+    state_.startstop_info |= startstop_bit("INTERNAL_START");
     return {};
 }
 
@@ -85,6 +129,7 @@ void Engine::end_list(bool written, std::int64_t tick) {
     l.skip = 0;
     if (!written) ++l.ended_unwritten;
     const std::int64_t at = l.current;
+    l.loaded |= std::int64_t{list_status_bit("USED1")} << (at < l.begin[1] ? 0 : 1);
     // Lists that take no time would follow each other for ever: once a tick is enough.
     if (written && (l.auto_change || l.loop) && at < l.begin[2] && l.changed_at != tick) {
         l.auto_change = 0;
@@ -106,6 +151,9 @@ void Engine::stop_execution() {
     filled_ = s.tick;
     s.laser.count = 0;
     switch_laser(s.tick * half_us_per_tick, false, s.tick);
+    s.recording.period = 0;
+    l.loaded |= list_status_bit("USED1") | list_status_bit("USED2");
+    s.startstop_info |= startstop_bit("INTERNAL_STOP");
 }
 
 void Engine::pause_list() {

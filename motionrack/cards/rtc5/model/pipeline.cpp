@@ -16,7 +16,8 @@ void Engine::run_pipeline(std::size_t n, Sink* sink) {
         check_flags(n);
         check_z(n);
     }
-    if (sink == nullptr) {
+    const bool recorded = samples_now();
+    if (sink == nullptr && !recorded) {
         evaluated_ = false;
         return;
     }
@@ -24,6 +25,8 @@ void Engine::run_pipeline(std::size_t n, Sink* sink) {
     const bool second = state_.heads[1].table != 0;
     if (second) run_head(1, n);
     keep_output(n);
+    if (recorded) record();
+    if (sink == nullptr) return;
     const auto ints = [&](std::size_t i) { return std::span<const std::int32_t>(b.out[i].data(), n); };
     sink->samples({state_.tick, ints(0), ints(1), second ? ints(2) : std::span<const std::int32_t>{},
                    second ? ints(3) : std::span<const std::int32_t>{},
@@ -116,7 +119,15 @@ void Engine::check_z(std::size_t n) {
         if (z < static_cast<double>(state_.limits[4])) bits |= marking_bit("LIMIT_Z_MIN");
         if (z > static_cast<double>(state_.limits[5])) bits |= marking_bit("LIMIT_Z_MAX");
         if (bits != 0) raise(bits, state_.tick + static_cast<std::int64_t>(i));
+        block_z_ = z;
     }
+}
+
+/// Z in the tick whose inputs were sampled last.
+double Engine::z_now() const {
+    const Fly& f = state_.fly;
+    if (f.kind == FlyKind::multi) return state_.z + static_cast<double>(state_.mcbsp.typed[2]);
+    return f.z ? state_.z + f.scale_z * effective(static_cast<int>(f.z_encoder)) : state_.z;
 }
 
 const Table* Engine::table(std::int64_t number) const {
@@ -145,11 +156,8 @@ void Engine::keep_output(std::size_t n) {
     o.b = state_.heads[1].table != 0 ? std::array<std::int32_t, 2>{b.out[2][n - 1], b.out[3][n - 1]}
                                      : std::array<std::int32_t, 2>{};
     o.corrected = {b.x[n - 1], b.y[n - 1]};
-    o.z = state_.z;
-    const Fly& f = state_.fly;
-    if (f.z) o.z += f.scale_z * effective(static_cast<int>(f.z_encoder));
-    if (f.kind == FlyKind::multi) o.z += static_cast<double>(state_.mcbsp.typed[2]);
-    o.z = std::clamp(o.z, z_least, z_greatest);
+    const bool moves = state_.fly.z || state_.fly.kind == FlyKind::multi;
+    o.z = std::clamp(n > 1 && moves ? block_z_ : z_now(), z_least, z_greatest);
     evaluated_ = true;
 }
 

@@ -37,7 +37,6 @@ void Engine::take_starts() {
 
 void Engine::enqueue(std::int32_t delay, int encoder) {
     Starts& s = state_.starts;
-    state_.startstop_info |= startstop_bit("START");
     if (!(state_.control_mode & control_ext_start)) return;
     if (delay == 0) return begin_start();
     if (s.waiting == start_queue) {
@@ -71,6 +70,7 @@ void Engine::begin_start() {
     }
     l.running = 1;
     l.next = l.current = s.position;
+    state_.startstop_info |= startstop_bit("EXTERNAL_START");
 }
 
 /// Ticks from this one to the one in which the first waiting start is due, at most `limit`.

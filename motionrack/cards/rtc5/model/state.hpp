@@ -18,6 +18,11 @@ struct Point {
     friend constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 };
 
+/// False for NaN.
+constexpr bool within(double v, double least, double greatest) {
+    return v >= least && v <= greatest;
+}
+
 /// How far positions went; empty at first.
 struct Extent {
     double least_x = std::numeric_limits<double>::infinity(), greatest_x = -std::numeric_limits<double>::infinity();
@@ -97,6 +102,7 @@ struct Laser {
     std::int64_t on = 0, count = 0, head = 0;
     std::array<std::int64_t, capacity> at{};  ///< half-microseconds; ring from head; levels alternate from !on
     std::int64_t on_since = 0, on_time = 0, lost = 0;
+    std::int64_t disabled = 0;
 };
 
 struct Start {
@@ -125,6 +131,20 @@ struct Lists {
     std::int64_t next = 0, running = 0, current = 0, paused = 0, paused_laser = 0;
     std::int64_t auto_change = 0, loop = 0, changed_at = -1, skip = 0, again = 0, marking = 0, moving_alone = 0;
     std::int64_t ended_unwritten = 0;  ///< times that a list ran into a place never written
+    std::int64_t loaded = list_status_bit("USED1") | list_status_bit("USED2");  ///< read_status without BUSY
+};
+
+/// set_trigger: sample number `count` is next.
+struct Recording {
+    std::int64_t period = 0;  ///< ticks; 0: off
+    std::int64_t channels = 0, first = 0, count = 0;
+    std::array<std::int64_t, record_channels> signals{};
+};
+
+/// set_mcbsp_out: signals that are sent in turn, one a tick.
+struct Sender {
+    std::int64_t count = 0, first = 0;
+    std::array<std::int64_t, sent_signals> signals{};
 };
 
 struct Head {
@@ -169,6 +189,8 @@ struct State {
     std::int64_t later_count = 0;      ///< transforms that wait for the next jump: bit HeadNo
     std::array<Transform, 3> later{};  ///< heads A, B, global
     std::int64_t io = 0;
+    Recording recording;
+    Sender sender;
     Output output;
 };
 

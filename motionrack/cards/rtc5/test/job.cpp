@@ -28,6 +28,7 @@ double JobMaker::value_of(Op op, const ParamInfo& param) {
             return one_of(10) ? std::floor(real(-2147483648.0, 2147483647)) : std::floor(real(-500, 3000));
         }
         case Kind::ticks:
+            if (param.name == "Period" && op != Op::laser_on_list) return static_cast<double>(below(6));
             return one_of(8) ? static_cast<double>(below(900)) : static_cast<double>(below(12));
         case Kind::half_us:
             return param.name == "LaserOnDelay" && one_of(3) ? -static_cast<double>(below(130))
@@ -54,6 +55,8 @@ double JobMaker::value_of(Op op, const ParamInfo& param) {
             return op == Op::set_control_mode_list
                        ? static_cast<double>((below(3) ? 1 : 0) | (one_of(3) ? 512 : 0) | (one_of(3) ? 1024 : 0))
                        : static_cast<double>(below(65536));
+        case Kind::signal:
+            return map::signals[below(std::size(map::signals))].number;
         case Kind::number:
             if (op == Op::set_mcbsp_in_list) return static_cast<double>(below(4));
             if (op == Op::clear_fly_overflow) return static_cast<double>(below(8));

@@ -42,6 +42,7 @@ struct Act {
         read_info,
         reset_2d,
         watch,
+        laser,
         kinds
     };
     Kind kind = run;

@@ -107,7 +107,7 @@ TEST(Rtc5List, ListsThatTakeNoTimeDoNotHangInALoop) {
     EXPECT_FALSE(rig.card.busy());
 }
 
-TEST(Rtc5List, AListThatIsFullOrRunsIsRefusedAndTheOldOneKept) {
+TEST(Rtc5List, AListThatIsFullTakesNoMoreAndARunningOneIsNotStartedAgain) {
     Rig rig;
     for (int i = 0; i < 1000; ++i) rig.put(Op::list_nop);
     const auto full = rig.card.put(*list_command(Op::list_nop, {}));
@@ -116,8 +116,9 @@ TEST(Rtc5List, AListThatIsFullOrRunsIsRefusedAndTheOldOneKept) {
     ASSERT_TRUE(rig.card.execute_list(1));
     rig.run(2);
     EXPECT_FALSE(rig.card.execute_list(1));
-    EXPECT_FALSE(rig.card.set_start_list(1));
     EXPECT_FALSE(rig.card.config_list(10, 10));
+    EXPECT_FALSE(rig.card.set_start_list(1, 1 << 20));
+    EXPECT_FALSE(rig.card.execute_list(1, -1));
     EXPECT_TRUE(rig.card.set_start_list(2));
     EXPECT_EQ(rig.card.status(), status_bit("BUSY"));
     rig.run(2000);
@@ -182,11 +183,13 @@ TEST(Rtc5Starts, TrackDelaysQueueEightAndAStartIntoARunningListIsLost) {
         rig.card.external_start();
         rig.run(5);
     }
-    EXPECT_EQ(rig.card.get_startstop_info(), startstop_bit("START"));
+    constexpr std::uint32_t always = startstop_bit("NO_STOP_SIGNAL") | startstop_bit("LASER_ENABLED");
+    EXPECT_EQ(rig.card.get_startstop_info(), always) << "none is due";
     rig.card.external_start();
     rig.run(1);
-    EXPECT_EQ(rig.card.get_startstop_info(), startstop_bit("START") | startstop_bit("START_LOST"));
+    EXPECT_EQ(rig.card.get_startstop_info(), always | startstop_bit("START_LOST"));
     rig.run(200);
+    EXPECT_EQ(rig.card.get_startstop_info(), always | startstop_bit("EXTERNAL_START"));
     EXPECT_EQ(rig.last_x(), 8);
     ASSERT_TRUE(rig.card.set_ext_start_delay(0, 0));
     rig.begin();

@@ -187,7 +187,7 @@ class Pair {
                 t.start_delay = pick(4) ? pick(2000) - 200 : 0, t.start_encoder = static_cast<int>(a.b),
                 t.start_position = pick(2) ? list1 : 0;
                 static_cast<void>(c.set_ext_start_delay(static_cast<std::int32_t>(t.start_delay), t.start_encoder));
-                c.set_extstart_pos(t.start_position);
+                c.set_extstartpos(t.start_position);
                 return;
             default:
                 return act_on_pipeline(a, c, t);
@@ -257,13 +257,24 @@ class Pair {
                 return;
             case Act::read_info:
                 EXPECT_EQ(c.get_marking_info(), t.take_marking_info());
-                EXPECT_EQ(c.get_startstop_info(), t.startstop);
+                EXPECT_EQ(c.get_startstop_info(), t.startstop | startstop_bit("NO_STOP_SIGNAL") |
+                                                      (t.laser_disabled ? 0 : startstop_bit("LASER_ENABLED")));
                 t.startstop = 0;
                 return;
             case Act::watch:
                 static_cast<void>(c.set_encoder_speed(2, 200, 0.3));
                 t.watch_speed = true, t.smooth = 0.3;
                 for (auto& e : t.encoders) e.slow1 = e.slow2 = 0;
+                return;
+            case Act::apply:
+                static_cast<void>(c.apply_mcbsp(1 + static_cast<int>(pick(4)), static_cast<int>(a.b) * 2));
+                t.apply_online(1 + static_cast<int>(pick(4)), static_cast<int>(a.b) * 2);
+                return;
+            case Act::laser:
+                if (a.b)
+                    c.enable_laser(), t.laser_disabled = false;
+                else
+                    c.disable_laser(), t.disable_laser();
                 return;
             default:
                 return;
@@ -311,7 +322,18 @@ class Pair {
         EXPECT_EQ(s.lists.ended_unwritten, twin_.unwritten);
         EXPECT_EQ(s.io, twin_.io);
         EXPECT_EQ(s.laser.on != 0, twin_.laser);
+        same_recording();
         return !::testing::Test::HasFailure();
+    }
+
+    void same_recording() {
+        const Recording& r = card_.recording();
+        EXPECT_EQ(r.period, twin_.period);
+        ASSERT_EQ(r.count, static_cast<std::int64_t>(twin_.rows.size()));
+        for (std::size_t i = 0; i < twin_.rows.size(); ++i)
+            for (std::size_t k = 0; k < twin_.rows[i].size(); ++k)
+                ASSERT_EQ(card_.recorded(static_cast<std::int64_t>(k), static_cast<std::int64_t>(i)), twin_.rows[i][k])
+                    << "sample " << i << " of signal " << r.signals[k];
     }
 
     const Job& job_;

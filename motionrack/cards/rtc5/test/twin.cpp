@@ -39,22 +39,8 @@ Sample Twin::tick() {
     }
     for (int h = 0; h < (second_head ? 2 : 1); ++h) {
         const Xy r = heads[h].of(q);
-        double v[2] = {std::clamp(r.x, -524288.0, 524287.0), std::clamp(r.y, -524288.0, 524287.0)};
-        if (tables[h] != nullptr) {
-            const double u = (v[0] + 524288) / 4096, w = (v[1] + 524288) / 4096;
-            const int column = static_cast<int>(std::floor(u)), row = static_cast<int>(std::floor(w));
-            const auto between = [&](const std::vector<std::int32_t>& plane) {
-                const auto node = [&](int c, int r2) {
-                    return static_cast<double>(plane[static_cast<std::size_t>(r2 * 257 + c)] - 524288);
-                };
-                const double fx = u - column, fy = w - row;
-                const double low = node(column, row) + (node(column + 1, row) - node(column, row)) * fx;
-                const double high = node(column, row + 1) + (node(column + 1, row + 1) - node(column, row + 1)) * fx;
-                return low + (high - low) * fy;
-            };
-            const double x = between(tables[h]->x), y = between(tables[h]->y);
-            v[0] = x, v[1] = y;
-        }
+        const Xy corrected_out = through_table(h, r);
+        const double v[2] = {corrected_out.x, corrected_out.y};
         std::int32_t bits[2];
         for (int i = 0; i < 2; ++i)
             bits[i] = static_cast<std::int32_t>(
@@ -65,8 +51,27 @@ Sample Twin::tick() {
             out.x_b = bits[0], out.y_b = bits[1];
     }
     out.laser = laser_of_tick();
+    if (period > 0 && running && !paused_list && (now - first_record) % period == 0) record(out, q);
     ++now;
     return out;
+}
+
+/// Clipped to the field, and through the head's correction table.
+Xy Twin::through_table(int h, Xy r) const {
+    const Xy v{std::clamp(r.x, -524288.0, 524287.0), std::clamp(r.y, -524288.0, 524287.0)};
+    if (tables[h] == nullptr) return v;
+    const double u = (v.x + 524288) / 4096, w = (v.y + 524288) / 4096;
+    const int column = static_cast<int>(std::floor(u)), row = static_cast<int>(std::floor(w));
+    const auto between = [&](const std::vector<std::int32_t>& plane) {
+        const auto node = [&](int c, int r2) {
+            return static_cast<double>(plane[static_cast<std::size_t>(r2 * 257 + c)] - 524288);
+        };
+        const double fx = u - column, fy = w - row;
+        const double low = node(column, row) + (node(column + 1, row) - node(column, row)) * fx;
+        const double high = node(column, row + 1) + (node(column + 1, row + 1) - node(column, row + 1)) * fx;
+        return low + (high - low) * fy;
+    };
+    return {between(tables[h]->x), between(tables[h]->y)};
 }
 
 void Twin::inputs() {
@@ -125,7 +130,6 @@ void Twin::starts() {
 }
 
 void Twin::ask_start(std::int64_t delay, int encoder) {
-    startstop |= 1;
     if (!(control & 1)) return;
     if (delay == 0) return start_now();
     if (waiting.size() == 8) {
@@ -156,6 +160,7 @@ void Twin::start_now() {
     }
     running = true;
     next = current = start_position;
+    startstop |= 2;
 }
 
 double Twin::ahead(int e) const {
@@ -229,6 +234,7 @@ std::uint32_t Twin::take_marking_info() {
 }
 
 void Twin::change_laser(std::int64_t at, bool on) {
+    if (on && laser_disabled) return;
     at = std::max(at, now * 20);
     while (!changes.empty() && changes.back().first >= at) changes.pop_back();
     const bool level = changes.empty() ? laser : changes.back().second;
@@ -253,6 +259,8 @@ void Twin::stop() {
     triggers = 0;
     changes.clear();
     change_laser(now * 20, false);
+    period = 0;
+    startstop |= 4;
 }
 
 void Twin::pause() {
@@ -260,6 +268,12 @@ void Twin::pause() {
     paused_list = true;
     laser_in_pause = marking_line;
     if (marking_line) change_laser(now * 20, false);
+}
+
+void Twin::disable_laser() {
+    changes.clear();
+    change_laser(now * 20, false);
+    laser_disabled = true;
 }
 
 void Twin::restart() {
@@ -272,48 +286,13 @@ void Twin::execute(std::int64_t position) {
     if (running || alone) return;
     running = true;
     next = current = position;
+    startstop |= 1;
 }
 
 void Twin::jump_alone(Xy to) {
     if (running || doing.what != Doing::nothing) return;
     jump(to);
     alone = true;
-}
-
-template <class F>
-void Twin::transforms(int head, int at_once, F f) {
-    Matrix* const all[3] = {&heads[0], &heads[1], &global};
-    for (int i = 0; i < 3; ++i) {
-        if (i == 2 ? head != 4 : head == 4 || !(head >> i & 1)) continue;
-        Matrix changed = later[i] ? *later[i] : *all[i];
-        f(changed);
-        later[i].reset();
-        if (at_once == 2)
-            later[i] = changed;
-        else
-            *all[i] = changed;
-    }
-}
-void Twin::set_matrix(int head, int at_once, const double m[4]) {
-    transforms(head, at_once, [&](Matrix& t) { std::copy_n(m, 4, t.m); });
-}
-void Twin::set_offset(int head, int at_once, Xy offset) {
-    transforms(head, at_once, [&](Matrix& t) { t.offset = offset; });
-}
-void Twin::set_angle(int head, int at_once, double degrees) {
-    transforms(head, at_once, [&](Matrix& t) { t.angle = degrees; });
-}
-void Twin::set_scale(int head, int at_once, double scale) {
-    transforms(head, at_once, [&](Matrix& t) { t.scale = scale; });
-}
-void Twin::transform_command(const Command& c) {
-    const double* v = c.p.data();
-    if (c.op == Op::set_matrix_list)
-        transforms(c.head, static_cast<int>(v[3]) & 3,
-                   [&](Matrix& t) { t.m[static_cast<int>(v[0]) * 2 + static_cast<int>(v[1])] = v[2]; });
-    if (c.op == Op::set_offset_list) set_offset(c.head, static_cast<int>(v[2]) & 3, {v[0], v[1]});
-    if (c.op == Op::set_angle_list) set_angle(c.head, static_cast<int>(v[1]) & 3, v[0]);
-    if (c.op == Op::set_scale_list) set_scale(c.head, static_cast<int>(v[1]) & 3, v[0]);
 }
 
 void Twin::jump(Xy to) {
@@ -323,36 +302,6 @@ void Twin::jump(Xy to) {
         later[i].reset();
     }
     line_to(to, jump_speed, 'j');
-}
-
-void Twin::set_mcbsp_in(int mode, double scale) {
-    multi = online[0] = online[1] = online[2] = false;
-    in_mode = mode;
-    fly = {};
-    if (mode == 0 || scale == 0) return;
-    fly.kind = Kind::mcbsp;
-    fly.x = mode & 1, fly.y = mode & 2;
-    fly.sx = fly.sy = scale;
-}
-
-void Twin::set_multi() {
-    multi = true;
-    online[0] = online[1] = online[2] = false;
-    in_mode = round = 0;
-    for (auto& t : typed) t = 0;
-    for (auto& l : locations) l = 0;
-    fly = {};
-    fly.kind = Kind::multi;
-    fly.x = fly.y = true;
-    fly.sx = fly.sy = 1;
-}
-
-void Twin::set_online(double x, double y, double rot) {
-    online[0] = x != 0, online[1] = y != 0, online[2] = std::abs(rot) >= 100;
-    if (!online[0] && !online[1] && !online[2]) return;
-    in_mode = 0;
-    multi = false;
-    if (fly.kind == Kind::mcbsp || fly.kind == Kind::mcbsp_turn || fly.kind == Kind::multi) fly = {};
 }
 
 }  // namespace motionrack::rtc5::twin

@@ -42,6 +42,7 @@ class Twin {
     void stop();
     void pause();
     void restart();
+    void disable_laser();
     void jump_alone(Xy to);
     void set_matrix(int head, int at_once, const double m[4]);
     void set_offset(int head, int at_once, Xy offset);
@@ -50,6 +51,9 @@ class Twin {
     void set_mcbsp_in(int mode, double scale);
     void set_multi();
     void set_online(double x, double y, double rot);
+    void set_one_online(int which, double value);
+    void set_online_matrix();
+    void apply_online(int head, int at_once);
     void receive(std::uint32_t word);
     std::uint32_t take_marking_info();
 
@@ -93,7 +97,8 @@ class Twin {
     std::int32_t locations[4] = {}, typed[8] = {};
     bool to_zero = false, multi = false;
     int in_mode = 0, round = 0;
-    bool online[3] = {};
+    bool online[3] = {}, online_matrix = false;
+    double online_scale[3] = {};
 
     std::uint32_t control = 0, marking = 0, startstop = 0;
     std::int64_t flag_tick[32] = {};
@@ -112,7 +117,7 @@ class Twin {
     std::int64_t next = 0, current = 0, changed_at = -1, unwritten = 0;
     bool skip = false, again = false, marking_line = false, laser_in_pause = false;
 
-    bool laser = false;
+    bool laser = false, laser_disabled = false;
     std::deque<std::pair<std::int64_t, bool>> changes;
 
     Matrix heads[2], global;
@@ -121,6 +126,10 @@ class Twin {
     bool second_head = false;
     double gain[2][2] = {{1, 1}, {1, 1}}, gain_offset[2][2] = {};
     std::int64_t io = 0;
+
+    std::int64_t period = 0, first_record = 0;
+    std::vector<int> recorded_signals;
+    std::vector<std::vector<std::int32_t>> rows;
 
   private:
     struct Doing {
@@ -156,6 +165,9 @@ class Twin {
     void set_flag(int bit);
     void change_laser(std::int64_t at, bool on);
     int laser_of_tick();
+    void set_trigger(const Command& c);
+    void record(const Sample& out, Xy q);
+    Xy through_table(int h, Xy r) const;
     void transform_command(const Command& c);
     template <class F>
     void transforms(int head, int at_once, F f);

@@ -21,8 +21,9 @@ bool any_of(Op op, std::initializer_list<Op> ops) {
 bool marks(Op op) {
     return any_of(op, {Op::mark_abs, Op::mark_rel, Op::timed_mark_abs, Op::timed_mark_rel, Op::arc_abs, Op::arc_rel});
 }
-bool only_settings(Op op) {
-    return any_of(op, {Op::set_jump_speed, Op::set_mark_speed, Op::set_scanner_delays, Op::set_laser_delays});
+/// A polyline does.
+bool goes_through(Op op) {
+    return any_of(op, {Op::set_jump_speed, Op::set_mark_speed, Op::set_scanner_delays, Op::set_laser_delays, Op::set_trigger});
 }
 std::int64_t whole(double v) {
     return static_cast<std::int64_t>(v);
@@ -91,7 +92,7 @@ void Twin::after() {
     }
     if (over.ending != 'm') return;
     std::int64_t at = next;
-    while (running && at < begins[3] && only_settings(memory[static_cast<std::size_t>(at)].op)) ++at;
+    while (running && at < begins[3] && goes_through(memory[static_cast<std::size_t>(at)].op)) ++at;
     const bool goes_on = running && at < begins[3] && marks(memory[static_cast<std::size_t>(at)].op);
     std::int64_t delay = goes_on ? polygon_delay : mark_delay;
     bool off = !goes_on;
@@ -225,6 +226,14 @@ void Twin::take(const Command& c) {
             return;
         case Op::set_mcbsp_in_list: return set_mcbsp_in(static_cast<int>(v[0]), v[1]);
         case Op::set_multi_mcbsp_in_list: return set_multi();
+        case Op::get_mcbsp_list: locations[0] = static_cast<std::int32_t>(word); return;
+        case Op::set_mcbsp_x_list: return set_one_online(0, v[0]);
+        case Op::set_mcbsp_y_list: return set_one_online(1, v[0]);
+        case Op::set_mcbsp_rot_list: return set_one_online(2, v[0]);
+        case Op::set_mcbsp_matrix_list: return set_online_matrix();
+        case Op::apply_mcbsp_list: return apply_online(c.head, static_cast<int>(v[0]));
+        case Op::set_trigger: return set_trigger(c);
+        case Op::set_trigger4: set_trigger(c); return hold(1);
         case Op::set_matrix_list:
         case Op::set_offset_list:
         case Op::set_angle_list:
@@ -339,7 +348,7 @@ void Twin::fly_command(const Command& c) {
         case Op::set_fly_y_pos:
         case Op::set_fly_rot_pos:
             to_zero = true, in_mode = 0, multi = false;
-            online[0] = online[1] = online[2] = false;
+            online[0] = online[1] = online[2] = online_matrix = false;
             if (c.op == Op::set_fly_x_pos) be(Kind::mcbsp), fly.x = v[0] != 0, fly.sx = v[0];
             if (c.op == Op::set_fly_y_pos) be(Kind::mcbsp), fly.y = v[0] != 0, fly.sy = v[0];
             if (c.op == Op::set_fly_rot_pos) turns(Kind::mcbsp_turn);

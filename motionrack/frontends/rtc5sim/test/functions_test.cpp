@@ -92,6 +92,14 @@ const Row list_rows[] = {
     listed(Op::set_encoder_speed, [] { set_encoder_speed(1, 900.5, 0.25); }, {1, 900.5, 0.25}),
     listed(Op::set_mcbsp_in_list, [] { set_mcbsp_in_list(2, 1.5); }, {2, 1.5}),
     listed(Op::set_multi_mcbsp_in_list, [] { set_multi_mcbsp_in_list(1, 2, 0); }, {1, 2, 0}),
+    listed(Op::get_mcbsp_list, [] { get_mcbsp_list(); }),
+    listed(Op::set_mcbsp_x_list, [] { set_mcbsp_x_list(1.5); }, {1.5}),
+    listed(Op::set_mcbsp_y_list, [] { set_mcbsp_y_list(-2.5); }, {-2.5}),
+    listed(Op::set_mcbsp_rot_list, [] { set_mcbsp_rot_list(4321); }, {4321}),
+    listed(Op::set_mcbsp_matrix_list, [] { set_mcbsp_matrix_list(); }),
+    listed(Op::apply_mcbsp_list, [] { apply_mcbsp_list(3, 2); }, {3, 2}),
+    listed(Op::set_trigger, [] { set_trigger(2, 7, 44); }, {2, 7, 44}),
+    listed(Op::set_trigger4, [] { set_trigger4(3, 0, 8, 20, 43); }, {3, 0, 8, 20, 43}),
     listed(Op::set_matrix_list, [] { set_matrix_list(1, 0, 1, 0.75, 1); }, {1, 0, 1, 0.75, 1}),
     listed(Op::set_offset_list, [] { set_offset_list(4, 70, -80, 2); }, {4, 70, -80, 2}),
     listed(Op::set_angle_list, [] { set_angle_list(1, 33.5, 1); }, {1, 33.5, 1}),
@@ -166,6 +174,17 @@ const Row control_rows[] = {
          ASSERT_TRUE(c.config_list(50, 60));
          ASSERT_TRUE(c.set_start_list(2));
      }},
+    {"get_mcbsp", [] { rtc5sim_question_us(0), get_mcbsp(), rtc5sim_question_us(10); },
+     [](Engine& c) { c.get_mcbsp(); }},
+    {"disable_laser", [] { disable_laser(); }, [](Engine& c) { c.disable_laser(); }},
+    {"enable_laser", [] { disable_laser(), enable_laser(); }, [](Engine& c) { c.disable_laser(), c.enable_laser(); }},
+    {"set_mcbsp_out", [] { set_mcbsp_out(7, 43); },
+     [](Engine& c) {
+         ASSERT_TRUE(c.set_mcbsp_out(std::array<std::uint32_t, 2>{7, 43}));
+     }},
+    {"set_start_list_pos", [] { set_start_list_pos(2, 7); }, [](Engine& c) { ASSERT_TRUE(c.set_start_list(2, 7)); }},
+    {"load_list", [] { rtc5sim_question_us(0), load_list(0, 9), rtc5sim_question_us(10); },
+     [](Engine& c) { ASSERT_TRUE(c.load_list(0, 9)); }},
     {"select_cor_table", [] { load_correction_file(nullptr, 3, 2), select_cor_table(3, 0); },
      [](Engine& c) {
          ASSERT_TRUE(c.load_correction(rtc5::table_of(rtc5::one_to_one()), 3));
@@ -220,7 +239,19 @@ Did by_library(const Row* control, const Row* in_list) {
     for (UINT i = 0; i < 4; ++i) did.answers.push_back(read_mcbsp(i));
     for (UINT i = 0; i < 8; ++i) did.answers.push_back(read_multi_mcbsp(i));
     get_fly_2d_offset(&e[0], &e[1]);
-    did.answers.insert(did.answers.end(), {e[0], e[1], get_list_space()});
+    did.answers.insert(did.answers.end(), {e[0], e[1], get_list_space(), read_status()});
+    for (const rtc5::SignalInfo& signal : rtc5::map::signals) did.answers.push_back(get_value(signal.number));
+    UINT count = 0;
+    measurement_status(&status, &count);
+    did.answers.insert(did.answers.end(), {status, count});
+    if (++count > 0) {
+        std::vector<std::int32_t> samples(count);
+        get_waveform(2, count, reinterpret_cast<ULONG_PTR>(samples.data()));
+        did.answers.insert(did.answers.end(), samples.begin(), samples.end());
+    }
+    std::int32_t sent = 0;
+    EXPECT_EQ(rtc5sim_sent(1, &sent), 0);
+    did.answers.push_back(sent);
     return did;
 }
 
@@ -248,6 +279,13 @@ Did by_card(const Row* control, const Row* in_list) {
     did.answers.push_back(static_cast<std::int64_t>(card.state().fly_2d_offset.x));
     did.answers.push_back(static_cast<std::int64_t>(card.state().fly_2d_offset.y));
     did.answers.push_back(card.state().lists.input_end - card.input_pointer());
+    did.answers.push_back(card.list_status());
+    for (const rtc5::SignalInfo& signal : rtc5::map::signals)
+        did.answers.push_back(card.get_value(signal.number).value());
+    did.answers.push_back(card.recording().period != 0);
+    did.answers.push_back(static_cast<UINT>(card.recording().count) - 1);
+    for (std::int64_t i = 0; i < card.recording().count; ++i) did.answers.push_back(card.recorded(1, i));
+    did.answers.push_back(card.mcbsp_sent());
     return did;
 }
 

@@ -1,0 +1,82 @@
+// The signals that the RTC5 records (set_trigger), answers (get_value) and sends over McBSP (set_mcbsp_out), by their
+// numbers.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/base/declaration.hpp>
+#include <span>
+#include <string_view>
+
+namespace motionrack::rtc5 {
+
+/// What of a tick is taken.
+enum class Source : std::uint8_t { laser, corrected, z, table, output, transformed, io, count, mark_speed };
+
+struct SignalInfo {
+    std::string_view name;
+    std::uint32_t number = 0;
+    Source source = Source::laser;
+    std::uint8_t head = 0;    ///< 0 A, 1 B; of counts: the encoder
+    std::uint8_t axis = 0;    ///< 0 X, 1 Y
+    bool laser_only = false;  ///< -524288 while the laser is off
+    std::string_view meaning;
+};
+
+namespace map {
+
+inline constexpr SignalInfo signals[] = {
+    {"LASERON", 0, Source::laser, 0, 0, false, "1 while the laser is on, at the tick's end"},
+    {"StatusAX", 1, Source::output, 0, 0, false, "the mirror's position: heads answer with what was put out"},
+    {"StatusAY", 2, Source::output, 0, 1, false, "the same of Y"},
+    {"StatusBX", 4, Source::output, 1, 0, false, "the same of head B"},
+    {"StatusBY", 5, Source::output, 1, 1, false, "the same of head B, Y"},
+    {"SampleX", 7, Source::corrected, 0, 0, false, "X after wobbel and processing on the fly"},
+    {"SampleY", 8, Source::corrected, 0, 1, false, "Y after them"},
+    {"SampleZ", 9, Source::z, 0, 0, false, "Z after them"},
+    {"SampleAX_Corr", 10, Source::table, 0, 0, false, "X of head A behind its correction table"},
+    {"SampleAY_Corr", 11, Source::table, 0, 1, false, "Y"},
+    {"SampleAZ_Corr", 12, Source::z, 0, 0, false, "Z as it is put out"},
+    {"SampleBX_Corr", 13, Source::table, 1, 0, false, "X of head B behind its correction table"},
+    {"SampleBY_Corr", 14, Source::table, 1, 1, false, "Y"},
+    {"SampleBZ_Corr", 15, Source::z, 0, 0, false, "Z as it is put out"},
+    {"StatusAX_LASERON", 16, Source::output, 0, 0, true, "StatusAX while the laser is on, else -524288"},
+    {"StatusAY_LASERON", 17, Source::output, 0, 1, true, "StatusAY"},
+    {"StatusBX_LASERON", 18, Source::output, 1, 0, true, "StatusBX"},
+    {"StatusBY_LASERON", 19, Source::output, 1, 1, true, "StatusBY"},
+    {"SampleAX_Out", 20, Source::output, 0, 0, false, "X of head A as it is put out"},
+    {"SampleAY_Out", 21, Source::output, 0, 1, false, "Y"},
+    {"SampleBX_Out", 22, Source::output, 1, 0, false, "X of head B as it is put out"},
+    {"SampleBY_Out", 23, Source::output, 1, 1, false, "Y"},
+    {"SampleAX_Trans", 25, Source::transformed, 0, 0, false,
+     "X of head A behind its matrix and offset, before the table"},
+    {"SampleAY_Trans", 26, Source::transformed, 0, 1, false, "Y"},
+    {"SampleBX_Trans", 28, Source::transformed, 1, 0, false,
+     "X of head B behind its matrix and offset, before the table"},
+    {"SampleBY_Trans", 29, Source::transformed, 1, 1, false, "Y"},
+    {"DigitalOut16", 35, Source::io, 0, 0, false, "the 16 digital outputs"},
+    {"Encoder0", 43, Source::count, 0, 0, false, "counts"},
+    {"Encoder1", 44, Source::count, 1, 0, false, "counts"},
+    {"MarkSpeed", 45, Source::mark_speed, 0, 0, false, "the mark speed set, bits/ms, rounded"},
+};
+
+constexpr Flaw signals_flaw(std::span<const SignalInfo> all) {
+    if (const Flaw flaw = names_flaw("the signals", "signal", all); !flaw.empty()) return flaw;
+    for (std::size_t i = 1; i < all.size(); ++i)
+        if (all[i].number <= all[i - 1].number) return {"the signal ", all[i].name, " is not at its place"};
+    return {};
+}
+static_assert(declared<signals_flaw(signals)>());
+
+}  // namespace map
+
+/// nullptr: the card has no signal of that number.
+constexpr const SignalInfo* signal_info(std::int64_t number) {
+    for (const SignalInfo& signal : map::signals)
+        if (signal.number == number) return &signal;
+    return nullptr;
+}
+
+inline constexpr std::int64_t record_values = 1 << 21;  ///< of all channels: 2 of 2^20, or 4 of 2^19
+inline constexpr std::int64_t record_channels = 4, sent_signals = 8;
+
+}  // namespace motionrack::rtc5

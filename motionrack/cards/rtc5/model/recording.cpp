@@ -1,0 +1,115 @@
+// Recording of signals, and signals that are sent over McBSP.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <motionrack/cards/rtc5/model/engine.hpp>
+
+namespace motionrack::rtc5 {
+
+namespace {
+
+std::int32_t whole(double v) {
+    return static_cast<std::int32_t>(std::nearbyint(std::clamp(v, -2147483648.0, 2147483647.0)));
+}
+
+}  // namespace
+
+/// set_trigger and set_trigger4.
+void Engine::set_trigger(const Command& c, std::int64_t tick) {
+    Recording& r = state_.recording;
+    r.period = static_cast<std::int64_t>(c.p[0]);
+    if (r.period == 0) return;
+    r.channels = c.op == Op::set_trigger ? 2 : record_channels;
+    r.first = tick;
+    r.count = 0;
+    r.signals = {static_cast<std::int64_t>(c.p[1]), static_cast<std::int64_t>(c.p[2])};
+    if (c.op == Op::set_trigger4) r.signals[2] = static_cast<std::int64_t>(c.p[3]), r.signals[3] = c.head;
+}
+
+/// To the next tick that has a sample if the list goes on running; 0: the present one.
+std::int64_t Engine::ticks_to_sample() const {
+    const Recording& r = state_.recording;
+    if (r.period == 0 || !state_.lists.running || state_.lists.paused) return std::numeric_limits<std::int64_t>::max();
+    const std::int64_t over = (state_.tick - r.first) % r.period;
+    return over == 0 ? 0 : r.period - over;
+}
+
+/// Once the present tick's commands are taken: whether it has a sample.
+bool Engine::samples_now() const {
+    return ticks_to_sample() == 0;
+}
+
+/// The present tick's output is there.
+void Engine::record() {
+    Recording& r = state_.recording;
+    std::int32_t* const to = &recorded_[static_cast<std::size_t>(r.count * r.channels)];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(r.channels); ++i) to[i] = value_of(*signal_info(r.signals[i]));
+    if (++r.count == record_values / r.channels) r.period = 0;
+}
+
+std::int32_t Engine::value_of(const SignalInfo& s) const {
+    if (s.laser_only && !state_.laser.on) return whole(field_least);
+    const Head& head = state_.heads[s.head];
+    const bool no_head = s.head == 1 && head.table == 0;
+    Point p = state_.output.corrected;
+    switch (s.source) {
+        case Source::laser:
+            return state_.laser.on != 0;
+        case Source::corrected:
+            return whole(s.axis == 0 ? p.x : p.y);
+        case Source::z:
+            return whole(state_.output.z);
+        case Source::transformed:
+        case Source::table: {
+            if (no_head) return 0;
+            if (!head.transform.neutral) kernels::transform(&p.x, &p.y, 1, head.transform);
+            if (s.source == Source::transformed) return whole(s.axis == 0 ? p.x : p.y);
+            std::array<std::int32_t, 2> out{};
+            kernels::head(&p.x, &p.y, &out[0], &out[1], 1, table(head.table), {1, 1}, {0, 0});
+            return out[s.axis];
+        }
+        case Source::output:
+            return (s.head == 0 ? state_.output.a : state_.output.b)[s.axis];
+        case Source::io:
+            return static_cast<std::int32_t>(state_.io);
+        case Source::count:
+            return encoder(s.head);
+        case Source::mark_speed:
+            return whole(state_.mark_speed);
+    }
+    return 0;
+}
+
+Result<std::int32_t> Engine::get_value(std::uint32_t signal) const {
+    if (const SignalInfo* const info = signal_info(signal)) return value_of(*info);
+    return fail(Trouble::refused,
+                fmt::format("get_value: the card has no signal of the number {}; nothing was read", signal));
+}
+
+Result<void> Engine::set_mcbsp_out(std::span<const std::uint32_t> signals) {
+    Sender sender{static_cast<std::int64_t>(signals.size()), state_.tick};
+    if (signals.size() > sender.signals.size())
+        return fail(Trouble::refused,
+                    fmt::format("set_mcbsp_out: {} signals, but at most {} are sent in turn; nothing was changed",
+                                signals.size(), sender.signals.size()));
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+        if (signal_info(signals[i]) == nullptr)
+            return fail(
+                Trouble::refused,
+                fmt::format("set_mcbsp_out: the card has no signal of the number {}; nothing was changed", signals[i]));
+        sender.signals[i] = signals[i];
+    }
+    state_.sender = sender;
+    return {};
+}
+
+std::int32_t Engine::mcbsp_sent() const {
+    const Sender& s = state_.sender;
+    const std::int64_t ticks = state_.tick - s.first;
+    if (s.count == 0 || ticks == 0) return 0;
+    return value_of(*signal_info(s.signals[static_cast<std::size_t>((ticks - 1) % s.count)]));
+}
+
+}  // namespace motionrack::rtc5
