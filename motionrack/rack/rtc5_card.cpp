@@ -26,7 +26,8 @@ struct Value {
 constexpr Value values[] = {
     {"STATUS", [](const Engine& e) { return std::int64_t{e.status()}; }},
     {"MARKING_INFO", [](const Engine& e) { return e.state().marking_info; }},
-    {"STARTSTOP_INFO", [](const Engine& e) { return e.state().startstop_info; }},
+    {"STARTSTOP_INFO", [](const Engine& e) { return std::int64_t{e.startstop_info()}; }},
+    {"LIST_STATUS", [](const Engine& e) { return std::int64_t{e.list_status()}; }},
     {"XOUT", [](const Engine& e) { return std::int64_t{e.output().a[0]}; }},
     {"YOUT", [](const Engine& e) { return std::int64_t{e.output().a[1]}; }},
     {"XOUT_B", [](const Engine& e) { return std::int64_t{e.output().b[0]}; }},

@@ -18,14 +18,16 @@ constexpr std::array<FieldInfo, n> fields_of(const BitInfo (&bits)[n]) {
 inline constexpr auto status_fields = fields_of(status_bits);
 inline constexpr auto marking_info_fields = fields_of(marking_info_bits);
 inline constexpr auto startstop_info_fields = fields_of(startstop_info_bits);
+inline constexpr auto list_status_fields = fields_of(list_status_bits);
 
 /// Words that the card answers; it has no bus, and their offsets are numbers only.
 inline constexpr RegisterInfo words[] = {
-    {"STATUS", 0, 32, Access::read, false, "", "answer of read_status, no register on a bus", status_fields},
+    {"STATUS", 0, 32, Access::read, false, "", "answer of get_status, no register on a bus", status_fields},
     {"MARKING_INFO", 4, 32, Access::read_clears, false, "",
      "answer of get_marking_info, which clears all but the LIMIT bits; no register on a bus", marking_info_fields},
     {"STARTSTOP_INFO", 8, 32, Access::read_clears, false, "", "answer of get_startstop_info; no register on a bus",
      startstop_info_fields},
+    {"LIST_STATUS", 12, 32, Access::read, false, "", "answer of read_status, no register on a bus", list_status_fields},
 };
 static_assert(declared<registers_flaw(words)>());
 

@@ -181,9 +181,13 @@ std::uint32_t Engine::get_marking_info() {
     return out;
 }
 
+std::uint32_t Engine::startstop_info() const {
+    return static_cast<std::uint32_t>(state_.startstop_info) | startstop_bit("NO_STOP_SIGNAL") |
+           (state_.laser.disabled ? 0 : startstop_bit("LASER_ENABLED"));
+}
+
 std::uint32_t Engine::get_startstop_info() {
-    const auto out = static_cast<std::uint32_t>(state_.startstop_info) | startstop_bit("NO_STOP_SIGNAL") |
-                     (state_.laser.disabled ? 0 : startstop_bit("LASER_ENABLED"));
+    const std::uint32_t out = startstop_info();
     state_.startstop_info = 0;
     return out;
 }

@@ -161,6 +161,8 @@ class Engine {
     /// What set_multi_mcbsp_in puts to the port: the value of type 3 (mode 0), factor * value / 16384 (mode 1).
     std::int64_t multi_power() const;
     std::uint32_t get_startstop_info();
+    /// The same without clearing.
+    std::uint32_t startstop_info() const;
     /// A signal's value in the last tick.
     Result<std::int32_t> get_value(std::uint32_t signal) const;
     /// The word that was sent in the last tick; 0 while nothing is sent.
