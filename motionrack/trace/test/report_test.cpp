@@ -207,6 +207,25 @@ TEST(Report, NumbersThatAreNotFiniteAreNeverWritten) {
     EXPECT_FALSE(drawing_of(page).empty());
 }
 
+TEST(Report, ShowsPicturesTablesSeriesAndAFileAndNothingOfThemBreaksOut) {
+    ReportData data;
+    data.program_kind = "Job";
+    data.program_name = "<job>";
+    data.pictures.push_back({"<b>A</b>", {"first & last", "second"}, "<svg class=\"mine\"></svg>", true});
+    data.tables.push_back({"T<", "C&", {"H\""}, {}});
+    for (int i = 0; i < 2001; ++i) data.tables[0].rows.push_back({"<i>cell</i>"});
+    data.seconds = {0, 1, 2};
+    data.series.push_back({"Level, mm", "x", {0, 5, 2}, "field", {-6, 6}});
+    data.source = ReportSource{"The <file>", "a = '</pre>'\n\tb\n"};
+    const std::string page = report_html(data);
+    for (const char* seen : {"Job <b>&lt;job&gt;</b>", "&lt;b&gt;A&lt;/b&gt;", "<span>first &amp; last</span><span>second</span>", "<svg class=\"mine\"></svg>", "figure class=\"card wide\"",
+                             "<h2>T&lt;</h2>", "&lt;i&gt;cell&lt;/i&gt;", "and 1 more", "Level, mm", "field -6 ", "a = &#39;&lt;/pre&gt;&#39;\n"})
+        EXPECT_NE(page.find(seen), std::string::npos) << seen;
+    EXPECT_EQ(count(page, "<td class=\"t\">&lt;i&gt;"), 2000U);
+    EXPECT_EQ(drawing_of(page)["charts"].size(), 1U);
+    EXPECT_EQ(page.find("<i>cell"), std::string::npos);
+}
+
 TEST(Report, OfNothingIsAPageAllTheSame) {
     const std::string page = report_html({});
     EXPECT_NE(page.find("<title>Motionrack run</title>"), std::string::npos);
