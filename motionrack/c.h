@@ -112,7 +112,8 @@ MR_API int mr_peek(mr_rack *rack, const char *card, const char *register_name, u
 
 /* Wires are called CARD.PIN ("c1.xlmtp"), NAME.END for the ends of an axis' parts ("X.limit_plus"), or "estop" (low while
  * the button is pressed); the page of the rack file lists pins and ends. A digital wire is 0 or 1: the line's level, so
- * that an input which acts at Low reads 0 while it acts. An analog wire is its value in SI units. */
+ * that an input which acts at Low reads 0 while it acts. An analog wire is its value in SI units; one that carries a
+ * number (an rtc5's xout, yout, mcbsp) is that number. */
 
 /* The level of a wire. MR_BAD_CALL (null, no such wire). */
 MR_API int mr_wire_get(mr_rack *rack, const char *wire, double *value);
@@ -140,16 +141,32 @@ MR_API int mr_wire_set(mr_rack *rack, const char *wire, double value);
  *   home              the same for the home switch
  *   cam               1 while the machine is on its reference cam
  *   drive_v           the voltage at the servo amplifier
+ * Of a belt or a rotary table (mm or deg by its kind):
+ *   position_mm       how far it has gone since the start
+ *   speed_mm_s        how fast it goes, signed
+ *   encoder_counts    what its encoder has shown
+ *   lost_counts       counts that were too quick for the encoder's lines
+ *   word              the sender's last complete word
+ *   parts             parts that have come to the sensor
+ * Of a scan head:
+ *   spot_x_mm         where the mirrors point in the field
+ *   spot_y_mm         the same, Y
+ *   light             1 while the laser shines, else 0
+ *   marked_mm         length of all marks on the part
+ *   energy_j          energy that came to the part
+ *   points            points of marks that are kept
+ *   lost_points       points beyond greatest_points
  * An unknown name is told the ones that there are. MR_BAD_CALL. */
 MR_API int mr_part_get(mr_rack *rack, const char *part_dot_quantity, double *value);
 
 /* Pushes a part by hand: position_mm (position_deg) and position_pulses can be set. A motor in step goes to the nearest
  * place of the same electrical phase, a multiple of four full steps away, as a real one under current does; so read the
- * quantity to see where it came to.
+ * quantity to see where it came to. Of a belt or table speed_mm_s (speed_deg_s) can be set.
  * MR_BAD_CALL; MR_REFUSED (cannot be set; no number; more than 10,000,000 microsteps away). */
 MR_API int mr_part_set(mr_rack *rack, const char *part_dot_quantity, double value);
 
-/* Breaks something on purpose, or mends it: fault "NAME" or "NAME=VALUE" (without a value: 1), target the axis ("X").
+/* Breaks something on purpose, or mends it: fault "NAME" or "NAME=VALUE" (without a value: 1), target the axis ("X") or, for
+ * the last three and those of an encoder's tracks, a belt or table by its name.
  *   motor.stall              the axle is held fast; 0 lets it go
  *   motor.lose_steps         the rotor falls back by about VALUE pulses (whole electrical cycles), at most 10,000,000
  *   motor.push               the rotor is moved by about VALUE microsteps, at most 10,000,000 either way
@@ -170,6 +187,9 @@ MR_API int mr_part_set(mr_rack *rack, const char *part_dot_quantity, double valu
  *   encoder.dirt             VALUE lines of the disc cannot be seen
  *   encoder.overspeed        above VALUE edges a second lines are lost; 0: as it was
  *   encoder.eccentricity     the disc is off its centre by VALUE counts
+ *   drive.speed              a belt or table goes at VALUE mm/s or degrees/s from now on; 0: it stands
+ *   drive.profile            it goes as its rack file says again
+ *   sender.silent            no word comes; 0 mends it
  * MR_BAD_CALL (null, no such fault or target), MR_REFUSED (the axis has no such part; the value). */
 MR_API int mr_fault(mr_rack *rack, const char *fault, const char *target);
 

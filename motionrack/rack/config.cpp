@@ -46,6 +46,11 @@ const RackCard* RackConfig::card(std::string_view card_name) const {
     return found != cards.end() ? &*found : nullptr;
 }
 
+const RackTrack* RackConfig::track(std::string_view track_name) const {
+    const auto found = std::find_if(tracks.begin(), tracks.end(), [&](const RackTrack& t) { return t.name == track_name; });
+    return found != tracks.end() ? &*found : nullptr;
+}
+
 bool RackConfig::positions_alone(const RackAxis& axis) const {
     const RackCard* its = card(axis.card);
     return its != nullptr && find_card_type(its->type)->position_loop;
@@ -74,7 +79,9 @@ control::MachineLimits RackConfig::limits() const {
 std::string RackConfig::end_name(const WireEnd& end) const {
     if (end.owner == EndOwner::estop) return "estop";
     const auto index = static_cast<std::size_t>(end.index);
-    return (end.owner == EndOwner::card ? cards[index].name : std::string(1, axes[index].letter)) + '.' + end.pin;
+    const std::string owner = end.owner == EndOwner::card ? cards[index].name : end.owner == EndOwner::track ? tracks[index].name
+                                                                                                             : std::string(1, axes[index].letter);
+    return owner + '.' + end.pin;
 }
 
 }  // namespace motionrack::rack

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <motionrack/base/result.hpp>
 #include <motionrack/control/limits.hpp>
+#include <motionrack/rack/config_marking.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -262,10 +263,10 @@ struct RackStage {
 
 // ---- Wires ------------------------------------------------------------------------------------------------------
 
-enum class EndOwner : std::uint8_t { card, axis, estop };
+enum class EndOwner : std::uint8_t { card, axis, track, estop };
 
-/// One end of a wire: pin `pin` of cards[index] ("xpp"), end `pin` of axes[index] (see axis_ends()), or the emergency
-/// stop (pin empty).
+/// One end of a wire: pin `pin` of cards[index] ("xpp"), end `pin` of axes[index] (see axis_ends()) or tracks[index] (see
+/// track_ends()), or the emergency stop (pin empty).
 struct WireEnd {
     EndOwner owner = EndOwner::card;
     int index = 0;
@@ -315,6 +316,8 @@ struct RackConfig {
     std::vector<RackCard> cards;  ///< in the order of the file
     std::vector<RackAxis> axes;   ///< in the order X Y Z A B C
     std::vector<RackStage> stages;  ///< in the order of the file
+    std::vector<RackTrack> tracks;  ///< belts, then tables, each in the order of the file
+    std::vector<RackScanner> scanners;  ///< in the order of the file
     std::vector<RackWire> wires;  ///< the default rule with the file's changes; sorted by `to`: cards, axes, pins
     std::vector<WireEnd> open;    ///< inputs of cards that the file leaves open; a contact's input is active then
     std::vector<PulseLink> pulse_links;  ///< follow from `wires`; an axis without one has a motor that nobody drives
@@ -325,6 +328,8 @@ struct RackConfig {
     const RackAxis* axis(char letter) const;
     /// The card of that name, or nullptr.
     const RackCard* card(std::string_view card_name) const;
+    /// The belt or table of that name, or nullptr.
+    const RackTrack* track(std::string_view track_name) const;
     /// Whether the axis is on a card that positions it by itself.
     bool positions_alone(const RackAxis& axis) const;
     /// Whether every axis is on a card that positions it by itself, so that none can move along a path together.

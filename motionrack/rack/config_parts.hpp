@@ -25,6 +25,13 @@ std::span<const Field> homing_fields();      ///< [axis.X.homing] into RackHomin
 std::span<const Field> stage_fields();       ///< [stage.NAME] into RackStage
 std::span<const Field> scale_fields();       ///< [stage.NAME.scale] into RackScale
 std::span<const Field> stage_servo_fields(); ///< [stage.NAME.servo] into RackStageServo
+std::span<const Field> track_fields();       ///< [belt.NAME], [table.NAME] into RackTrack
+std::span<const Field> sender_fields();      ///< [belt.NAME.sender] into parts::SenderSettings
+std::span<const Field> passing_fields();     ///< [belt.NAME.parts] into RackParts
+std::span<const Field> scanner_fields();     ///< [scanner.NAME] into RackScanner
+std::span<const Field> lens_fields();        ///< [scanner.NAME.lens] into RackLens
+std::span<const Field> galvo_fields();       ///< [scanner.NAME.galvo] into parts::GalvoSettings
+std::span<const Field> laser_fields();       ///< [scanner.NAME.laser] into parts::LaserSettings
 std::span<const Field> controller_fields();  ///< [controller] into RackController
 
 /// An end of a wire at an axis' parts.
@@ -38,6 +45,20 @@ struct AxisEnd {
 };
 std::span<const AxisEnd> axis_ends();
 const AxisEnd* find_axis_end(std::string_view name);
+
+/// An end of a wire at a track, an output; without a card's word the default rule leads it to `pin` of its card, "#" for the encoder's number.
+struct TrackEnd {
+    std::string_view name;
+    std::string_view pin;
+    std::string_view doc;
+    bool (*present)(const RackTrack& track);
+    std::string_view needs;
+    int bits = 1;  ///< see PinType
+};
+std::span<const TrackEnd> track_ends();
+
+/// Counts a second that the encoder of a track can show.
+inline constexpr double greatest_track_counts = 1e7;
 
 inline constexpr std::string_view estop_doc = "the emergency stop button: low while it is pressed";
 inline constexpr std::array<std::string_view, 6> axis_names = {"X", "Y", "Z", "A", "B", "C"};
@@ -61,6 +82,10 @@ void check_axes(const RackConfig& config, const std::vector<AxisSource>& sources
 
 /// Reads the sections [stage.NAME] into config.stages and checks them against the cards.
 void read_stages(const TomlNode& stages, RackConfig& config, Problems& problems);
+
+/// Reads the sections [belt.NAME] and [table.NAME] into config.tracks and [scanner.NAME] into config.scanners; each may be nullptr. Checks them
+/// against the cards and each other.
+void read_marking(const TomlNode* belts, const TomlNode* tables, const TomlNode* scanners, RackConfig& config, Problems& problems);
 
 /// Whether wires, faults and reports can call something so: 1 to 32 letters, digits and '_', not beginning with a digit.
 bool is_name(std::string_view name);

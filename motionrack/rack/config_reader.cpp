@@ -10,7 +10,7 @@
 namespace motionrack::rack {
 namespace {
 
-constexpr std::array<std::string_view, 6> top_level = {"rack", "card", "axis", "stage", "controller", "wires"};
+constexpr std::array<std::string_view, 9> top_level = {"rack", "card", "axis", "stage", "belt", "table", "scanner", "controller", "wires"};
 constexpr std::array<std::string_view, 4> axis_tables = {"motor", "servo", "switches", "homing"};
 
 class RackReader {
@@ -23,7 +23,7 @@ class RackReader {
             const std::string hint = problems_.wants_hints() ? did_you_mean(node.key, top_level) : std::string();
             problems_.error(node.key_place,
                             fmt::format("A rack file has no section {}{}", in_quotes(node.key),
-                                        hint.empty() ? ": it has rack, card, axis, stage, controller, wires." : hint));
+                                        hint.empty() ? fmt::format(": it has {}.", fmt::join(top_level, ", ")) : hint));
         }
         if (const TomlNode* node = table("rack"))
             read_fields(*node, rack_fields(), &config_, {"rack", "", "", {}}, problems_);
@@ -34,6 +34,7 @@ class RackReader {
         read_axes();
         check_axes(config_, sources_, problems_);
         if (const TomlNode* stages = table("stage")) read_stages(*stages, config_, problems_);
+        read_marking(table("belt"), table("table"), table("scanner"), config_, problems_);
         resolve_wires(config_, table("wires"), problems_);
         return std::move(config_);
     }

@@ -80,6 +80,8 @@ std::string wires_text() {
                            end.direction == PinDirection::input ? "input" : "output", end.doc,
                            end.needs.empty() ? "always" : with_unit(end.needs, "mm"));
     }
+    for (const TrackEnd& end : track_ends())
+        out += fmt::format("| `NAME.{}` | output | of a belt or table: {} | {} |\n", end.name, end.doc, with_unit(end.needs, "mm"));
     return out + fmt::format("| `estop` | output | {} | always |\n\n", estop_doc);
 }
 
@@ -120,6 +122,29 @@ std::string rack_file_reference() {
     out += "## [stage.NAME.servo]\nWith the section, even an empty one, the card's processor closes a loop through the bus' frames and follows "
            "the profile.\n\n" +
            rows(stage_servo_fields(), &stage_servo, &stage_servo);
+    const RackTrack belt;
+    RackTrack turning;
+    turning.rotary = true;
+    out += "## [belt.NAME], [table.NAME]\nWhat moves the part under a scan head: a belt (mm) or a rotary table (degrees). In place of its speed "
+           "`profile = [[0, 50], [0.5, 120]]`: seconds and speeds, straight between, constant before and after. `motionrack run` and `mr_part_set` "
+           "change the speed: fault `drive.speed`.\n\n" +
+           rows(track_fields(), &belt, &turning);
+    const parts::SenderSettings sender;
+    out += "## [belt.NAME.sender]\nWith the section, even an empty one, a position sender reads the place and gives the card's serial input words. In "
+           "[table.NAME.sender] the same.\n\n" +
+           rows(sender_fields(), &sender, &sender);
+    const RackParts passing;
+    out += "## [belt.NAME.parts]\nWith the section, even an empty one, parts pass a light barrier, which starts the card. In [table.NAME.parts] the "
+           "same.\n\n" +
+           rows(passing_fields(), &passing, &passing);
+    const RackScanner scanner;
+    const RackLens lens;
+    out += "## [scanner.NAME]\nMirrors, lens and laser over a part, which keeps what was marked; driven by a card of type rtc5.\n\n" +
+           rows(scanner_fields(), &scanner, &scanner);
+    out += "## [scanner.NAME.lens]\nWith the section, even an empty one, the field is that of two mirrors and an f-theta lens.\n\n" +
+           rows(lens_fields(), &lens, &lens);
+    out += "## [scanner.NAME.galvo]\n" + rows(galvo_fields(), &scanner.galvo, &scanner.galvo);
+    out += "## [scanner.NAME.laser]\n" + rows(laser_fields(), &scanner.laser, &scanner.laser);
     out += "## [controller]\n" + rows(controller_fields(), &rack.controller, &rack.controller);
     out += wires_text();
     out += "## Card types\n\n";

@@ -29,6 +29,7 @@ class WireResolver {
     WireResolver(const RackConfig& config, Problems& problems) : config_(config), problems_(problems) {
         for (std::size_t i = 0; i < config.cards.size(); ++i) add_card(static_cast<int>(i));
         for (std::size_t i = 0; i < config.axes.size(); ++i) add_axis(static_cast<int>(i));
+        for (std::size_t i = 0; i < config.tracks.size(); ++i) add_track(static_cast<int>(i));
         known_["estop"] = {{EndOwner::estop, 0, ""}, PinDirection::output, logic, {}};
     }
 
@@ -42,6 +43,13 @@ class WireResolver {
                         fmt::format("{}.{}", axis.letter, wire.end));
             }
         }
+        for (const RackTrack& track : config_.tracks)
+            for (const TrackEnd& end : track_ends()) {
+                if (!track.card) continue;
+                std::string pin(end.pin);
+                if (const std::size_t at = pin.find('#'); at != std::string::npos) pin.replace(at, 1, std::to_string(track.encoder));
+                connect(fmt::format("{}.{}", *track.card, pin), fmt::format("{}.{}", track.name, end.name));
+            }
         for (const RackCard& card : config_.cards) {
             const CardType* type = find_card_type(card.type);
             if (type != nullptr && !type->estop_pin.empty())
@@ -103,6 +111,15 @@ class WireResolver {
                     fmt::format("axis {} needs {} to have it", axis.letter, with_unit(end.needs, axis.unit()));
             }
             known_[fmt::format("{}.{}", axis.letter, end.name)] = std::move(known);
+        }
+    }
+
+    void add_track(int index) {
+        const RackTrack& track = config_.tracks[static_cast<std::size_t>(index)];
+        for (const TrackEnd& end : track_ends()) {
+            KnownEnd known{{EndOwner::track, index, std::string(end.name)}, PinDirection::output, end.bits > 1 ? number : logic, {}};
+            if (!end.present(track)) known.missing = fmt::format("{} needs {} to have it", track.name, with_unit(end.needs, track.unit()));
+            known_[fmt::format("{}.{}", track.name, end.name)] = std::move(known);
         }
     }
 

@@ -20,11 +20,12 @@ constexpr std::array<std::string_view, 7> line_faults = {"encoder.inverted_a", "
 
 bool of_lines(std::string_view fault) { return std::find(line_faults.begin(), line_faults.end(), fault) != line_faults.end(); }
 
-/// A part that takes faults: an axis' machine or servo, a stage's motor or scale, or a card.
+/// A part that takes faults: an axis' machine or servo, a stage's motor or scale, a belt or table, or a card.
 struct Found {
     RunningAxis* axis = nullptr;
     Card* card = nullptr;
     RunningStage* stage = nullptr;
+    RunningTrack* track = nullptr;
     std::string_view name;
     double value = 1;
     bool of_servo() const { return axis != nullptr && axis->servo && name.substr(0, 6) == "motor."; }
@@ -51,6 +52,7 @@ std::vector<std::string_view> names_of(const Found& found) {
         out.insert(out.end(), scale.begin(), scale.end());
         return out;
     }
+    if (found.track != nullptr) return found.track->fault_names();
     const auto names = found.card->fault_names();
     return {names.begin(), names.end()};
 }
@@ -72,7 +74,11 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
         if (target == stage.config.name) found.stage = &stage;
         add(stage.config.name);
     }
-    if (found.axis == nullptr && found.card == nullptr && found.stage == nullptr)
+    for (RunningTrack& track : rack.tracks()) {
+        if (target == track.config.name) found.track = &track;
+        add(track.config.name);
+    }
+    if (found.axis == nullptr && found.card == nullptr && found.stage == nullptr && found.track == nullptr)
         return fail(Trouble::bad_input, fmt::format("{} has no faults to inject; these of this rack have: {}. Nothing was done.",
                                                     in_quotes(target), targets.empty() ? "there are none" : targets));
     const std::size_t equals = fault.find('=');
@@ -98,6 +104,7 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
 sim::DeviceId device_of(const Found& found) {
     if (found.card != nullptr) return found.card->device();
     if (found.stage != nullptr) return found.name.substr(0, 6) == "scale." ? found.stage->scale->id() : found.stage->motor->id();
+    if (found.track != nullptr) return found.track->device_of(found.name);
     if (found.of_servo()) return found.axis->servo->id();
     return of_lines(found.name) ? found.axis->lines->id() : found.axis->machine->id();
 }

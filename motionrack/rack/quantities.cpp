@@ -75,15 +75,74 @@ constexpr std::array<StageQuantity, 13> stage_table = {{
     {"unused_frames", "frames that its loop could not use", [](RunningStage& stage, Instant) { return static_cast<double>(stage.loop()->unused()); }, true},
 }};
 
+bool always_there(const RunningTrack&) { return true; }
+bool with_encoder(const RunningTrack& track) { return track.encoder != nullptr; }
+
+constexpr std::string_view track_speed = "speed_{u}_s";
+constexpr std::array<TrackQuantity, 6> track_table = {{
+    {"position_{u}", "how far it has gone since the start",
+     [](RunningTrack& track, Instant now) { return track.track().travel(to_seconds(now)); }, always_there},
+    {track_speed, "how fast it goes, signed", [](RunningTrack& track, Instant now) { return track.track().speed(to_seconds(now)); }, always_there},
+    {"encoder_counts", "what its encoder has shown", [](RunningTrack& track, Instant) { return static_cast<double>(track.encoder->count()); }, with_encoder},
+    {"lost_counts", "counts that were too quick for the encoder's lines",
+     [](RunningTrack& track, Instant) { return static_cast<double>(track.encoder->lost()); }, with_encoder},
+    {"word", "the sender's last complete word", [](RunningTrack& track, Instant) { return static_cast<double>(track.sender->word()); },
+     [](const RunningTrack& track) { return track.sender != nullptr; }},
+    {"parts", "parts that have come to the sensor", [](RunningTrack& track, Instant now) { return static_cast<double>(track.sensor->parts(now)); },
+     [](const RunningTrack& track) { return track.sensor != nullptr; }},
+}};
+
+constexpr std::array<ScannerQuantity, 7> scanner_table = {{
+    {"spot_x_mm", "where the mirrors point in the field", [](RunningScanner& scanner) { return scanner.station().spot().x; }},
+    {"spot_y_mm", "the same, Y", [](RunningScanner& scanner) { return scanner.station().spot().y; }},
+    {"light", "1 while the laser shines, else 0", [](RunningScanner& scanner) { return scanner.station().gate().on() ? 1.0 : 0.0; }},
+    {"marked_mm", "length of all marks on the part", [](RunningScanner& scanner) { return scanner.workpiece().length_mm(); }},
+    {"energy_j", "energy that came to the part", [](RunningScanner& scanner) { return scanner.workpiece().energy_j(); }},
+    {"points", "points of marks that are kept", [](RunningScanner& scanner) { return static_cast<double>(scanner.workpiece().points().size()); }},
+    {"lost_points", "points beyond greatest_points", [](RunningScanner& scanner) { return static_cast<double>(scanner.workpiece().lost_points()); }},
+}};
+
+tl::unexpected<Error> no_quantity(std::string_view part, std::string_view name, const std::vector<std::string>& known) {
+    return fail(Trouble::bad_input, fmt::format("{} has no quantity {}; it has: {}. Nothing was done.", part, in_quotes(name), fmt::join(known, ", ")));
+}
+
 Result<double> stage_quantity(RunningStage& stage, std::string_view name, Instant now) {
-    std::vector<std::string_view> known;
+    std::vector<std::string> known;
     for (const StageQuantity& quantity : stage_table) {
         if (quantity.of_loop && stage.loop() == nullptr) continue;
         if (quantity.name == name) return quantity.get(stage, now);
-        known.push_back(quantity.name);
+        known.emplace_back(quantity.name);
     }
-    return fail(Trouble::bad_input,
-                fmt::format("Stage {} has no quantity {}; it has: {}. Nothing was done.", stage.config.name, in_quotes(name), fmt::join(known, ", ")));
+    return no_quantity("Stage " + stage.config.name, name, known);
+}
+
+Result<double> track_quantity(RunningTrack& track, std::string_view name, Instant now) {
+    std::vector<std::string> known;
+    for (const TrackQuantity& quantity : track_table) {
+        if (!quantity.present(track)) continue;
+        known.push_back(with_unit(quantity.name, track.config.unit()));
+        if (known.back() == name) return quantity.get(track, now);
+    }
+    return no_quantity(track.config.name, name, known);
+}
+
+Result<double> scanner_quantity(RunningScanner& scanner, std::string_view name) {
+    std::vector<std::string> known;
+    for (const ScannerQuantity& quantity : scanner_table) {
+        if (quantity.name == name) return quantity.get(scanner);
+        known.emplace_back(quantity.name);
+    }
+    return no_quantity(scanner.config.name, name, known);
+}
+
+Result<void> set_track_quantity(Rack& rack, const RunningTrack& track, std::string_view name, double value) {
+    const std::string speed = with_unit(track_speed, track.config.unit());
+    if (name != speed)
+        return fail(Trouble::refused, fmt::format("Of {} only {} can be set, not {}. Nothing was done.", track.config.name, speed, in_quotes(name)));
+    if (!(std::fabs(value) <= parts::greatest_track_speed))
+        return fail(Trouble::refused, fmt::format("{}.{} cannot become {}: {:.0f} to {:.0f} are possible. Nothing was done.", track.config.name, speed, value,
+                                                  -parts::greatest_track_speed, parts::greatest_track_speed));
+    return inject_fault(rack, fmt::format("drive.speed={:.17g}", value), track.config.name);
 }
 
 struct Found {
@@ -100,7 +159,12 @@ Result<Found> find(Rack& rack, std::string_view name) {
         if (part.size() == 1 && part[0] == axis.config.letter) found.axis = &axis;
         axes += (axes.empty() ? "" : ", ") + std::string(1, axis.config.letter);
     }
-    for (const RunningStage& stage : rack.stages()) axes += (axes.empty() ? "" : ", ") + stage.config.name;
+    const auto add = [&axes](const auto& parts) {
+        for (const auto& each : parts) axes += (axes.empty() ? "" : ", ") + each.config.name;
+    };
+    add(rack.stages());
+    add(rack.tracks());
+    add(rack.scanners());
     if (found.axis == nullptr || dot == std::string_view::npos)
         return fail(Trouble::bad_input, fmt::format("There is no quantity {}: write PART.QUANTITY, such as X.position_mm; the parts of "
                                                     "this rack are: {}. Nothing was done.",
@@ -122,6 +186,8 @@ Result<Found> find(Rack& rack, std::string_view name) {
 
 std::span<const Quantity> quantities() { return table; }
 std::span<const StageQuantity> stage_quantities() { return stage_table; }
+std::span<const TrackQuantity> track_quantities() { return track_table; }
+std::span<const ScannerQuantity> scanner_quantities() { return scanner_table; }
 
 Result<double> get_quantity(Rack& rack, std::string_view name) {
     const std::size_t dot = std::min(name.find('.'), name.size());
@@ -134,11 +200,18 @@ Result<double> get_quantity(Rack& rack, std::string_view name) {
     }
     if (RunningStage* stage = rack.stage(name.substr(0, dot)); stage != nullptr && dot < name.size())
         return stage_quantity(*stage, name.substr(dot + 1), rack.kernel().now());
+    if (RunningTrack* track = rack.track(name.substr(0, dot)); track != nullptr && dot < name.size())
+        return track_quantity(*track, name.substr(dot + 1), rack.kernel().now());
+    if (RunningScanner* scanner = rack.scanner(name.substr(0, dot)); scanner != nullptr && dot < name.size())
+        return scanner_quantity(*scanner, name.substr(dot + 1));
     MOTIONRACK_TRY(const Found found, find(rack, name));
     return found.quantity->get(*found.axis, rack.kernel().now());
 }
 
 Result<void> set_quantity(Rack& rack, std::string_view name, double value) {
+    const std::size_t dot = std::min(name.find('.'), name.size());
+    if (const RunningTrack* track = rack.track(name.substr(0, dot)); track != nullptr && dot < name.size())
+        return set_track_quantity(rack, *track, name.substr(dot + 1), value);
     MOTIONRACK_TRY(const Found found, find(rack, name));
     if (found.quantity->push == nullptr)
         return fail(Trouble::refused, fmt::format("{} follows from the machine and cannot be set; set the position. Nothing was done.", name));

@@ -29,10 +29,25 @@ struct StageQuantity {
 };
 std::span<const StageQuantity> stage_quantities();
 
+/// The same of a belt or table, and of a scan head.
+struct TrackQuantity {
+    std::string_view name;
+    std::string_view doc;
+    double (*get)(RunningTrack& track, Instant now);
+    bool (*present)(const RunningTrack& track);
+};
+std::span<const TrackQuantity> track_quantities();
+struct ScannerQuantity {
+    std::string_view name;
+    std::string_view doc;
+    double (*get)(RunningScanner& scanner);
+};
+std::span<const ScannerQuantity> scanner_quantities();
+
 /// Errors: bad_input if there is no such part or quantity, with the ones that there are.
 Result<double> get_quantity(Rack& rack, std::string_view part_dot_quantity);
 
-/// Pushes the part there by hand. A motor in step goes to the nearest place of the same electrical phase (a multiple of
+/// Pushes the part there by hand; of a belt or table speed_{u}_s can be set, for good or until the fault drive.profile. A motor in step goes to the nearest place of the same electrical phase (a multiple of
 /// four full steps away), as a real one under current does: read the quantity to see where it came to. Between runs.
 /// Errors: bad_input; refused if it cannot be set, if the value is no number or too far away (see greatest_push).
 Result<void> set_quantity(Rack& rack, std::string_view part_dot_quantity, double value);

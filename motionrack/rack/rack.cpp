@@ -12,9 +12,11 @@ namespace motionrack::rack {
 Rack::Rack(const RackConfig& config) : config_(config) {
     build_cards();
     build_axes();
+    for (const RackTrack& track : config_.tracks) tracks_.push_back(build_track(kernel_, track));
     join_links();
     build_wires();
     build_stages();
+    build_scanners();
 }
 
 Rack::~Rack() = default;
@@ -28,6 +30,18 @@ Card* Rack::card(std::string_view name) {
 RunningStage* Rack::stage(std::string_view name) {
     for (RunningStage& stage : stages_)
         if (stage.config.name == name) return &stage;
+    return nullptr;
+}
+
+RunningTrack* Rack::track(std::string_view name) {
+    for (RunningTrack& track : tracks_)
+        if (track.config.name == name) return &track;
+    return nullptr;
+}
+
+RunningScanner* Rack::scanner(std::string_view name) {
+    for (RunningScanner& scanner : scanners_)
+        if (scanner.config.name == name) return &scanner;
     return nullptr;
 }
 
@@ -128,6 +142,7 @@ std::string Rack::wire_name(const WireEnd& end) const {
     switch (end.owner) {
         case EndOwner::card: return config_.cards[static_cast<std::size_t>(end.index)].name + "." + end.pin;
         case EndOwner::axis: return std::string(1, config_.axes[static_cast<std::size_t>(end.index)].letter) + "." + end.pin;
+        case EndOwner::track: return tracks_[static_cast<std::size_t>(end.index)].wire_name(end.pin);
         case EndOwner::estop: return "estop";
     }
     return {};
@@ -174,6 +189,11 @@ void Rack::build_stages() {
     }
 }
 
+void Rack::build_scanners() {
+    for (const RackScanner& scanner : config_.scanners)
+        scanners_.push_back(build_scanner(kernel_, scanner, scanner.track ? &track(*scanner.track)->drive->track() : nullptr));
+}
+
 /// The wire of an output. The tracks of an encoder are made as wires where the first card asks for them.
 sim::WireId Rack::output_wire(const WireEnd& end) {
     if (end.owner != EndOwner::axis || (end.pin != "enc_a" && end.pin != "enc_b")) return kernel_.find_wire(wire_name(end));
@@ -198,6 +218,7 @@ bool Rack::is_contact(const WireEnd& end) const {
 void Rack::start() {
     kernel_.start();
     started_ = true;
+    for (const RunningScanner& scanner : scanners_) scanner.head->begin();
     while (kernel_.run_until(kernel_.now()) == sim::RunEnd::broken) {
     }
 }
@@ -205,6 +226,7 @@ void Rack::start() {
 void Rack::copy_from(Rack& other) {
     kernel_.restore(other.kernel_.snapshot());
     for (std::size_t i = 0; i < cards_.size(); ++i) cards_[i]->copy_from(*other.cards_[i]);
+    for (std::size_t i = 0; i < scanners_.size(); ++i) scanners_[i].head->copy_points(*other.scanners_[i].head);
 }
 
 Result<control::PathAxes*> Rack::path_axes() {

@@ -4,6 +4,7 @@
 //                       │        └─volts─► servos ──┘   ▲
 //                       ▲   wires (junctions) ◄── switches, cams, index, emergency stop
 //                       └── VirtualPort ◄── driver ◄── axes ◄── controller
+//   belts, tables ──encoders, words──► card of a laser ──x, y, gate──► scan heads over them
 //   grating bus: cards ──frames──► processors ──volts──► stages ──scales──► decoder
 #pragma once
 
@@ -13,6 +14,7 @@
 #include <motionrack/control/positioning.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config.hpp>
+#include <motionrack/rack/marking.hpp>
 #include <motionrack/rack/motions.hpp>
 #include <motionrack/rack/stage.hpp>
 #include <motionrack/sim/input_log.hpp>
@@ -61,6 +63,11 @@ class Rack {
     std::vector<RunningStage>& stages() { return stages_; }
     /// nullptr if there is no such stage.
     RunningStage* stage(std::string_view name);
+    std::vector<RunningTrack>& tracks() { return tracks_; }
+    std::vector<RunningScanner>& scanners() { return scanners_; }
+    /// nullptr if there is no such part.
+    RunningTrack* track(std::string_view name);
+    RunningScanner* scanner(std::string_view name);
     sim::InputLog& input_log() { return log_; }
     /// Takes the state of another rack of the same config. Both are started and between runs.
     void copy_from(Rack& other);
@@ -85,6 +92,7 @@ class Rack {
     void build_axes();
     void build_axis(const RackAxis& axis);
     void build_stages();
+    void build_scanners();
     CardProcessor& processor_of(const std::string& card);
     void join_links();
     void build_wires();
@@ -99,6 +107,8 @@ class Rack {
     std::vector<RunningAxis> axes_;
     std::vector<RunningStage> stages_;
     std::vector<std::pair<std::string, std::unique_ptr<CardProcessor>>> processors_;  // by their cards' names
+    std::vector<RunningTrack> tracks_;
+    std::vector<RunningScanner> scanners_;
     StillMotion still_;  // what turns a motor whose step input is open
     std::vector<std::unique_ptr<MirroredMotion>> mirrored_;
     std::unique_ptr<sim::Junctions> junctions_;

@@ -8,11 +8,12 @@
 namespace motionrack::rack {
 namespace {
 
-constexpr std::array<TemplateVariant, 4> variants = {{
+constexpr std::array<TemplateVariant, 5> variants = {{
     {"router", "three linear axes X Y Z and a rotary table A on the card's fourth channel"},
     {"stage", "two linear axes X Y"},
     {"single", "one linear axis X"},
     {"carriage", "a transfer carriage with a servo on a positioning card"},
+    {"marking", "a laser scan head over a belt, which marks the parts that pass"},
 }};
 
 /// A linear axis with switches 2 mm outside its travel.
@@ -134,24 +135,31 @@ void write_axis(Writer& out, const RackAxis& axis) {
     out.fields(homing_fields(), &axis.homing, &defaults.homing, unit);
 }
 
-/// `type`: of its one card, which is called motion.
-std::string write(RackConfig config, std::string_view card_type = "mcx314") {
+/// The rack and its one card.
+void write_head(Writer& out, const RackConfig& config, const std::string& card_name, std::string_view card_type) {
     RackCard card;
     card.type = card_type;
-    card.name = "motion";
+    card.name = card_name;
     card.slot = 0;
     const CardType& type = *find_card_type(card.type);
-    Writer out;
     out.line(
         "# A rack file: cards, axes, wires. Each comment tells what the key means; its range and unit; its default.");
     const RackConfig defaults;
     const RackCard card_defaults;
     out.section("rack", "the whole machine");
     out.fields(rack_fields(), &config, &defaults, "");
-    out.section("card.motion", fmt::format("a card, by a name of your choice; {}: {}", type.name, type.doc));
+    out.section("card." + card_name, fmt::format("a card, by a name of your choice; {}: {}", type.name, type.doc));
     out.fields(card_fields(), &card, &card_defaults, "");
     RackCard scratch = card_defaults;
     out.fields(type.settings, type.settings_of(card), type.settings_of(scratch), "");
+}
+
+/// `type`: of its one card, which is called motion.
+std::string write(RackConfig config, std::string_view card_type = "mcx314") {
+    const CardType& type = *find_card_type(card_type);
+    Writer out;
+    write_head(out, config, "motion", card_type);
+    const RackConfig defaults;
     for (const RackAxis& axis : config.axes) write_axis(out, axis);
     out.section("controller", "how paths are cut where the part program does not say");
     out.fields(controller_fields(), &config.controller, &defaults.controller, "");
@@ -166,6 +174,39 @@ std::string write(RackConfig config, std::string_view card_type = "mcx314") {
     return out.take();
 }
 
+std::string marking() {
+    RackConfig config;
+    config.name = "laser over a belt";
+    RackTrack line;
+    line.card = "scan";
+    RackScanner head;
+    head.card = "scan";
+    head.track = "line";
+    const RackTrack line_defaults;
+    const RackScanner head_defaults;
+    const RackParts parts;
+    const RackLens lens;
+    Writer out;
+    write_head(out, config, "scan", "rtc5");
+    out.section("belt.line", "what carries the parts, by a name of your choice; [table.NAME] is a rotary table, in degrees");
+    out.fields(track_fields(), &line, &line_defaults, "mm");
+    out.line("# profile = [[0, 0], [0.5, 100]]        # in place of the speed: seconds and speeds, straight between");
+    out.section("belt.line.parts", "parts at equal distances before a light barrier, which starts the card; leave it out and there are none");
+    out.fields(passing_fields(), &parts, &parts, "mm");
+    out.section("scanner.head", "mirrors and laser over the belt, and the part, which keeps what was marked");
+    out.fields(scanner_fields(), &head, &head_defaults, "", {"bits_per_mm"});
+    out.section("scanner.head.lens", "the field's optics; leave it out and the field is straight");
+    out.fields(lens_fields(), &lens, &lens, "");
+    out.section("scanner.head.galvo", "the mirrors");
+    out.fields(galvo_fields(), &head.galvo, &head_defaults.galvo, "");
+    out.section("scanner.head.laser", "the laser behind its gate");
+    out.fields(laser_fields(), &head.laser, &head_defaults.laser, "");
+    out.section("wires", "only what differs from the default rule: input = output that drives it, or \"open\"");
+    out.line("# \"scan.enc0_a\" = \"line.enc_b\"          # the encoder's lines crossed over: it counts backwards");
+    out.line("# \"scan.enc0_b\" = \"line.enc_a\"");
+    return out.take();
+}
+
 }  // namespace
 
 std::span<const TemplateVariant> template_variants() {
@@ -177,6 +218,7 @@ Result<std::string> rack_template(std::string_view variant) {
     if (variant == "stage") return write(stage());
     if (variant == "single") return write(single());
     if (variant == "carriage") return write(carriage(), "databoard4002");
+    if (variant == "marking") return marking();
     std::vector<std::string_view> names;
     for (const TemplateVariant& known : variants) names.push_back(known.name);
     const std::string hint = did_you_mean(variant, names);

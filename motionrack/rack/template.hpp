@@ -14,7 +14,7 @@ struct TemplateVariant {
     std::string_view doc;
 };
 
-/// "router", "stage", "single"; the first is the default.
+/// "router", "stage", "single" ..; the first is the default.
 std::span<const TemplateVariant> template_variants();
 
 /// A complete rack file: every key with its unit, range and default as a comment. It reads without errors or warnings.

@@ -187,8 +187,19 @@ void convert_table(const toml::table& table, TomlNode& to) {
     });
 }
 
+void convert_array(const toml::array& array, TomlNode& to) {
+    to.type = TomlType::array;
+    for (const toml::node& value : array) {
+        TomlNode child;
+        child.key_place = child.value_place = to_place(value.source().begin);
+        convert(value, child);
+        to.children.push_back(std::move(child));
+    }
+}
+
 void convert(const toml::node& from, TomlNode& to) {
     if (const auto* table = from.as_table()) return convert_table(*table, to);
+    if (const auto* array = from.as_array()) return convert_array(*array, to);
     if (const auto* text = from.as_string()) {
         to.type = TomlType::text;
         to.text = text->get();
@@ -202,7 +213,7 @@ void convert(const toml::node& from, TomlNode& to) {
         to.type = TomlType::flag;
         to.flag = flag->get();
     } else {
-        to.type = from.is_array() ? TomlType::array : TomlType::date;
+        to.type = TomlType::date;
     }
 }
 

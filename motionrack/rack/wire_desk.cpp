@@ -16,6 +16,7 @@ WireDesk::WireDesk(Rack& rack) : rack_(rack) {
     wires_["estop"] = {Kind::plain, rack_.kernel().find_wire("estop"), -1, 0, 1, 1, {}};
     add_cards();
     add_axes();
+    add_tracks();
     add_encoders();
     add_ideal_encoders();
 }
@@ -55,6 +56,14 @@ void WireDesk::add_axes() {
             }
             wires_[name] = std::move(wire);
         }
+}
+
+void WireDesk::add_tracks() {
+    for (const RunningTrack& track : rack_.tracks())
+        for (const TrackEnd& end : track_ends())
+            if (end.present(track.config))
+                wires_[fmt::format("{}.{}", track.config.name, end.name)] = {
+                    Kind::plain, rack_.kernel().find_wire(track.wire_name(end.name)), -1, 0, 1, end.bits, {}};
 }
 
 /// The inputs that a link comes in at are no wires of their own while nobody drives them.

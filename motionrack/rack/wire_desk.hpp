@@ -57,6 +57,7 @@ class WireDesk {
 
     void add_cards();
     void add_axes();
+    void add_tracks();
     void add_encoders();
     void add_ideal_encoders();
     const Wire* find(std::string_view name) const;

@@ -33,6 +33,11 @@ void check_config(const RackConfig& config) {
         MOTIONRACK_ASSERT(axis.min_position < axis.max_position);
         MOTIONRACK_ASSERT(axis.start_position >= axis.min_position && axis.start_position <= axis.max_position);
     }
+    for (const RackTrack& track : config.tracks) MOTIONRACK_ASSERT(parts::Track::make(track.settings()));
+    for (const RackScanner& scanner : config.scanners) {
+        MOTIONRACK_ASSERT(config.card(scanner.card) != nullptr && (!scanner.track || config.track(*scanner.track) != nullptr));
+        MOTIONRACK_ASSERT(parts::MarkingStation::make(scanner.settings()));
+    }
     std::set<std::string> driven;
     for (const RackWire& wire : config.wires) {
         MOTIONRACK_ASSERT(driven.insert(config.end_name(wire.to)).second);

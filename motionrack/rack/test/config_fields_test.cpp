@@ -51,6 +51,15 @@ std::vector<FieldCase> all_fields() {
         add(switch_fields(), fmt::format("axis.{}.switches", letter), letter, unit);
         add(homing_fields(), fmt::format("axis.{}.homing", letter), letter, unit);
     }
+    for (const auto& [header, unit] : {std::pair{"belt.line", "mm"}, std::pair{"table.dial", "deg"}}) {
+        add(track_fields(), header, 'X', unit, "rtc5");
+        add(sender_fields(), fmt::format("{}.sender", header), 'X', unit, "rtc5");
+        add(passing_fields(), fmt::format("{}.parts", header), 'X', unit, "rtc5");
+    }
+    add(scanner_fields(), "scanner.head", 'X', "", "rtc5");
+    add(lens_fields(), "scanner.head.lens", 'X', "", "rtc5");
+    add(galvo_fields(), "scanner.head.galvo", 'X', "", "rtc5");
+    add(laser_fields(), "scanner.head.laser", 'X', "", "rtc5");
     return out;
 }
 
@@ -64,6 +73,11 @@ std::string rack_with_field(const FieldCase& c, const std::string& value) {
     };
     const std::string axis = fmt::format("axis.{}", c.axis);
     const std::string card_keys = needs("card.m", "type", fmt::format("\"{}\"", c.type));
+    if (c.header.rfind("scanner", 0) == 0) {
+        if (c.header != "scanner.head") out += "[scanner.head]\n";
+        return out + needs("scanner.head", "card", "\"m\"") + "[card.m]\n" + card_keys;
+    }
+    if (c.header.rfind("belt", 0) == 0 || c.header.rfind("table", 0) == 0) return out + "[card.m]\n" + card_keys;
     if (find_card_type(c.type)->channels.empty()) return out + card_keys;
     const std::string axis_keys = needs(axis, "card", "\"m\"") + needs(axis, "channel", "\"x\"");
     if (c.header == "card.m") return out + card_keys + "[" + axis + "]\n" + axis_keys;
@@ -165,7 +179,7 @@ TEST(RackTemplate, EveryVariantReadsWithoutErrorsOrWarnings) {
 TEST(RackTemplate, NamesTheTemplatesIfThereIsNoSuchOne) {
     const Result<std::string> text = rack_template("routr");
     ASSERT_FALSE(text.has_value());
-    EXPECT_THAT(text.error().message, HasSubstr("router, stage, single, carriage; did you mean 'router'?"));
+    EXPECT_THAT(text.error().message, HasSubstr("router, stage, single, carriage, marking; did you mean 'router'?"));
 }
 
 TEST(RackTemplate, SaysOfEveryKeyItsRangeAndDefault) {
@@ -221,6 +235,7 @@ TEST(RackReference, HasEveryKeyPinAndEnd) {
             }
     }
     for (const AxisEnd& end : axis_ends()) EXPECT_THAT(page, HasSubstr(fmt::format("`X.{}`", end.name)));
+    for (const TrackEnd& end : track_ends()) EXPECT_THAT(page, HasSubstr(fmt::format("`NAME.{}`", end.name)));
 }
 
 TEST(CardTypes, HaveUniquePinsAndChoicesThatTheReaderKnows) {

@@ -38,7 +38,7 @@ Result<void> check(const GalvoSettings& s) {
         return fail(Trouble::refused,
                     fmt::format("mirrors with {} {}: {} to {} are possible", name, value, least, greatest));
     };
-    MOTIONRACK_CHECK(range("a dead time in us of", s.dead_us, 0, 10'000));
+    MOTIONRACK_CHECK(range("a dead time in us of", s.dead_us, 0, greatest_dead_us));
     MOTIONRACK_CHECK(range("a natural frequency in Hz of", s.natural_hz, 10, 20'000));
     MOTIONRACK_CHECK(range("a damping of", s.damping, 0.1, 10));
     return range("a greatest speed in bits/ms of", s.greatest_speed, 1, 1e9);
@@ -48,7 +48,7 @@ GalvoPair::GalvoPair(const GalvoSettings& settings) : settings_(settings), limit
     MOTIONRACK_ASSERT(check(settings).has_value());
     const double w = 2 * pi * settings.natural_hz * tick_s;  // radians a tick
     over_tick_ = exponential_of({0, 1, -w * w, -2 * settings.damping * w});
-    for (Mirror& mirror : mirrors_) mirror.late.assign(static_cast<std::size_t>(settings.dead_us / 10), 0.0);
+    dead_ = static_cast<std::int64_t>(settings.dead_us / 10);
 }
 
 void GalvoPair::reset(double x, double y) {
@@ -62,14 +62,14 @@ void GalvoPair::reset(double x, double y) {
 
 double GalvoPair::lag_us() const {
     if (settings_.ideal) return 0;
-    return static_cast<double>(mirrors_[0].late.size()) * 10 +
+    return static_cast<double>(dead_) * 10 +
            1e6 * 2 * settings_.damping / (2 * pi * settings_.natural_hz);
 }
 
 double GalvoPair::step(Mirror& m, double told) const {
-    if (!m.late.empty()) {
-        std::swap(told, m.late[m.head]);
-        m.head = m.head + 1 == m.late.size() ? 0 : m.head + 1;
+    if (dead_ > 0) {
+        std::swap(told, m.late[static_cast<std::size_t>(m.head)]);
+        m.head = m.head + 1 == dead_ ? 0 : m.head + 1;
     }
     const double off = m.position - told;
     const double position = told + (over_tick_[0] * off + over_tick_[1] * m.speed);

@@ -6,12 +6,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <motionrack/base/result.hpp>
 #include <span>
-#include <vector>
 
 namespace motionrack::parts {
+
+inline constexpr int greatest_dead_us = 10'000;
 
 struct GalvoSettings {
     bool ideal = true;
@@ -37,17 +39,20 @@ class GalvoPair {
     /// How long the mirrors are behind a steady movement, us; to be set as the tracking error.
     double lag_us() const;
 
+    std::span<std::byte> state() { return std::as_writable_bytes(std::span(mirrors_)); }
+
   private:
     struct Mirror {
         double position = 0, speed = 0;  ///< bits, bits/tick
-        std::size_t head = 0;
-        std::vector<double> late;  ///< what was told, the dead time ago
+        std::int64_t head = 0;
+        std::array<double, greatest_dead_us / 10> late{};  ///< what was told, the dead time ago
     };
     double step(Mirror& mirror, double told) const;
 
     GalvoSettings settings_;
     std::array<double, 4> over_tick_{};  ///< (position, speed) relative to the target, one tick later
     double limit_ = 0;                   ///< bits/tick
+    std::int64_t dead_ = 0;              ///< ticks
     std::array<Mirror, 2> mirrors_;
 };
 

@@ -18,14 +18,13 @@ Result<LaserGate> LaserGate::make(const LaserSettings& s) {
 
 void LaserGate::change(std::int64_t half_us, bool on) {
     const double at = static_cast<double>(half_us) / 20 + (on ? settings_.on_delay_us : settings_.off_delay_us) / 10;
+    State& s = state_;
+    const auto last = [&]() -> Edge& { return s.edges[static_cast<std::size_t>((s.head + s.count - 1) % most_waiting)]; };
     // A pulse shorter than the difference of the delays never shines, a gap shorter than it is none.
-    while (edges_.size() > next_ && edges_.back().at >= at) edges_.pop_back();
-    edges_.push_back({at, on});
-}
-
-void LaserGate::forget() {
-    edges_.erase(edges_.begin(), edges_.begin() + static_cast<std::ptrdiff_t>(next_));
-    next_ = 0;
+    while (s.count > 0 && last().at >= at) --s.count;
+    if (s.count == most_waiting) take_first();
+    ++s.count;
+    last() = {at, on};
 }
 
 }  // namespace motionrack::parts

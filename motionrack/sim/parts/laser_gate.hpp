@@ -4,9 +4,11 @@
 //   light  ______|‾‾‾‾‾‾‾|_      each edge later by its own delay
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <motionrack/base/result.hpp>
-#include <vector>
+#include <span>
 
 namespace motionrack::parts {
 
@@ -31,32 +33,43 @@ class LaserGate {
     template <class F>
     void shine(std::int64_t tick, F&& f) {
         double cursor = 0;
-        while (next_ < edges_.size() && edges_[next_].at < static_cast<double>(tick + 1)) {
-            const double at = edges_[next_].at - static_cast<double>(tick);
-            if (on_ && at > cursor) f(Light{cursor, at});
+        while (state_.count > 0 && first().at < static_cast<double>(tick + 1)) {
+            const double at = first().at - static_cast<double>(tick);
+            if (state_.on && at > cursor) f(Light{cursor, at});
             if (at > cursor) cursor = at;
-            on_ = edges_[next_++].on;
+            take_first();
         }
-        if (on_) f(Light{cursor, 1.0});
-        if (next_ > 1024) forget();
+        if (state_.on) f(Light{cursor, 1.0});
     }
     /// Whether it may shine in this tick.
     bool dark(std::int64_t tick) const {
-        return !on_ && (next_ >= edges_.size() || edges_[next_].at >= static_cast<double>(tick + 1));
+        return !state_.on && (state_.count == 0 || first().at >= static_cast<double>(tick + 1));
     }
+    bool on() const { return state_.on != 0; }
     double power_w() const { return settings_.power_w; }
+    std::span<std::byte> state() { return std::as_writable_bytes(std::span(&state_, 1)); }
+
+    /// Changes that may wait for their delay; of more the earliest ones come at once.
+    static constexpr std::int64_t most_waiting = 4096;
 
   private:
     struct Edge {
         double at = 0;  ///< ticks
-        bool on = false;
+        std::int64_t on = 0;
     };
-    void forget();
+    struct State {
+        std::array<Edge, most_waiting> edges{};  ///< a ring from `head`
+        std::int64_t head = 0, count = 0, on = 0;
+    };
+    const Edge& first() const { return state_.edges[static_cast<std::size_t>(state_.head)]; }
+    void take_first() {
+        state_.on = first().on;
+        state_.head = (state_.head + 1) % most_waiting;
+        --state_.count;
+    }
 
     LaserSettings settings_;
-    std::vector<Edge> edges_;
-    std::size_t next_ = 0;
-    bool on_ = false;
+    State state_;
 };
 
 }  // namespace motionrack::parts

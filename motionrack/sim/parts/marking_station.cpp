@@ -12,7 +12,7 @@ constexpr double tick_s = 1e-5;
 
 }  // namespace
 
-Result<MarkingStation> MarkingStation::make(const StationSettings& settings) {
+Result<MarkingStation> MarkingStation::make(const StationSettings& settings, const Track* track) {
     MOTIONRACK_CHECK(check(settings.galvo));
     if (settings.lens) MOTIONRACK_CHECK(sim::check(*settings.lens));
     if (!(settings.bits_per_mm >= 1 && settings.bits_per_mm <= 1e6))
@@ -20,9 +20,16 @@ Result<MarkingStation> MarkingStation::make(const StationSettings& settings) {
     if (!(settings.workpiece.tolerance_mm >= 0 && settings.workpiece.tolerance_mm <= 10))
         return fail(Trouble::refused,
                     fmt::format("a tolerance of {} mm: 0 to 10 are possible", settings.workpiece.tolerance_mm));
-    MOTIONRACK_TRY(Track track, Track::make(settings.track));
+    MOTIONRACK_TRY(Track own, Track::make(settings.track));
     MOTIONRACK_TRY(LaserGate gate, LaserGate::make(settings.laser));
-    return MarkingStation(settings, std::move(track), std::move(gate));
+    return MarkingStation(settings, std::move(own), track, std::move(gate));
+}
+
+std::array<MarkingStation::NamedState, MarkingStation::state_count> MarkingStation::states() {
+    return {{{"mirrors", galvo_.state()},
+             {"laser", gate_.state()},
+             {"marks", workpiece_.state()},
+             {"spot", std::as_writable_bytes(std::span(&last_, 1))}}};
 }
 
 sim::Spot MarkingStation::spot(sim::Spot bits) const {
@@ -57,13 +64,13 @@ void MarkingStation::mark(std::int64_t tick, sim::Spot from, sim::Spot to) {
     gate_.shine(tick, [&](LaserGate::Light light) {
         const auto at = [&](double part) {
             const sim::Spot field{from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)};
-            return track_.on_part(field, begin_s + part * tick_s);
+            return track().on_part(field, begin_s + part * tick_s);
         };
         // The end of a tick is the begin of the next one, to the bit, or a stroke would break: both are computed from
         // the next tick's begin.
         const sim::Spot first = at(light.from);
         const sim::Spot last =
-            light.to == 1 ? track_.on_part(to, static_cast<double>(tick + 1) * tick_s) : at(light.to);
+            light.to == 1 ? track().on_part(to, static_cast<double>(tick + 1) * tick_s) : at(light.to);
         workpiece_.add(first, last, gate_.power_w() * (light.to - light.from) * tick_s, begin_s + light.from * tick_s);
     });
 }

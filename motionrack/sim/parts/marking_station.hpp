@@ -27,8 +27,8 @@ struct StationSettings {
 
 class MarkingStation {
   public:
-    /// Refused as its parts refuse.
-    static Result<MarkingStation> make(const StationSettings& settings);
+    /// Refused as its parts refuse. `track`: in place of that of the settings; must live as long.
+    static Result<MarkingStation> make(const StationSettings& settings, const Track* track = nullptr);
 
     /// The card's gate changes; before the block that has its tick.
     void laser(std::int64_t half_us, bool on) { gate_.change(half_us, on); }
@@ -37,15 +37,30 @@ class MarkingStation {
 
     /// Where the spot is in the field, mm, for mirrors at these bits.
     sim::Spot spot(sim::Spot bits) const;
-    Track& track() { return track_; }
+    /// The same for the mirrors as they are.
+    sim::Spot spot() const { return spot(last_); }
+    /// The laser has no light now and none to come.
+    bool dark(std::int64_t tick) const { return gate_.dark(tick); }
+    const Track& track() const { return outer_ != nullptr ? *outer_ : track_; }
     const GalvoPair& galvo() const { return galvo_; }
+    const LaserGate& gate() const { return gate_; }
     Workpiece& workpiece() { return workpiece_; }
+    const Workpiece& workpiece() const { return workpiece_; }
+
+    /// Its state, for a device that a snapshot asks; valid until it is moved.
+    struct NamedState {
+        const char* name;
+        std::span<std::byte> bytes;
+    };
+    static constexpr std::size_t state_count = 4;
+    std::array<NamedState, state_count> states();
 
   private:
-    MarkingStation(const StationSettings& settings, Track track, LaserGate gate)
+    MarkingStation(const StationSettings& settings, Track track, const Track* outer, LaserGate gate)
         : settings_(settings),
           galvo_(settings.galvo),
           track_(std::move(track)),
+          outer_(outer),
           gate_(std::move(gate)),
           workpiece_(settings.workpiece) {}
     void mark(std::int64_t tick, sim::Spot from, sim::Spot to);
@@ -54,6 +69,7 @@ class MarkingStation {
     StationSettings settings_;
     GalvoPair galvo_;
     Track track_;
+    const Track* outer_ = nullptr;
     LaserGate gate_;
     Workpiece workpiece_;
     std::array<double, chunk> x_{}, y_{};

@@ -23,10 +23,11 @@ class PositionSender {
     static Result<PositionSender> make(const Track& track, const SenderSettings& settings);
     /// The latest complete word at ticks of 10 us: first, first + 1, ..; 0 before the first.
     void words(std::int64_t first_tick, std::span<std::uint32_t> out) const;
+    /// The word of a reading at t_s.
+    std::uint32_t word_at(double t_s) const;
+    const SenderSettings& settings() const { return settings_; }
 
   private:
-    std::uint32_t word_at(double t_s) const;
-
     const Track* track_ = nullptr;
     SenderSettings settings_;
     double cosine_ = 1, sine_ = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/sim/parts/track.hpp>
 
@@ -30,6 +31,17 @@ bool within(double v, double least, double greatest) {
     return v >= least && v <= greatest;
 }
 
+/// The first time at which something has gone `way` (0 or more) upwards; infinity if it never does.
+double time_for(double way, double speed, double accel) {
+    constexpr double never_s = std::numeric_limits<double>::infinity();
+    if (!(way < never_s)) return never_s;
+    const double under = speed * speed + 2 * accel * way;
+    if (under < 0) return never_s;
+    const double root = std::sqrt(under);
+    if (speed + root > 0) return 2 * way / (speed + root);
+    return accel > 0 ? (root - speed) / accel : never_s;
+}
+
 }  // namespace
 
 Result<Track> Track::make(const TrackSettings& s) {
@@ -40,7 +52,7 @@ Result<Track> Track::make(const TrackSettings& s) {
         if (!within(p.at_s, 0, 1e6) || (i > 0 && p.at_s <= s.profile[i - 1].at_s))
             return refuse(fmt::format("point {} of the speed profile is at {} s: times are 0 to 1000000 s and rise",
                                       i + 1, p.at_s));
-        if (!within(p.speed, -1e5, 1e5))
+        if (!within(p.speed, -greatest_track_speed, greatest_track_speed))
             return refuse(fmt::format("point {} of the speed profile has the speed {}: -100000 to 100000 are possible",
                                       i + 1, p.speed));
     }
@@ -69,7 +81,7 @@ Result<Track> Track::make(const TrackSettings& s) {
     return out;
 }
 
-double Track::speed(double t_s) const {
+double Track::law_speed(double t_s) const {
     const auto& p = settings_.profile;
     const auto above =
         std::upper_bound(p.begin(), p.end(), t_s, [](double t, const SpeedPoint& q) { return t < q.at_s; });
@@ -79,7 +91,7 @@ double Track::speed(double t_s) const {
     return a.speed + (b.speed - a.speed) * ((t_s - a.at_s) / (b.at_s - a.at_s));
 }
 
-double Track::travel(double t_s) const {
+double Track::law_travel(double t_s) const {
     const auto& p = settings_.profile;
     if (t_s <= p.front().at_s) return p.front().speed * t_s;
     const auto above =
@@ -88,6 +100,41 @@ double Track::travel(double t_s) const {
     const double dt = t_s - p[i].at_s;
     if (above == p.end()) return travelled_[i] + p[i].speed * dt;
     return travelled_[i] + (p[i].speed + (above->speed - p[i].speed) / (above->at_s - p[i].at_s) * (dt / 2)) * dt;
+}
+
+double Track::speed(double t_s) const {
+    return driving_.by_hand ? driving_.speed : law_speed(t_s);
+}
+
+double Track::travel(double t_s) const {
+    const Driving& d = driving_;
+    return d.travelled + (d.by_hand ? d.speed * (t_s - d.since_s) : law_travel(t_s) - d.law);
+}
+
+void Track::drive(double t_s, double speed) {
+    driving_ = {travel(t_s), 0, t_s, speed, 1};
+}
+
+void Track::follow_profile(double t_s) {
+    driving_ = {travel(t_s), law_travel(t_s), t_s, 0, 0};
+}
+
+double Track::leaves(double from_s, double low, double high) const {
+    constexpr double never_s = std::numeric_limits<double>::infinity();
+    for (;;) {
+        // One piece of even acceleration after the other.
+        const auto& p = settings_.profile;
+        double accel = 0, end_s = never_s;
+        if (!driving_.by_hand) {
+            const auto above = std::upper_bound(p.begin(), p.end(), from_s, [](double t, const SpeedPoint& q) { return t < q.at_s; });
+            if (above != p.end()) end_s = above->at_s;
+            if (above != p.end() && above != p.begin()) accel = (above->speed - (above - 1)->speed) / (above->at_s - (above - 1)->at_s);
+        }
+        const double here = travel(from_s), v = speed(from_s);
+        const double after = std::min(time_for(high - here, v, accel), time_for(here - low, -v, -accel));
+        if (from_s + after <= end_s || end_s == never_s) return from_s + after;
+        from_s = end_s;
+    }
 }
 
 void Track::counts(std::int64_t first_tick, std::span<std::int32_t> out) const {

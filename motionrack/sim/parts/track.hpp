@@ -13,6 +13,9 @@
 
 namespace motionrack::parts {
 
+/// mm/s or degrees/s, either way.
+inline constexpr double greatest_track_speed = 1e5;
+
 struct SpeedPoint {
     double at_s = 0,
            speed = 0;  ///< mm/s or degrees/s; straight between points, constant before the first and after the last
@@ -33,9 +36,15 @@ class Track {
     /// Refused: no profile, times that do not rise, numbers that are none or out of range.
     static Result<Track> make(const TrackSettings& settings);
 
-    /// mm or degrees since 0 s; speed then.
+    /// mm or degrees since 0 s; speed then. Before a change of the drive the present way is continued backwards.
     double travel(double t_s) const;
     double speed(double t_s) const;
+    /// The first time from `from_s` on at which travel() is at or beyond `low` (downwards) or `high` (upwards); infinity if never. Travel is
+    /// between them at `from_s`.
+    double leaves(double from_s, double low, double high) const;
+    /// From t_s on at this speed, at most greatest_track_speed; by the profile again.
+    void drive(double t_s, double speed);
+    void follow_profile(double t_s);
     /// The encoder's counts (wrapping) at ticks of 10 us: first, first + 1, ..
     void counts(std::int64_t first_tick, std::span<std::int32_t> out) const;
     /// The place on the part that is at `field` mm, and back. Part and field are one at travel 0.
@@ -43,7 +52,21 @@ class Track {
     sim::Spot in_field(sim::Spot part, double t_s) const;
     const TrackSettings& settings() const { return settings_; }
 
+    /// What changes of the drive have done.
+    struct Driving {
+        double travelled = 0;     ///< when it was changed last
+        double law = 0;           ///< what the profile's travel was then
+        double since_s = 0;
+        double speed = 0;         ///< by hand
+        std::int64_t by_hand = 0;
+    };
+    Driving& driving() { return driving_; }
+
   private:
+    double law_speed(double t_s) const;
+    double law_travel(double t_s) const;
+
+    Driving driving_;
     TrackSettings settings_;
     std::vector<double> travelled_;  ///< at the profile's points, from 0 s
     double cosine_ = 1, sine_ = 0;

@@ -21,50 +21,58 @@ constexpr double joined_mm = 1e-9;
 void Workpiece::add(sim::Spot from, sim::Spot to, double joules, double begun_s) {
     const sim::Spot piece = minus(to, from);
     const double mm = length_of(piece);
-    length_ += mm;
-    energy_ += joules;
-    const bool joined = collecting_ && length_of(minus(from, end_)) <= joined_mm;
+    state_.length += mm;
+    state_.energy += joules;
+    const bool joined = state_.collecting && length_of(minus(from, state_.end)) <= joined_mm;
     if (joined && mm <= joined_mm) {
-        dwell_j_ += joules;
+        state_.dwell_j += joules;
         return;
     }
-    if (joined && dwell_j_ == 0) {
-        const sim::Spot all = minus(to, start_);
-        const double along = all.x * way_.x + all.y * way_.y, off = all.x * way_.y - all.y * way_.x;
+    if (joined && state_.dwell_j == 0) {
+        const sim::Spot all = minus(to, state_.start);
+        const double along = all.x * state_.way.x + all.y * state_.way.y, off = all.x * state_.way.y - all.y * state_.way.x;
         // Even: as long as the energy says, but for the steps of the card's output.
-        const double expected = collected_j_ > 0 ? joules * (collected_mm_ / collected_j_) : mm;
+        const double expected = state_.collected_j > 0 ? joules * (state_.collected_mm / state_.collected_j) : mm;
         const bool even = std::abs(mm - expected) <= std::max(0.01 * expected, 2 * settings_.tolerance_mm);
-        const bool onwards = piece.x * way_.x + piece.y * way_.y >= 0;
+        const bool onwards = piece.x * state_.way.x + piece.y * state_.way.y >= 0;
         if (even && onwards && along > 0 && std::abs(off) <= settings_.tolerance_mm) {
-            end_ = to;
-            collected_j_ += joules;
-            collected_mm_ += mm;
+            state_.end = to;
+            state_.collected_j += joules;
+            state_.collected_mm += mm;
             return;
         }
     }
     flush();
-    chained_ = joined;
-    collecting_ = true;
-    start_ = from, end_ = to;
-    way_ = mm > 0 ? sim::Spot{piece.x / mm, piece.y / mm} : sim::Spot{};
+    state_.chained = joined;
+    state_.collecting = true;
+    state_.start = from, state_.end = to;
+    state_.way = mm > 0 ? sim::Spot{piece.x / mm, piece.y / mm} : sim::Spot{};
     const bool stands = mm <= joined_mm;
-    collected_j_ = stands ? 0 : joules, collected_mm_ = stands ? 0 : mm;
-    dwell_j_ = stands ? joules : 0;
-    begun_s_ = begun_s;
+    state_.collected_j = stands ? 0 : joules, state_.collected_mm = stands ? 0 : mm;
+    state_.dwell_j = stands ? joules : 0;
+    state_.begun_s = begun_s;
 }
 
 void Workpiece::keep(const MarkedPoint& point) {
-    if (points_.size() < settings_.greatest_points)
-        points_.push_back(point);
-    else
-        ++lost_;
+    if (static_cast<std::size_t>(state_.points) >= settings_.greatest_points) {
+        ++state_.lost;
+        return;
+    }
+    points_.resize(static_cast<std::size_t>(state_.points));
+    points_.push_back(point);
+    ++state_.points;
 }
 
 void Workpiece::flush() {
-    if (!collecting_) return;
-    if (!chained_) keep({start_, 0, 0, begun_s_, true});
-    keep({end_, collected_mm_ > 0 ? collected_j_ / collected_mm_ : 0, dwell_j_, begun_s_, false});
-    collecting_ = false;
+    if (!state_.collecting) return;
+    if (!state_.chained) keep({state_.start, 0, 0, state_.begun_s, true});
+    keep({state_.end, state_.collected_mm > 0 ? state_.collected_j / state_.collected_mm : 0, state_.dwell_j, state_.begun_s, false});
+    state_.collecting = false;
+}
+
+std::optional<Segment> Workpiece::collecting() const {
+    if (!state_.collecting) return std::nullopt;
+    return Segment{state_.start, state_.end};
 }
 
 void Workpiece::finish() {
@@ -76,9 +84,9 @@ Deviation Workpiece::compare(std::span<const Segment> drawing, double step_mm, d
     std::vector<Segment> marked;
     const Nearest wanted(drawing);
     double weights = 0, squares = 0;
-    for (std::size_t i = 1; i < points_.size(); ++i) {
-        if (points_[i].first) continue;
-        const Segment s{points_[i - 1].at, points_[i].at};
+    for (std::size_t i = 1; i < points().size(); ++i) {
+        if (points()[i].first) continue;
+        const Segment s{points()[i - 1].at, points()[i].at};
         marked.push_back(s);
         const sim::Spot way = minus(s.to, s.from);
         const double mm = length_of(way);
@@ -89,7 +97,7 @@ Deviation Workpiece::compare(std::span<const Segment> drawing, double step_mm, d
             const double off = wanted.distance(at);
             weights += mm / looks;
             squares += off * off * (mm / looks);
-            if (off > out.worst_mm) out.worst_mm = off, out.worst_at = at, out.worst_s = points_[i].begun_s;
+            if (off > out.worst_mm) out.worst_mm = off, out.worst_at = at, out.worst_s = points()[i].begun_s;
         }
     }
     if (weights > 0) out.rms_mm = std::sqrt(squares / weights);

@@ -4,9 +4,11 @@
 //   add(from, to, J) ──► strokes: chains of points; straight stretches of even energy are one segment
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/blocks/scan_lens.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,25 +50,37 @@ class Workpiece {
     /// What is being collected becomes points. Before reading.
     void finish();
 
-    std::span<const MarkedPoint> points() const { return points_; }
-    std::uint64_t lost_points() const { return lost_; }
-    double length_mm() const { return length_; }
-    double energy_j() const { return energy_; }
+    std::span<const MarkedPoint> points() const { return std::span(points_).first(static_cast<std::size_t>(state_.points)); }
+    /// What is being collected and no point yet, if anything.
+    std::optional<Segment> collecting() const;
+    std::uint64_t lost_points() const { return static_cast<std::uint64_t>(state_.lost); }
+    double length_mm() const { return state_.length; }
+    double energy_j() const { return state_.energy; }
     /// Marked points against the drawing and the drawing against them, looked at every `step_mm`.
     Deviation compare(std::span<const Segment> drawing, double step_mm = 0.05, double near_mm = 0.1) const;
+
+    /// All but the points themselves: points come only behind others, so that their number says which there were.
+    std::span<std::byte> state() { return std::as_writable_bytes(std::span(&state_, 1)); }
+    /// Makes room for greatest_points: from here on nothing is allocated.
+    void reserve() { points_.reserve(settings_.greatest_points); }
+    /// The points of a work piece whose state was copied.
+    void copy_points(const Workpiece& other) { points_.assign(other.points().begin(), other.points().end()); }
 
   private:
     void keep(const MarkedPoint& point);
     void flush();
 
+    struct State {
+        std::int64_t points = 0, lost = 0;
+        double length = 0, energy = 0;
+        // The segment being collected: from start to end along way (a unit vector).
+        sim::Spot start, end, way;
+        double collected_j = 0, collected_mm = 0, begun_s = 0, dwell_j = 0;
+        std::int64_t collecting = 0, chained = 0;
+    };
     WorkpieceSettings settings_;
-    std::vector<MarkedPoint> points_;
-    std::uint64_t lost_ = 0;
-    double length_ = 0, energy_ = 0;
-    // The segment being collected: from start_ to end_ along way_ (a unit vector).
-    sim::Spot start_, end_, way_;
-    double collected_j_ = 0, collected_mm_ = 0, begun_s_ = 0, dwell_j_ = 0;
-    bool collecting_ = false, chained_ = false;
+    std::vector<MarkedPoint> points_;  // may be more than there are: what came after a snapshot that was restored
+    State state_;
 };
 
 /// Finds the nearest of many segments; their places are sorted into squares.

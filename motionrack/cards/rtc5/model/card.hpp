@@ -10,6 +10,7 @@
 #include <array>
 #include <motionrack/cards/rtc5/model/conditions.hpp>
 #include <motionrack/cards/rtc5/model/engine.hpp>
+#include <motionrack/sim/blocks/held_state.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <string>
 
@@ -39,13 +40,6 @@ class Card final : public sim::Device, private Sink {
     std::span<std::byte> state() override { return sim::bytes_of(engine_.mutable_state()); }
 
   private:
-    /// What belongs to a snapshot beside the engine's state, under a name of its own.
-    class Memory final : public sim::Device {
-      public:
-        void act(Instant) override {}
-        std::span<std::byte> state() override { return bytes; }
-        std::span<std::byte> bytes;
-    };
     /// What the wires have done, and what the laser's wire has yet to do.
     struct Lines {
         std::array<std::int64_t, encoder_count> levels{};  ///< A, B of an encoder as bits 0, 1
@@ -71,7 +65,7 @@ class Card final : public sim::Device, private Sink {
     sim::DeviceId id_{};
     std::array<sim::WireId, std::size(map::pins)> wires_{};
     Lines lines_;
-    Memory lists_, inputs_;
+    sim::HeldState lists_, inputs_;
 };
 
 }  // namespace motionrack::rtc5

@@ -1,0 +1,254 @@
+// The sections [belt.NAME], [table.NAME] and [scanner.NAME] of a rack file: their keys, and what does not fit between them and the cards.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/rack/config_parts.hpp>
+#include <motionrack/sim/parts/word_source.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> track_tables = {"profile", "sender", "parts"};
+constexpr std::array<std::string_view, 3> scanner_tables = {"lens", "galvo", "laser"};
+constexpr std::size_t most_profile_points = 10'000;
+
+constexpr std::array<Field, 9> track_table = {
+    absent_means(field<&RackTrack::card>("card", 1, 32, "", "name of the card (type rtc5) that its lines lead to"), "where [wires] says"),
+    field<&RackTrack::encoder>("encoder", 0, 1, "", "which of the card's encoder inputs its encoder is at"),
+    field<&RackTrack::speed>("speed_{u}_s", -parts::greatest_track_speed, parts::greatest_track_speed, "{u}/s", "how fast it goes"),
+    only_in(field<&RackTrack::direction_deg>("direction_deg", -3'600, 3'600, "deg", "where it goes, from +X counter-clockwise"), "mm"),
+    only_in(field<&RackTrack::centre_x_mm>("centre_x_mm", -1e5, 1e5, "mm", "what it turns about, counter-clockwise"), "deg"),
+    only_in(field<&RackTrack::centre_y_mm>("centre_y_mm", -1e5, 1e5, "mm", "what it turns about"), "deg"),
+    field<&RackTrack::counts_per_unit>("counts_per_{u}", -1e9, 1e9, "", "of its encoder, four a line; negative counts the other way; 0: no encoder"),
+    field<&RackTrack::slip>("slip", -0.5, 0.5, "", "part of the way that the encoder's wheel does not see"),
+    field<&RackTrack::jitter_us>("jitter_us", 0, 1'000, "us", "greatest delay of an edge of the encoder; by chance, the same in every run"),
+};
+
+constexpr std::array<Field, 4> sender_table = {
+    field<&parts::SenderSettings::bits_per_mm>("bits_per_{u}", -1e9, 1e9, "", "resolution"),
+    field<&parts::SenderSettings::period_us>("period_us", 1, 1e6, "us", "between readings"),
+    field<&parts::SenderSettings::delay_us>("delay_us", 0, 1e6, "us", "from a reading to its complete word; less than 255 periods"),
+    only_in(field<&parts::SenderSettings::two_axes>("two_axes", 0, 0, "", "X in the low and Y in the high 16 bits"), "mm"),
+};
+
+constexpr std::array<Field, 3> passing_table = {
+    field<&RackParts::every>("every_{u}", 0.001, 1e6, "{u}", "from part to part"),
+    field<&RackParts::first>("first_{u}", -1e6, 1e6, "{u}", "travel at which the first part comes to the sensor"),
+    field<&RackParts::length>("length_{u}", 0.0001, 1e6, "{u}", "of a part, less than the distance: so long the sensor is low"),
+};
+
+constexpr std::array<Field, 5> scanner_table = {
+    required(field<&RackScanner::card>("card", 1, 32, "", "name of the card (type rtc5) that drives it"), "required"),
+    absent_means(field<&RackScanner::track>("part_on", 1, 32, "", "name of the belt or table that carries the part"), "the part lies still"),
+    field<&RackScanner::bits_per_mm>("bits_per_mm", 1, 1e6, "", "of the field, without a lens"),
+    field<&RackScanner::tolerance_um>("tolerance_um", 0, 10'000, "um", "how far a piece may be off what was marked, where pieces are joined"),
+    field<&RackScanner::greatest_points>("greatest_points", 16, 4'000'000, "", "points of marks that are kept; more are counted only"),
+};
+
+constexpr std::array<Field, 6> lens_table = {
+    field<&RackLens::f1_mm>("f1_mm", 1, 10'000, "mm", "image height for the angle"),
+    field<&RackLens::f2_mm>("f2_mm", -1e5, 1e5, "mm", "for its square"),
+    field<&RackLens::f3_mm>("f3_mm", -1e5, 1e5, "mm", "for its cube"),
+    field<&RackLens::f4_mm>("f4_mm", -1e5, 1e5, "mm", "for its fourth power"),
+    field<&RackLens::calibration_deg>("calibration_deg", 1, 22, "deg", "mechanical deflection at 96 % of the range"),
+    field<&RackLens::bits_per_mm>("bits_per_mm", 1, 1e6, "", "of a corrected field, K"),
+};
+
+constexpr std::array<Field, 5> galvo_table = {
+    field<&parts::GalvoSettings::ideal>("ideal", 0, 1, "", "mirrors without lag"),
+    field<&parts::GalvoSettings::dead_us>("dead_us", 0, parts::greatest_dead_us, "us", "dead time, rounded down to 10 us"),
+    field<&parts::GalvoSettings::natural_hz>("natural_hz", 10, 20'000, "Hz", "natural frequency"),
+    field<&parts::GalvoSettings::damping>("damping", 0.1, 10, "", "1: no overshoot"),
+    field<&parts::GalvoSettings::greatest_speed>("greatest_speed", 1, 1e9, "bits/ms", "speed limit"),
+};
+
+constexpr std::array<Field, 3> laser_table = {
+    field<&parts::LaserSettings::power_w>("power_w", 0, 1e5, "W", "mean power while on"),
+    field<&parts::LaserSettings::on_delay_us>("on_delay_us", 0, 1e5, "us", "from the gate to the light"),
+    field<&parts::LaserSettings::off_delay_us>("off_delay_us", 0, 1e5, "us", "from the gate to the dark"),
+};
+
+bool has_encoder(const RackTrack& track) { return track.has_encoder(); }
+bool has_sender(const RackTrack& track) { return track.sender.has_value(); }
+bool has_parts(const RackTrack& track) { return track.passing.has_value(); }
+
+constexpr std::array<TrackEnd, 5> ends = {{
+    {"enc_a", "enc#_a", "encoder line A", has_encoder, "counts_per_{u} other than 0"},
+    {"enc_b", "enc#_b", "encoder line B", has_encoder, "counts_per_{u} other than 0"},
+    {"mcbsp", "mcbsp", "the sender's last complete word", has_sender, "a section sender", 32},
+    {"mcbsp_frame", "mcbsp_frame", "changes when a word was complete that is equal to the one before", has_sender, "a section sender"},
+    {"sensor_n", "start_n", "light barrier: low while a part is there", has_parts, "a section parts"},
+}};
+
+class MarkingReader {
+  public:
+    MarkingReader(RackConfig& config, Problems& problems) : config_(config), problems_(problems) {}
+
+    void read_track(const TomlNode& node, bool rotary) {
+        node_ = &node;
+        what_ = (rotary ? "table " : "belt ") + printable(node.key, 40);
+        if (!sound_name() || !is_table(node, (rotary ? "table." : "belt.") + node.key)) return;
+        RackTrack track;
+        track.name = node.key;
+        track.rotary = rotary;
+        unit_ = track.unit();
+        kind_ = rotary ? "a table" : "a belt";
+        bool sound = read_fields(node, track_fields(), &track, {what_, unit_, kind_, track_tables}, problems_).empty();
+        if (const TomlNode* sender = node.find("sender")) sound = read_sub(*sender, sender_fields(), &track.sender.emplace()) && sound;
+        if (const TomlNode* row = node.find("parts")) sound = read_sub(*row, passing_fields(), &track.passing.emplace()) && sound;
+        if (const TomlNode* profile = node.find("profile")) sound = read_profile(*profile, track) && sound;
+        if (sound) check(track);
+        config_.tracks.push_back(std::move(track));
+    }
+
+    void read_scanner(const TomlNode& node) {
+        node_ = &node;
+        what_ = "scanner " + printable(node.key, 40);
+        unit_ = kind_ = {};
+        if (!sound_name() || !is_table(node, "scanner." + node.key)) return;
+        RackScanner scanner;
+        scanner.name = node.key;
+        bool sound = read_fields(node, scanner_fields(), &scanner, {what_, "", "", scanner_tables}, problems_).empty();
+        if (const TomlNode* lens = node.find("lens")) sound = read_sub(*lens, lens_fields(), &scanner.lens.emplace()) && sound;
+        if (const TomlNode* galvo = node.find("galvo")) sound = read_sub(*galvo, galvo_fields(), &scanner.galvo) && sound;
+        if (const TomlNode* laser = node.find("laser")) sound = read_sub(*laser, laser_fields(), &scanner.laser) && sound;
+        if (sound) check(scanner);
+        config_.scanners.push_back(std::move(scanner));
+    }
+
+  private:
+    bool sound_name() {
+        const std::string& name = node_->key;
+        const auto called = [&](const auto& parts) { return std::any_of(parts.begin(), parts.end(), [&](const auto& p) { return p.name == name; }); };
+        if (is_name(name) && name != "estop" && name.size() > 1 && !called(config_.cards) && !called(config_.stages) && !called(config_.tracks) &&
+            !called(config_.scanners))
+            return true;
+        problems_.error(node_->key_place, fmt::format("{} cannot be the name of a belt, table or scanner: 2 to 32 letters, digits and '_', not "
+                                                      "beginning with a digit, not the name of a card or another part, not estop.",
+                                                      in_quotes(name)));
+        return false;
+    }
+    bool is_table(const TomlNode& node, const std::string& path) {
+        if (node.type == TomlType::table) return true;
+        problems_.error(node.value_place, fmt::format("{} is {}, but must be a table; write [{}] on a line of its own and its keys below.",
+                                                      printable(path, 60), type_name(node.type), printable(path, 60)));
+        return false;
+    }
+    bool read_sub(const TomlNode& node, std::span<const Field> fields, void* object) {
+        return is_table(node, fmt::format("{} of {}", node.key, what_)) &&
+               read_fields(node, fields, object, {fmt::format("{} of {}", node.key, what_), unit_, kind_, {}}, problems_).empty();
+    }
+    void refuse(const TomlNode& table, std::string_view key, std::string text) {
+        problems_.error(table.place_of(key), fmt::format("{}: {}", what_, text));
+    }
+
+    /// profile = [[0, 50], [0.5, 120]]: seconds and speeds.
+    bool read_profile(const TomlNode& profile, RackTrack& track) {
+        const auto number = [](const TomlNode& node) { return node.type == TomlType::integer ? static_cast<double>(node.integer) : node.number; };
+        const auto is_number = [](const TomlNode& node) { return node.type == TomlType::number || node.type == TomlType::integer; };
+        const auto bad = [&](Place place, std::string text) {
+            problems_.error(place, fmt::format("{}: {}", what_, text));
+            return false;
+        };
+        if (profile.type != TomlType::array || profile.children.empty() || profile.children.size() > most_profile_points)
+            return bad(profile.value_place, fmt::format("profile must be an array of 1 to {} pairs [seconds, speed].", most_profile_points));
+        for (const TomlNode& pair : profile.children) {
+            if (pair.type != TomlType::array || pair.children.size() != 2 || !is_number(pair.children[0]) || !is_number(pair.children[1]))
+                return bad(pair.value_place, "a point of its profile must be a pair [seconds, speed].");
+            track.profile.push_back({number(pair.children[0]), number(pair.children[1])});
+        }
+        if (node_->find(with_unit("speed_{u}_s", track.unit())) != nullptr) return bad(profile.key_place, "a speed and a profile are both given; leave one out.");
+        return true;
+    }
+
+    /// Whether there is such a card.
+    bool check_card(const std::string& name) {
+        const RackCard* card = config_.card(name);
+        if (card == nullptr) return refuse(*node_, "card", fmt::format("there is no card {}.", in_quotes(name))), false;
+        if (card->type == "rtc5" || card->type.empty()) return true;
+        return refuse(*node_, "card", fmt::format("card {} is of type {}; one of type rtc5 marks.", name, card->type)), false;
+    }
+
+    void check(const RackTrack& track) {
+        if (const auto made = parts::Track::make(track.settings()); !made) return refuse(*node_, "profile", made.error().message + ".");
+        if (track.card && check_card(*track.card)) check_pins(track);
+        if (track.sender) check_sender(track);
+        if (track.passing && !(track.passing->length < track.passing->every))
+            refuse(*node_->find("parts"), with_unit("length_{u}", unit_),
+                   fmt::format("a part is {} {} long, but the next one comes after {}.", number_text(track.passing->length), unit_,
+                               number_text(track.passing->every)));
+        double fastest = std::fabs(track.speed);
+        if (!track.profile.empty()) fastest = 0;
+        for (const parts::SpeedPoint& point : track.profile) fastest = std::max(fastest, std::fabs(point.speed));
+        const double counts = fastest * std::fabs(track.counts_per_unit) * (1 - track.slip);
+        if (counts > greatest_track_counts)
+            problems_.warn(node_->place_of(with_unit("counts_per_{u}", unit_)),
+                              fmt::format("{}: its encoder makes {:.0f} counts/s at {} {}/s, but its lines show {:.0f} at most; counts will be lost.",
+                                          what_, counts, number_text(fastest), unit_, greatest_track_counts));
+    }
+
+    /// Two tracks at one pin would drive against each other.
+    void check_pins(const RackTrack& track) {
+        for (const RackTrack& other : config_.tracks) {
+            if (other.card != track.card) continue;
+            if (track.has_encoder() && other.has_encoder() && other.encoder == track.encoder)
+                refuse(*node_, "encoder", fmt::format("encoder input {} of card {} has the encoder of {} already.", track.encoder, *track.card, other.name));
+            if (track.sender && other.sender) refuse(*node_, "sender", fmt::format("the sender of {} is at card {} already.", other.name, *track.card));
+            if (track.passing && other.passing) refuse(*node_, "parts", fmt::format("the parts of {} start card {} already.", other.name, *track.card));
+        }
+    }
+
+    void check_sender(const RackTrack& track) {
+        const parts::SenderSettings& s = *track.sender;
+        const TomlNode& table = *node_->find("sender");
+        if (s.bits_per_mm == 0) return refuse(table, with_unit("bits_per_{u}", unit_), "a sender with 0 bits measures nothing.");
+        const double most = static_cast<double>(parts::WordSource::most_under_way - 1) * s.period_us;
+        if (!(s.delay_us < most))
+            return refuse(table, "delay_us", fmt::format("a delay of {} us with a reading every {} us is too long; less than {} us is possible.",
+                                                         number_text(s.delay_us), number_text(s.period_us), number_text(most)));
+        const parts::Track made = *parts::Track::make(track.settings());
+        if (const auto sender = parts::PositionSender::make(made, s); !sender) refuse(*node_, "sender", sender.error().message + ".");
+    }
+
+    void check(const RackScanner& scanner) {
+        if (scanner.track && config_.track(*scanner.track) == nullptr)
+            refuse(*node_, "part_on", fmt::format("there is no belt or table {}.", in_quotes(*scanner.track)));
+        check_card(scanner.card);
+        for (const RackScanner& other : config_.scanners)
+            if (other.card == scanner.card) refuse(*node_, "card", fmt::format("card {} drives scanner {} already.", scanner.card, other.name));
+        if (scanner.lens && node_->find("bits_per_mm") != nullptr) refuse(*node_, "bits_per_mm", "with a lens its bits_per_mm stand in the table lens.");
+        if (const auto made = parts::MarkingStation::make(scanner.settings()); !made)
+            refuse(*node_, scanner.lens ? "lens" : "galvo", made.error().message + ".");
+    }
+
+    RackConfig& config_;
+    Problems& problems_;
+    const TomlNode* node_ = nullptr;
+    std::string what_;  // "belt line"
+    std::string unit_, kind_;
+};
+
+}  // namespace
+
+std::span<const Field> track_fields() { return track_table; }
+std::span<const Field> sender_fields() { return sender_table; }
+std::span<const Field> passing_fields() { return passing_table; }
+std::span<const Field> scanner_fields() { return scanner_table; }
+std::span<const Field> lens_fields() { return lens_table; }
+std::span<const Field> galvo_fields() { return galvo_table; }
+std::span<const Field> laser_fields() { return laser_table; }
+std::span<const TrackEnd> track_ends() { return ends; }
+
+void read_marking(const TomlNode* belts, const TomlNode* tables, const TomlNode* scanners, RackConfig& config, Problems& problems) {
+    MarkingReader reader(config, problems);
+    if (belts != nullptr)
+        for (const TomlNode& node : belts->children) reader.read_track(node, false);
+    if (tables != nullptr)
+        for (const TomlNode& node : tables->children) reader.read_track(node, true);
+    if (scanners != nullptr)
+        for (const TomlNode& node : scanners->children) reader.read_scanner(node);
+}
+
+}  // namespace motionrack::rack

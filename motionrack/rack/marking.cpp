@@ -1,0 +1,110 @@
+// Belts, tables and scan heads from their settings.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/marking.hpp>
+
+namespace motionrack::rack {
+
+namespace {
+
+constexpr double places_per_unit = 1e6;  // of the parts: nm, or millionths of a degree
+/// Faults of the encoder's lines; see parts::LineOutput.
+constexpr std::array<std::string_view, 7> encoder_faults = {"encoder.broken_a", "encoder.broken_b", "encoder.swapped", "encoder.inverted_a",
+                                                            "encoder.inverted_b", "encoder.noise",    "encoder.jitter"};
+
+std::int64_t places(double units) {
+    return static_cast<std::int64_t>(std::floor(units * places_per_unit + 0.5));
+}
+
+bool begins_with(std::string_view text, std::string_view begin) {
+    return text.substr(0, begin.size()) == begin;
+}
+
+}  // namespace
+
+parts::TrackSettings RackTrack::settings() const {
+    parts::TrackSettings out;
+    out.rotary = rotary;
+    out.direction_deg = direction_deg;
+    out.centre_mm = {centre_x_mm, centre_y_mm};
+    out.profile = profile;
+    if (profile.empty()) out.profile = {{0, speed}};
+    if (has_encoder()) out.counts_per_unit = counts_per_unit;
+    out.slip = slip;
+    return out;
+}
+
+parts::StationSettings RackScanner::settings() const {
+    parts::StationSettings out;
+    out.galvo = galvo;
+    if (lens) out.lens = lens->lens();
+    out.bits_per_mm = bits_per_mm;
+    out.laser = laser;
+    out.track.profile = {{0, 0}};
+    out.workpiece = {tolerance_um * 1e-3, static_cast<std::size_t>(greatest_points)};
+    return out;
+}
+
+std::string RunningTrack::wire_name(std::string_view end) const {
+    if (begins_with(end, "enc_")) return fmt::format("{}.encoder.{}", config.name, end.substr(4));
+    return fmt::format("{}.{}", config.name, end);
+}
+
+std::vector<std::string_view> RunningTrack::fault_names() const {
+    const auto drive_names = parts::TrackDrive::fault_names(), sender_names = parts::WordSource::fault_names();
+    std::vector<std::string_view> out(drive_names.begin(), drive_names.end());
+    if (encoder) out.insert(out.end(), encoder_faults.begin(), encoder_faults.end());
+    if (sender) out.insert(out.end(), sender_names.begin(), sender_names.end());
+    return out;
+}
+
+sim::DeviceId RunningTrack::device_of(std::string_view fault) const {
+    if (encoder && begins_with(fault, "encoder.")) return encoder->id();
+    return sender && begins_with(fault, "sender.") ? sender->id() : drive->id();
+}
+
+RunningTrack build_track(sim::Kernel& kernel, const RackTrack& config) {
+    RunningTrack out;
+    out.config = config;
+    const Result<parts::Track> track = parts::Track::make(config.settings());
+    MOTIONRACK_ASSERT(track.has_value());  // read_rack has looked
+    out.drive = std::make_unique<parts::TrackDrive>(kernel, config.name, *track);
+    if (config.has_encoder()) {
+        out.counts = std::make_unique<parts::TrackMotion>(kernel, config.name + ".counts", out.track(), config.counts_per_unit * (1 - config.slip));
+        out.drive->add(*out.counts);
+        parts::LineEncoderSettings lines;
+        lines.index = false;
+        lines.fastest = from_seconds(1 / greatest_track_counts);
+        out.encoder = std::make_unique<parts::LineEncoder>(kernel, config.name + ".encoder", *out.counts, lines);
+        if (config.jitter_us > 0) out.encoder->fault("jitter", config.jitter_us * 1e-6, Instant{0});
+    }
+    if (config.sender) {
+        const Result<parts::PositionSender> sender = parts::PositionSender::make(out.track(), *config.sender);
+        MOTIONRACK_ASSERT(sender.has_value());
+        out.sender = std::make_unique<parts::WordSource>(kernel, config.name + ".sender", config.name, *sender);
+    }
+    if (config.passing) {
+        out.place = std::make_unique<parts::TrackMotion>(kernel, config.name + ".place", out.track(), places_per_unit);
+        out.drive->add(*out.place);
+        const parts::PartSensorSettings sensor{places(config.passing->first), places(config.passing->every), places(config.passing->length)};
+        out.sensor = std::make_unique<parts::PartSensor>(kernel, config.name + ".sensor", config.name + ".sensor_n", *out.place, sensor);
+    }
+    return out;
+}
+
+RunningScanner build_scanner(sim::Kernel& kernel, const RackScanner& config, const parts::Track* track) {
+    Result<parts::MarkingStation> station = parts::MarkingStation::make(config.settings(), track);
+    MOTIONRACK_ASSERT(station.has_value());  // read_rack has looked
+    const auto wire = [&](const char* pin) { return kernel.find_wire(config.card + "." + pin); };
+    RunningScanner out;
+    out.config = config;
+    out.head = std::make_unique<parts::ScanHead>(kernel, config.name, parts::ScanHeadWires{wire("xout"), wire("yout"), wire("laser_on")},
+                                                 std::move(*station));
+    return out;
+}
+
+}  // namespace motionrack::rack

@@ -1,0 +1,16 @@
+// State beside that of a device: more bytes of a snapshot, under a name of their own.
+#pragma once
+
+#include <motionrack/sim/device.hpp>
+
+namespace motionrack::sim {
+
+/// Does nothing but hold `bytes`, which must live as long and not move.
+class HeldState final : public Device {
+  public:
+    void act(Instant) override {}
+    std::span<std::byte> state() override { return bytes; }
+    std::span<std::byte> bytes;
+};
+
+}  // namespace motionrack::sim

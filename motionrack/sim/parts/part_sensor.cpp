@@ -1,0 +1,39 @@
+// Which part is at the sensor.
+#include <algorithm>
+#include <motionrack/base/result.hpp>
+#include <motionrack/sim/parts/part_sensor.hpp>
+#include <motionrack/sim/parts/range.hpp>
+
+namespace motionrack::parts {
+
+PartSensor::PartSensor(sim::Kernel& kernel, const std::string& name, const std::string& wire, sim::Motion& place,
+                       const PartSensorSettings& settings)
+    : kernel_(kernel),
+      place_(place),
+      settings_(settings),
+      id_(kernel.add(*this, sim::Phase::parts, name)),
+      wire_(kernel.add_wire(wire, 1)),
+      slot_(place.listen(*this)) {
+    MOTIONRACK_ASSERT(settings.every > 0 && settings.length > 0 && settings.length < settings.every);
+    kernel.schedule(id_, Instant{0});
+}
+
+/// Of the part whose edge has come last; negative: before the first one.
+std::int64_t PartSensor::number(std::int64_t place) const {
+    return floor_div(Wide{place} - settings_.first, settings_.every);
+}
+
+std::int64_t PartSensor::parts(Instant now) const {
+    return std::max<std::int64_t>(number(place_.count(now)) + 1, 0);
+}
+
+void PartSensor::look(Instant now) {
+    const std::int64_t place = place_.count(now), n = number(place);
+    const std::int64_t edge = settings_.first + n * settings_.every, end = edge + settings_.length;
+    const bool there = n >= 0 && place < end;
+    kernel_.set_wire(wire_, there ? 0 : 1);
+    // Left at the count before, and at the count itself: see Motion::watch.
+    place_.watch(slot_, (place < end ? edge : end) - 1, place < end ? end : edge + settings_.every);
+}
+
+}  // namespace motionrack::parts

@@ -1,0 +1,33 @@
+// The speed of a track, changed.
+#include <array>
+#include <cmath>
+#include <motionrack/sim/parts/track_drive.hpp>
+
+namespace motionrack::parts {
+
+namespace {
+constexpr std::array<std::string_view, 2> all_faults = {"drive.speed", "drive.profile"};
+}
+
+TrackDrive::TrackDrive(sim::Kernel& kernel, const std::string& name, const Track& track)
+    : track_(track), id_(kernel.add(*this, sim::Phase::parts, name)) {}
+
+std::span<const std::string_view> TrackDrive::fault_names() {
+    return all_faults;
+}
+
+bool TrackDrive::fault(std::string_view name, double value, Instant now) {
+    const bool by_hand = name == all_faults[0];
+    if (!by_hand && name != all_faults[1]) return false;
+    if (!(std::fabs(value) <= greatest_track_speed)) return false;
+    for (TrackMotion* motion : motions_) motion->hand_over_edges();
+    const double before = track_.speed(to_seconds(now));
+    if (by_hand)
+        track_.drive(to_seconds(now), value);
+    else
+        track_.follow_profile(to_seconds(now));
+    for (TrackMotion* motion : motions_) motion->changed(before);
+    return true;
+}
+
+}  // namespace motionrack::parts

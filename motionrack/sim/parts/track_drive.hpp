@@ -1,0 +1,38 @@
+// What drives a track in virtual time, so that its speed can be changed by hand: from now on so fast, or as its profile says again.
+//
+//   TrackDrive ──► Track ──► TrackMotion (counts of an encoder), TrackMotion (place of the parts), ScanHead, WordSource
+//
+// The faults: drive.speed x (x mm/s or degrees/s from now on; 0: it stands), drive.profile (its own profile again).
+#pragma once
+
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/parts/track.hpp>
+#include <motionrack/sim/parts/track_motion.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::parts {
+
+class TrackDrive final : public sim::Device {
+  public:
+    /// Adds the device `name` to the kernel, before it starts.
+    TrackDrive(sim::Kernel& kernel, const std::string& name, const Track& track);
+
+    const Track& track() const { return track_; }
+    sim::DeviceId id() const { return id_; }
+    /// Before the start: hears that the speed has changed.
+    void add(TrackMotion& motion) { motions_.push_back(&motion); }
+    static std::span<const std::string_view> fault_names();
+
+    void act(Instant) override {}
+    std::span<std::byte> state() override { return sim::bytes_of(track_.driving()); }
+    bool fault(std::string_view name, double value, Instant now) override;
+
+  private:
+    Track track_;
+    std::vector<TrackMotion*> motions_;
+    sim::DeviceId id_{};
+};
+
+}  // namespace motionrack::parts

@@ -1,0 +1,120 @@
+// When a track's count is left.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <motionrack/base/result.hpp>
+#include <motionrack/sim/parts/track_motion.hpp>
+
+namespace motionrack::parts {
+
+namespace {
+
+constexpr double ticks_per_s = 1e10;
+constexpr double endless_s = static_cast<double>(never.count()) / ticks_per_s;
+
+}  // namespace
+
+TrackMotion::TrackMotion(sim::Kernel& kernel, const std::string& name, const Track& track, double counts_per_unit)
+    : kernel_(kernel), track_(track), per_unit_(counts_per_unit), id_(kernel.add(*this, sim::Phase::parts, name)) {
+    MOTIONRACK_ASSERT(counts_per_unit != 0);
+}
+
+std::int64_t TrackMotion::count(Instant t) const {
+    return static_cast<std::int64_t>(std::floor(track_.travel(to_seconds(t)) * per_unit_));
+}
+
+double TrackMotion::rate(Instant t) const {
+    return track_.speed(to_seconds(t)) * per_unit_;
+}
+
+/// The first instant at or after `from` at which the count is out of the range; it is in it at `from`.
+Instant TrackMotion::leaves(const Range& range, Instant from) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double low = range.below == sim::unwatched_below ? -infinity : static_cast<double>(range.below + 1) / per_unit_;
+    double high = range.above == sim::unwatched_above ? infinity : static_cast<double>(range.above) / per_unit_;
+    if (per_unit_ < 0) {
+        low = range.above == sim::unwatched_above ? -infinity : static_cast<double>(range.above) / per_unit_;
+        high = range.below == sim::unwatched_below ? infinity : static_cast<double>(range.below + 1) / per_unit_;
+    }
+    const double at_s = track_.leaves(to_seconds(from), low, high);
+    if (!(at_s < endless_s / 2)) return never;
+    // The solution is near; the instant is the first tick of which the count itself says so.
+    const Instant first = from + Duration{1};
+    Instant at = std::max(first, Instant{static_cast<std::int64_t>(at_s * ticks_per_s)});
+    Duration step{1};
+    while (!range.left(count(at)) && step.count() < 1'000'000) at += step, step *= 2;
+    while (at > first && range.left(count(at - Duration{1}))) at -= Duration{1};
+    return at;
+}
+
+void TrackMotion::schedule(Instant now) {
+    Range all;
+    for (int i = 0; i < listener_count_; ++i) all = all.within(state_.watches[static_cast<std::size_t>(i)]);
+    kernel_.schedule(id_, all.left(count(now)) ? now : leaves(all, now));
+}
+
+void TrackMotion::act(Instant now) {
+    for (int i = 0; i < listener_count_; ++i) {
+        Range& watch = state_.watches[static_cast<std::size_t>(i)];
+        if (!watch.left(count(now))) continue;
+        watch = {};
+        listeners_[static_cast<std::size_t>(i)]->crossed(now);
+    }
+    schedule(now);
+}
+
+void TrackMotion::changed(double before) {
+    const Instant now = kernel_.now();
+    const double after = rate(now);
+    for (int i = 0; i < listener_count_; ++i) listeners_[static_cast<std::size_t>(i)]->rate_changed(before, after, now);
+    schedule(now);
+}
+
+void TrackMotion::watch(int slot, std::int64_t below, std::int64_t above) {
+    state_.watches[static_cast<std::size_t>(slot)] = {below, above};
+    schedule(kernel_.now());
+}
+
+int TrackMotion::listen(sim::MotionListener& listener) {
+    MOTIONRACK_ASSERT(listener_count_ < slots);
+    listeners_[static_cast<std::size_t>(listener_count_)] = &listener;
+    return listener_count_++;
+}
+
+void TrackMotion::listen_edges(sim::EdgeListener* listener) {
+    state_.handed = kernel_.now();
+    state_.handed_count = count(state_.handed);
+    edges_ = listener;
+}
+
+/// The edges since they were handed over last, each found by itself.
+void TrackMotion::hand_over(Instant now) {
+    Instant at = state_.handed;
+    state_.handed = now;
+    if (edges_ == nullptr) return;
+    batch_.size = 0;
+    batch_.tick = Duration{1};
+    std::int64_t& here = state_.handed_count;
+    for (;;) {
+        const Range stay{here - 1, here + 1};
+        const Instant next = leaves(stay, at);
+        if (next <= now && !stay.left(count(next))) {
+            at = next;
+            continue;
+        }
+        const int step = next <= now && count(next) > here ? 1 : -1;
+        const bool fits = batch_.size > 0 && batch_.size < sim::EdgeBatch::capacity && step == batch_.step &&
+                          (next - batch_.origin).count() <= 0xFFFF'FFFF;
+        if (batch_.size > 0 && (next > now || !fits)) {
+            edges_->edges(batch_);
+            batch_.size = 0;
+        }
+        if (next > now) return;
+        if (batch_.size == 0) batch_.origin = next, batch_.step = step, batch_.first_count = here + step;
+        batch_.at[batch_.size++] = static_cast<std::uint32_t>((next - batch_.origin).count());
+        here += step;
+        at = next;
+    }
+}
+
+}  // namespace motionrack::parts

@@ -1,0 +1,60 @@
+// A track as a motion in virtual time: its travel in counts, with the instants at which a count is left.
+//
+//   Track (travel as a function of time) ──► floor(travel * counts a unit) ──► encoder, part sensor
+//
+// The count is a closed form of the time; nothing is done for a count that nobody watches.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/parts/range.hpp>
+#include <motionrack/sim/parts/track.hpp>
+#include <string>
+
+namespace motionrack::parts {
+
+class TrackMotion final : public sim::Device, public sim::Motion {
+  public:
+    /// Adds the device `name` to the kernel, before it starts. `track` must live as long; not 0 counts a unit.
+    TrackMotion(sim::Kernel& kernel, const std::string& name, const Track& track, double counts_per_unit);
+
+    std::int64_t count(Instant t) const override;
+    double rate(Instant t) const override;
+    void watch(int slot, std::int64_t below, std::int64_t above) override;
+    int listen(sim::MotionListener& listener) override;
+    void listen_edges(sim::EdgeListener* listener) override;
+    void hand_over_edges() override { hand_over(kernel_.now()); }
+
+    /// The track goes otherwise from now on; `before`: rate() until now. Edges up to now must have been handed over.
+    void changed(double before);
+
+    void act(Instant now) override;
+    void sync(Instant now) override { hand_over(now); }
+    std::span<std::byte> state() override { return sim::bytes_of(state_); }
+
+  private:
+    static constexpr int slots = sim::Motion::max_listeners;
+    struct State {
+        std::array<Range, slots> watches{};
+        Instant handed{};
+        std::int64_t handed_count = 0;  ///< after the last edge handed over
+    };
+
+    Instant leaves(const Range& range, Instant from) const;
+    void schedule(Instant now);
+    void hand_over(Instant now);
+
+    sim::Kernel& kernel_;
+    const Track& track_;
+    double per_unit_;
+    sim::DeviceId id_{};
+    State state_{};
+    std::array<sim::MotionListener*, slots> listeners_{};
+    int listener_count_ = 0;
+    sim::EdgeListener* edges_ = nullptr;
+    sim::EdgeBatch batch_{};
+};
+
+}  // namespace motionrack::parts
