@@ -71,6 +71,9 @@ UINT n_load_list(UINT CardNo, UINT ListNo, UINT Pos) {
     return question(__func__, CardNo, UINT{},
                     [&](Card& card) -> Result<UINT> { return card.engine.load_list(ListNo, Pos); });
 }
+void n_load_sub(UINT CardNo, UINT Index) {
+    call(__func__, CardNo, &rtc5::Engine::load_sub, Index);
+}
 UINT n_get_input_pointer(UINT CardNo) {
     return with_card(__func__, CardNo, UINT{},
                      [&](Card& card) -> Result<UINT> { return static_cast<UINT>(card.engine.input_pointer()); });

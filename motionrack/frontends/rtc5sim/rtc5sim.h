@@ -104,13 +104,15 @@ RTC5_API long load_fly_2d_table(const char* Name, UINT No);
  * then no list is open. Pos of these and of execute_list_pos counts from the list's begin, behind its end it is 0; Pos
  * elsewhere counts from 0 over all lists. Mem2 of config_list may be -1: what is left. get_status: bit 0 a list is
  * running, 7 the card moves by itself, 15 paused; Pos is where the list is. read_status: bits 0, 1 list 1, 2 is being
- * loaded; 2, 3 its end was put; 4, 5 it is running; 6, 7 it ran to its end. */
+ * loaded; 2, 3 its end was put; 4, 5 it is running; 6, 7 it ran to its end. load_sub: what is put up to list_return
+ * becomes subroutine Index, 0 .. 1023, in list 3; with nothing before list_return there is none. */
 RTC5_API void config_list(UINT Mem1, UINT Mem2);
 RTC5_API void set_start_list(UINT ListNo);
 RTC5_API void set_start_list_1(void);
 RTC5_API void set_start_list_2(void);
 RTC5_API void set_start_list_pos(UINT ListNo, UINT Pos);
 RTC5_API UINT load_list(UINT ListNo, UINT Pos);
+RTC5_API void load_sub(UINT Index);
 RTC5_API UINT get_input_pointer(void);
 RTC5_API UINT get_list_space(void);
 RTC5_API void execute_list(UINT ListNo);
@@ -263,6 +265,16 @@ RTC5_API void laser_on_list(UINT Period);
 RTC5_API void laser_signal_on_list(void);
 RTC5_API void laser_signal_off_list(void);
 RTC5_API void write_io_port_list(UINT Value);
+
+/* ---- Lists: wobbel and subroutines ---- */
+
+/* Marks are drawn by an ellipse: amplitudes in bits across and along the motion, cut to 131,071, Freq in Hz, cut to
+ * -6,000 .. 6,000; 0 is off. list_call goes on at the position Pos, sub_call in a subroutine of load_sub, up to
+ * list_return; 63 calls deep at most. A call that is not possible, and a return without a call, is a list_nop. */
+RTC5_API void set_wobbel(UINT Transversal, UINT Longitudinal, double Freq);
+RTC5_API void list_call(UINT Pos);
+RTC5_API void sub_call(UINT Index);
+RTC5_API void list_return(void);
 
 /* ---- Lists: processing on the fly ---- */
 

@@ -21,7 +21,7 @@ enum class Op : std::uint32_t {
     park_position, park_return, set_ext_start_delay_list, simulate_ext_start, set_control_mode_list, set_encoder_speed,
     set_mcbsp_in_list, set_multi_mcbsp_in_list, get_mcbsp_list, set_mcbsp_x_list, set_mcbsp_y_list, set_mcbsp_rot_list,
     set_mcbsp_matrix_list, apply_mcbsp_list, set_matrix_list, set_offset_list, set_angle_list, set_scale_list, set_trigger, set_trigger4,
-    count
+    set_wobbel, list_call, sub_call, list_return, count
 };
 inline constexpr std::size_t op_count = static_cast<std::size_t>(Op::count);
 
@@ -35,7 +35,7 @@ enum class Timing : std::uint8_t {
 };
 
 /// What a parameter is; it decides the range.
-enum class Kind : std::uint8_t { coordinate, centre, number, count, ticks, half_us, switching, micros, speed, angle, scale, factor, head, index, port, signal };
+enum class Kind : std::uint8_t { coordinate, centre, number, count, ticks, half_us, switching, micros, speed, angle, scale, factor, head, index, port, signal, amplitude, frequency, place, subroutine };
 
 struct ParamInfo {
     std::string_view name;
@@ -93,6 +93,10 @@ constexpr KindInfo kind_info(Kind kind) {
         case Kind::index: return {0, 255, false, true, ""};
         case Kind::port: return {0, 65535, false, true, ""};
         case Kind::signal: return {0, 255, false, true, ""};
+        case Kind::amplitude: return {0, 131071, true, true, "bits"};
+        case Kind::frequency: return {-6000, 6000, true, false, "Hz"};
+        case Kind::place: return {0, 1048575, false, true, ""};
+        case Kind::subroutine: return {0, 1023, false, true, ""};
     }
     return {};
 }
@@ -212,6 +216,12 @@ inline constexpr ListCommandInfo list_commands[op_count] = {
     {"set_trigger4", Op::set_trigger4, Timing::normal, 1,
      {{{"Period", Kind::ticks}, {"Signal1", Kind::signal}, {"Signal2", Kind::signal}, {"Signal3", Kind::signal}, {"Signal4", Kind::signal}}},
      "as set_trigger, four signals"},
+    {"set_wobbel", Op::set_wobbel, Timing::shortly, 1,
+     {{{"Transversal", Kind::amplitude}, {"Longitudinal", Kind::amplitude}, {"Freq", Kind::frequency}}},
+     "marks are drawn by an ellipse across and along the motion; amplitudes of 0 or a frequency of 0 are off"},
+    {"list_call", Op::list_call, Timing::pipeline, 1, {{{"Pos", Kind::place}}}, "goes on at Pos, until list_return"},
+    {"sub_call", Op::sub_call, Timing::pipeline, 1, {{{"Index", Kind::subroutine}}}, "the same with a subroutine of load_sub"},
+    {"list_return", Op::list_return, Timing::pipeline, 1, {}, "goes on behind the call"},
 };
 
 constexpr Flaw list_commands_flaw(std::span<const ListCommandInfo> commands) {

@@ -73,6 +73,7 @@ std::size_t Engine::produce(std::size_t room) {
         n = micro_vectors(n, room);
         if (n == room) break;
         if (state_.lists.paused) {
+            state_.wobbel.offset = {};
             kernels::hold(&scratch_->x[n], &scratch_->y[n], room - n, state_.p);
             return room;
         }
@@ -106,6 +107,7 @@ std::size_t Engine::micro_vectors(std::size_t n, std::size_t room) {
     l.current = at - 1;
     l.next = at;
     const Point before = at - first > 1 ? Point{scratch_->x[n - 2], scratch_->y[n - 2]} : state_.p;
+    state_.wobbel.offset = {};
     a.from = before;
     state_.p = a.to = {scratch_->x[n - 1], scratch_->y[n - 1]};
     a.step = a.direction = a.to - before;
@@ -125,6 +127,7 @@ std::size_t Engine::fill(std::size_t n, std::size_t room) {
             a.done += static_cast<std::int64_t>(m);
             if (a.done == a.steps) x[m - 1] = a.to.x, y[m - 1] = a.to.y;
             state_.p = {x[m - 1], y[m - 1]};
+            wobble(x, y, m, a.done - static_cast<std::int64_t>(m) + 1);
             return n + m;
         case ActivityKind::arc:
             m = static_cast<std::size_t>(std::min<std::int64_t>(a.steps - a.done, static_cast<std::int64_t>(m)));
@@ -133,6 +136,7 @@ std::size_t Engine::fill(std::size_t n, std::size_t room) {
                 x[i] = p.x, y[i] = p.y;
             }
             state_.p = {x[m - 1], y[m - 1]};
+            wobble(x, y, m, a.done - static_cast<std::int64_t>(m) + 1);
             return n + m;
         case ActivityKind::hold:
             m = static_cast<std::size_t>(std::min<std::int64_t>(a.steps - a.done, static_cast<std::int64_t>(m)));
@@ -145,6 +149,7 @@ std::size_t Engine::fill(std::size_t n, std::size_t room) {
         }
     }
     kernels::hold(x, y, m, state_.p);
+    wobble(x, y, m, 0);
     return n + m;
 }
 
@@ -162,7 +167,7 @@ Point Engine::position_of(const Activity& a, std::int64_t done) const {
 bool Engine::skip(std::int64_t limit) {
     State& s = state_;
     if (!s.lists.paused) next_step(0);
-    if (s.speed_watched || s.mcbsp.multi || samples_now()) return false;
+    if (s.speed_watched || s.mcbsp.multi || samples_now() || wobbles()) return false;
     if (s.starts.asked_count > 0) limit = 1;
     Activity& a = s.activity;
     const bool still = s.lists.paused || a.kind == ActivityKind::none || a.kind == ActivityKind::hold;
@@ -186,6 +191,7 @@ bool Engine::skip(std::int64_t limit) {
         extent_.take(*extent);
     }
     laser_until(s.tick + n);
+    s.wobbel.offset = {};
     if (moves) s.p = position_of(a, a.done + n);
     if (moves || (a.kind == ActivityKind::hold && !s.lists.paused)) a.done += n;
     if (over) a.done = a.steps;

@@ -61,6 +61,8 @@ class Engine {
     /// The same for a list that is not running: 1, 2, or the one that is free (0), free and run to its end (3). The list
     /// opened, or 0: none, and put() is refused until one is.
     Result<std::uint32_t> load_list(std::uint32_t list, std::int64_t position);
+    /// What is put up to list_return becomes subroutine `index` (0 .. 1023) in list 3; with nothing before it there is none.
+    Result<void> load_sub(std::uint32_t index);
     /// Appends; refused when the list is full (nothing is changed). `command` must come from list_command().
     Result<void> put(const Command& command);
     std::int64_t input_pointer() const { return state_.lists.input; }
@@ -220,6 +222,11 @@ class Engine {
     Point direction_of(const Command& mark) const;
     Point target_of(const Command& c, bool relative) const;
     void end_list(bool written, std::int64_t tick);
+    void call(std::int64_t position, std::int64_t tick);
+    void come_back();
+    void set_wobbel(const Command& c);
+    bool wobbles() const;
+    void wobble(double* x, double* y, std::size_t n, std::int64_t first);
 
     // fly.cpp: commands of the pipeline
     void pipeline_command(const Command& c);
@@ -267,6 +274,9 @@ class Engine {
     void enqueue(std::int32_t delay, int encoder);
     void begin_start();
     std::int64_t ticks_to_start(std::int64_t limit);
+
+    // lists.cpp
+    void open(std::int64_t input, std::int64_t end);
 
     // pipeline.cpp
     void run_pipeline(std::size_t n, Sink* sink);

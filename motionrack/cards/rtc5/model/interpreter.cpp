@@ -180,6 +180,8 @@ void Engine::jump_to(Point target) {
 bool Engine::begin_polyline(std::int64_t tick) {
     if (state_.lists.marking) return true;
     state_.lists.marking = 1;
+    state_.wobbel.step = 0;
+    state_.wobbel.direction = {1, 0};
     const std::int64_t delay = state_.delays.laser_on,
                        wait = delay < 0 ? (-delay + half_us_per_tick - 1) / half_us_per_tick : 0;
     switch_laser((tick + wait) * half_us_per_tick + delay, true, tick);
@@ -215,6 +217,16 @@ void Engine::take(const Command& c, std::int64_t tick) {
         case Op::write_io_port_list:
             s.io = whole(0);
             return;
+        case Op::set_wobbel:
+            return set_wobbel(c);
+        case Op::list_call:
+            return call(whole(0), tick);
+        case Op::sub_call: {
+            const std::int64_t begin = s.lists.subroutines[static_cast<std::size_t>(whole(0))];
+            return call(begin == 0 ? -1 : begin, tick);
+        }
+        case Op::list_return:
+            return come_back();
         case Op::set_trigger:
         case Op::set_trigger4:
             set_trigger(c, tick);

@@ -25,6 +25,8 @@ Result<void> Engine::config_list(std::int64_t list1, std::int64_t list2) {
     changed.list1 = list1, changed.list2 = list2 == -1 ? settings_.list_memory - list1 : list2;
     MOTIONRACK_CHECK(check(changed));
     state_.lists.begin = {0, list1, list1 + changed.list2, settings_.list_memory};
+    state_.lists.subroutines = {};
+    state_.lists.list3_used = 0;
     return set_start_list(1);
 }
 
@@ -52,11 +54,26 @@ Result<void> Engine::set_start_list(std::uint32_t list, std::int64_t position) {
     MOTIONRACK_CHECK(check_position("set_start_list", position));
     Lists& l = state_.lists;
     const std::size_t number = list_of(list, l);
-    l.input = place(number, position, l);
-    l.input_end = l.begin[number + 1];
-    l.loaded &= ~std::int64_t{list_status_bit("LOAD1") | list_status_bit("LOAD2")};
+    open(place(number, position, l), l.begin[number + 1]);
     l.loaded &= ~(std::int64_t{list_status_bit("READY1") | list_status_bit("USED1")} << number);
     l.loaded |= std::int64_t{list_status_bit("LOAD1")} << number;
+    return {};
+}
+
+void Engine::open(std::int64_t input, std::int64_t end) {
+    Lists& l = state_.lists;
+    l.input = input, l.input_end = end;
+    l.loading = 0;
+    l.loaded &= ~std::int64_t{list_status_bit("LOAD1") | list_status_bit("LOAD2")};
+}
+
+Result<void> Engine::load_sub(std::uint32_t index) {
+    Lists& l = state_.lists;
+    if (index >= subroutine_count)
+        return fail(Trouble::refused, fmt::format("load_sub: there is no subroutine {}; 0 to {}. Nothing was changed", index,
+                                                  subroutine_count - 1));
+    open(l.begin[2] + l.list3_used, l.begin[3]);
+    l.loading = index + 1;
     return {};
 }
 
@@ -75,7 +92,7 @@ Result<std::uint32_t> Engine::load_list(std::uint32_t list, std::int64_t positio
         MOTIONRACK_CHECK(set_start_list(static_cast<std::uint32_t>(i + 1), position));
         return static_cast<std::uint32_t>(i + 1);
     }
-    l.input = l.input_end = -1;
+    open(-1, -1);
     return 0u;
 }
 
@@ -94,7 +111,14 @@ Result<void> Engine::put(const Command& command) {
     memory_[static_cast<std::size_t>(l.input)] = command;
     for (int i = 1; i < what.positions; ++i) memory_[static_cast<std::size_t>(l.input + i)] = {};
     l.input += what.positions;
-    if (command.op == Op::set_end_of_list) {
+    if (command.op == Op::list_return && l.loading) {
+        // The subroutine is complete; without a command there is none.
+        const std::int64_t begin = l.begin[2] + l.list3_used;
+        const bool empty = l.input == begin + 1;
+        l.subroutines[static_cast<std::size_t>(l.loading - 1)] = empty ? 0 : begin;
+        if (!empty) l.list3_used = l.input - l.begin[2];
+        open(-1, -1);
+    } else if (command.op == Op::set_end_of_list && l.input <= l.begin[2]) {
         const std::size_t number = l.input > l.begin[1] ? 1 : 0;
         l.loaded |= std::int64_t{list_status_bit("READY1")} << number;
         l.loaded &= ~(std::int64_t{list_status_bit("LOAD1")} << number);
@@ -118,6 +142,7 @@ Result<void> Engine::execute_at(std::int64_t position) {
                     fmt::format("execute_at_pointer: position {} is outside 0 to {}; nothing was started", position,
                                 l.begin[3] - 1));
     l.running = 1;
+    l.depth = 0;
     l.next = l.current = position;
     state_.startstop_info |= startstop_bit("INTERNAL_START");
     return {};
@@ -127,6 +152,7 @@ Result<void> Engine::execute_at(std::int64_t position) {
 void Engine::end_list(bool written, std::int64_t tick) {
     Lists& l = state_.lists;
     l.skip = 0;
+    l.depth = 0;
     if (!written) ++l.ended_unwritten;
     const std::int64_t at = l.current;
     l.loaded |= std::int64_t{list_status_bit("USED1")} << (at < l.begin[1] ? 0 : 1);
@@ -140,10 +166,31 @@ void Engine::end_list(bool written, std::int64_t tick) {
     l.running = 0;
 }
 
+/// What cannot be called (-1: nothing is there) is a list_nop.
+void Engine::call(std::int64_t position, std::int64_t tick) {
+    Lists& l = state_.lists;
+    if (position < 0 || position == l.current || l.depth == static_cast<std::int64_t>(greatest_depth)) return begin_hold(1);
+    if (l.called_at != tick) l.calls = 0;
+    l.called_at = tick;
+    // Calls that take no time could follow each other for ever.
+    if (++l.calls > static_cast<std::int64_t>(calls_per_tick)) {
+        l.next = l.current;
+        return begin_hold(1);
+    }
+    l.returns[static_cast<std::size_t>(l.depth++)] = l.next;
+    l.next = position;
+}
+
+void Engine::come_back() {
+    Lists& l = state_.lists;
+    if (l.depth == 0) return begin_hold(1);
+    l.next = l.returns[static_cast<std::size_t>(--l.depth)];
+}
+
 void Engine::stop_execution() {
     State& s = state_;
     Lists& l = s.lists;
-    l.running = l.paused = l.skip = l.again = l.marking = l.moving_alone = l.auto_change = l.loop = 0;
+    l.running = l.depth = l.paused = l.skip = l.again = l.marking = l.moving_alone = l.auto_change = l.loop = 0;
     s.activity = {};
     leave_fly();
     s.starts.waiting = s.starts.triggers = s.starts.asked_count = 0;

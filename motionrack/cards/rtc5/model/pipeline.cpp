@@ -165,7 +165,8 @@ void Engine::keep_output(std::size_t n) {
 void Engine::evaluate() {
     if (evaluated_) return;
     Scratch& b = *scratch_;
-    b.x[0] = state_.p.x, b.y[0] = state_.p.y;
+    const Point p = state_.p + state_.wobbel.offset;
+    b.x[0] = p.x, b.y[0] = p.y;
     if (!state_.global.neutral) kernels::transform(b.x.data(), b.y.data(), 1, state_.global);
     if (state_.fly.on()) apply_fly(1);
     run_head(0, 1);

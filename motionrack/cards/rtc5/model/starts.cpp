@@ -69,6 +69,7 @@ void Engine::begin_start() {
         e.reset_at_start = 0;
     }
     l.running = 1;
+    l.depth = 0;
     l.next = l.current = s.position;
     state_.startstop_info |= startstop_bit("EXTERNAL_START");
 }

@@ -131,7 +131,19 @@ struct Lists {
     std::int64_t next = 0, running = 0, current = 0, paused = 0, paused_laser = 0;
     std::int64_t auto_change = 0, loop = 0, changed_at = -1, skip = 0, again = 0, marking = 0, moving_alone = 0;
     std::int64_t ended_unwritten = 0;  ///< times that a list ran into a place never written
+    std::array<std::int64_t, greatest_depth> returns{};  ///< of calls: where they go on
+    std::int64_t depth = 0, calls = 0, called_at = -1;   ///< calls in the tick called_at
+    std::array<std::int64_t, subroutine_count> subroutines{};  ///< their begins in list 3; 0: none
+    std::int64_t loading = 0, list3_used = 0;                  ///< the subroutine that is being loaded, from 1; places
     std::int64_t loaded = list_status_bit("USED1") | list_status_bit("USED2");  ///< read_status without BUSY
+};
+
+/// set_wobbel: an ellipse about p while a polyline is marked.
+struct Wobbel {
+    double transversal = 0, longitudinal = 0, turns = 0;  ///< bits; turns a tick
+    std::int64_t step = 0;                                ///< ticks since the polyline began
+    Point direction{1, 0}, offset;                        ///< of the last tick
+    bool on() const { return turns != 0 && (transversal != 0 || longitudinal != 0); }
 };
 
 /// set_trigger: sample number `count` is next.
@@ -189,6 +201,7 @@ struct State {
     std::int64_t later_count = 0;      ///< transforms that wait for the next jump: bit HeadNo
     std::array<Transform, 3> later{};  ///< heads A, B, global
     std::int64_t io = 0;
+    Wobbel wobbel;
     Recording recording;
     Sender sender;
     Output output;

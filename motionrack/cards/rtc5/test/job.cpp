@@ -57,6 +57,14 @@ double JobMaker::value_of(Op op, const ParamInfo& param) {
                        : static_cast<double>(below(65536));
         case Kind::signal:
             return map::signals[below(std::size(map::signals))].number;
+        case Kind::amplitude:
+            return one_of(4) ? 0 : static_cast<double>(below(3000));
+        case Kind::frequency:
+            return one_of(5) ? 0 : real(-6000, 6000);
+        case Kind::place:
+            return static_cast<double>(one_of(3) ? below(30) : below(1700));
+        case Kind::subroutine:
+            return static_cast<double>(below(4));
         case Kind::number:
             if (op == Op::set_mcbsp_in_list) return static_cast<double>(below(4));
             if (op == Op::clear_fly_overflow) return static_cast<double>(below(8));
@@ -112,6 +120,9 @@ Job JobMaker::make() {
     calm_ = one_of(2);
     fill(out.list1);
     fill(out.list2);
+    out.subroutines.resize(static_cast<std::size_t>(below(4)));
+    for (auto& sub : out.subroutines)
+        for (std::int64_t i = below(8); i > 0; --i) sub.push_back(command());
     out.inputs = one_of(3);
     out.steady = one_of(2);
     for (double& r : out.rate) r = one_of(3) ? 0 : real(-30, 30);

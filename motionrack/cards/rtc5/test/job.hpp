@@ -52,6 +52,7 @@ struct Act {
 
 struct Job {
     std::vector<Command> list1, list2;
+    std::vector<std::vector<Command>> subroutines;  ///< without their list_return
     std::vector<Act> acts;
     bool inputs = false;  ///< counts and words are functions of the tick
     bool steady = false;  ///< the table of the lens is used

@@ -99,6 +99,12 @@ class Pair {
             for (const Command& c : list == 1 ? job_.list1 : job_.list2)
                 if (!card_.put(c)) break;
         }
+        for (std::uint32_t i = 0; i < job_.subroutines.size(); ++i) {
+            static_cast<void>(card_.load_sub(i));
+            for (const Command& c : job_.subroutines[i]) static_cast<void>(card_.put(c));
+            static_cast<void>(card_.put(*list_command(Op::list_return, {})));
+        }
+        std::copy_n(card_.state().lists.subroutines.begin(), 1024, twin_.subroutines);
         std::copy(card_.memory().begin(), card_.memory().end(), twin_.memory.begin());
     }
 

@@ -159,6 +159,7 @@ void Twin::start_now() {
         e.reset_at_start = false;
     }
     running = true;
+    returns.clear();
     next = current = start_position;
     startstop |= 2;
 }
@@ -253,6 +254,7 @@ int Twin::laser_of_tick() {
 void Twin::stop() {
     running = paused_list = skip = again = marking_line = alone = auto_change = loop = false;
     doing = {};
+    returns.clear();
     leave();
     waiting.clear();
     asked.clear();
@@ -285,6 +287,7 @@ void Twin::restart() {
 void Twin::execute(std::int64_t position) {
     if (running || alone) return;
     running = true;
+    returns.clear();
     next = current = position;
     startstop |= 1;
 }

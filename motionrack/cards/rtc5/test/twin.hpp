@@ -127,6 +127,14 @@ class Twin {
     double gain[2][2] = {{1, 1}, {1, 1}}, gain_offset[2][2] = {};
     std::int64_t io = 0;
 
+    std::int64_t subroutines[1024] = {};
+    std::vector<std::int64_t> returns;
+    std::int64_t calls = 0, called_at = -1;
+
+    double across = 0, along = 0, wobbel_turns = 0;  // wobbel
+    std::int64_t wobbel_step = 0;
+    Xy wobbel_direction{1, 0}, wobbel_offset;
+
     std::int64_t period = 0, first_record = 0;
     std::vector<int> recorded_signals;
     std::vector<std::vector<std::int32_t>> rows;
@@ -147,6 +155,8 @@ class Twin {
     void list();
     void end_list(bool written);
     void take(const Command& c);
+    void call(std::int64_t position);
+    void wobbel();
     void mark(const Command& c);
     void after();
     void line_to(Xy to, double speed, char ending, std::int64_t steps = 0);

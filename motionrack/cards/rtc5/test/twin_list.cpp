@@ -23,7 +23,7 @@ bool marks(Op op) {
 }
 /// A polyline does.
 bool goes_through(Op op) {
-    return any_of(op, {Op::set_jump_speed, Op::set_mark_speed, Op::set_scanner_delays, Op::set_laser_delays, Op::set_trigger});
+    return any_of(op, {Op::set_jump_speed, Op::set_mark_speed, Op::set_scanner_delays, Op::set_laser_delays, Op::set_trigger, Op::set_wobbel});
 }
 std::int64_t whole(double v) {
     return static_cast<std::int64_t>(v);
@@ -68,6 +68,7 @@ void Twin::list() {
 
 void Twin::end_list(bool written) {
     skip = false;
+    returns.clear();
     unwritten += !written;
     if (written && (auto_change || loop) && current < begins[2] && changed_at != now) {
         auto_change = false;
@@ -140,6 +141,8 @@ void Twin::line_to(Xy to, double speed, char ending, std::int64_t steps) {
 void Twin::mark(const Command& c) {
     if (!marking_line) {
         marking_line = true;
+        wobbel_step = 0;
+        wobbel_direction = {1, 0};
         const std::int64_t wait = laser_on < 0 ? (-laser_on + 19) / 20 : 0;
         change_laser((now + wait) * 20 + laser_on, true);
         if (wait > 0) {
@@ -232,6 +235,18 @@ void Twin::take(const Command& c) {
         case Op::set_mcbsp_rot_list: return set_one_online(2, v[0]);
         case Op::set_mcbsp_matrix_list: return set_online_matrix();
         case Op::apply_mcbsp_list: return apply_online(c.head, static_cast<int>(v[0]));
+        case Op::set_wobbel:
+            across = v[0], along = v[1], wobbel_turns = v[2] / 100000;
+            wobbel_step = 0;
+            wobbel_direction = {1, 0};
+            return;
+        case Op::list_call: return call(whole(v[0]));
+        case Op::sub_call: return call(subroutines[whole(v[0])] == 0 ? -1 : subroutines[whole(v[0])]);
+        case Op::list_return:
+            if (returns.empty()) return hold(1);
+            next = returns.back();
+            returns.pop_back();
+            return;
         case Op::set_trigger: return set_trigger(c);
         case Op::set_trigger4: set_trigger(c); return hold(1);
         case Op::set_matrix_list:

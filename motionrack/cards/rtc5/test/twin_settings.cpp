@@ -1,6 +1,7 @@
-// The slow RTC5: transforms, McBSP settings, recording.
+// The slow RTC5: transforms, McBSP settings, subroutines, wobbel, recording.
 #include <algorithm>
 #include <cmath>
+#include <motionrack/base/trig.hpp>
 #include <motionrack/cards/rtc5/test/twin.hpp>
 
 namespace motionrack::rtc5::twin {
@@ -107,6 +108,36 @@ void Twin::apply_online(int head, int at_once) {
         if (online[1]) t.offset.y = y * online_scale[1];
         if (online[2]) t.angle = std::fmod(turns, 1.0) * 360;
     });
+}
+
+void Twin::call(std::int64_t position) {
+    if (position < 0 || position == current || returns.size() == 63) return hold(1);
+    calls = called_at == now ? calls + 1 : 1;
+    called_at = now;
+    if (calls > 64) {
+        next = current;
+        return hold(1);
+    }
+    returns.push_back(next);
+    next = position;
+}
+
+void Twin::wobbel() {
+    wobbel_offset = {};
+    if (paused_list || !marking_line || wobbel_turns == 0 || (across == 0 && along == 0)) return;
+    Xy d = doing.direction;
+    if (doing.what == Doing::arc) {
+        const Xy r{p.x - doing.to.x, p.y - doing.to.y};
+        d = doing.step.x < 0 ? Xy{r.y, -r.x} : Xy{-r.y, r.x};
+    }
+    if (doing.what == Doing::line || doing.what == Doing::arc) {
+        const double length = std::sqrt(d.x * d.x + d.y * d.y);
+        wobbel_direction = length > 0 ? Xy{d.x / length, d.y / length} : Xy{1, 0};
+    }
+    const double t = static_cast<double>(++wobbel_step) * wobbel_turns;
+    const SinCos angle = sin_cos(2 * pi * (t - std::floor(t)));
+    const double l = along * angle.cos, a = across * angle.sin;
+    wobbel_offset = {l * wobbel_direction.x - a * wobbel_direction.y, l * wobbel_direction.y + a * wobbel_direction.x};
 }
 
 void Twin::set_trigger(const Command& c) {

@@ -104,6 +104,10 @@ const Row list_rows[] = {
     listed(Op::set_offset_list, [] { set_offset_list(4, 70, -80, 2); }, {4, 70, -80, 2}),
     listed(Op::set_angle_list, [] { set_angle_list(1, 33.5, 1); }, {1, 33.5, 1}),
     listed(Op::set_scale_list, [] { set_scale_list(1, 0.5, 2); }, {1, 0.5, 2}),
+    listed(Op::set_wobbel, [] { set_wobbel(500, 300, 1234.5); }, {500, 300, 1234.5}),
+    listed(Op::list_call, [] { list_call(30); }, {30}),
+    listed(Op::sub_call, [] { sub_call(9); }, {9}),
+    listed(Op::list_return, [] { list_return(); }),
 };
 
 const Row control_rows[] = {
@@ -183,6 +187,13 @@ const Row control_rows[] = {
          ASSERT_TRUE(c.set_mcbsp_out(std::array<std::uint32_t, 2>{7, 43}));
      }},
     {"set_start_list_pos", [] { set_start_list_pos(2, 7); }, [](Engine& c) { ASSERT_TRUE(c.set_start_list(2, 7)); }},
+    {"load_sub", [] { load_sub(9), mark_rel(50, 60), list_return(), set_start_list(1), sub_call(9); },
+     [](Engine& c) {
+         ASSERT_TRUE(c.load_sub(9));
+         put(c, Op::mark_rel, {50, 60}), put(c, Op::list_return, {});
+         ASSERT_TRUE(c.set_start_list(1));
+         put(c, Op::sub_call, {9});
+     }},
     {"load_list", [] { rtc5sim_question_us(0), load_list(0, 9), rtc5sim_question_us(10); },
      [](Engine& c) { ASSERT_TRUE(c.load_list(0, 9)); }},
     {"select_cor_table", [] { load_correction_file(nullptr, 3, 2), select_cor_table(3, 0); },
