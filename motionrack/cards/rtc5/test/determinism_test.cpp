@@ -43,7 +43,7 @@ TEST(Rtc5Card, SamplesAndStatesHaveTheSameBitsOnEveryCompiler) {
         for (const unsigned char byte : bytes) mixer.mix(byte);
     }
     // The number of g++ 12 -O3 and clang 14 -O0; it changes when the rules or the random jobs do.
-    EXPECT_EQ(mixer.hash, 0x4DC9B3ADC3AFA936ull);
+    EXPECT_EQ(mixer.hash, 0xD2B23084994F2867ull);
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ Sample Twin::tick() {
     inputs();
     starts();
     if (!paused_list) list();
-    const Xy q = corrected(global.of(p), false);
+    wobbel();
+    const Xy q = corrected(global.of({p.x + wobbel_offset.x, p.y + wobbel_offset.y}), false);
     Sample out;
     if (fly.kind != Kind::off) {
         flags(q);

@@ -107,6 +107,7 @@ TEST(Rtc5Subroutines, WhatIsNotThereOrTooDeepIsANop) {
     EXPECT_EQ(rig.go(), 2 + 1);
     EXPECT_EQ(rig.last_x(), 0);
     rig.begin();
+    rig.x.clear();
     rig.put(Op::micro_vector_rel, {1, 0, -1, -1});
     rig.put(Op::list_call, {0});
     rig.put(Op::micro_vector_rel, {1000, 0, -1, -1});
