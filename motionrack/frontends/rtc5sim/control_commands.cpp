@@ -52,8 +52,10 @@ void n_select_cor_table(UINT CardNo, UINT HeadA, UINT HeadB) {
 // ---- Running lists ----
 
 void n_config_list(UINT CardNo, UINT Mem1, UINT Mem2) {
-    // -1 stands for the rest.
-    call(__func__, CardNo, &rtc5::Engine::config_list, Mem1, Mem2 == 0xFFFFFFFF ? -1 : std::int64_t{Mem2});
+    command(__func__, CardNo, [&](Card& card) {
+        // -1 stands for the rest.
+        return as(busy_or_wrong(card), card.engine.config_list(Mem1, Mem2 == 0xFFFFFFFF ? -1 : std::int64_t{Mem2}));
+    });
 }
 void n_set_start_list(UINT CardNo, UINT ListNo) {
     call(__func__, CardNo, &rtc5::Engine::set_start_list, ListNo, 0);

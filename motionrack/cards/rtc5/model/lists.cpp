@@ -32,9 +32,9 @@ Result<void> Engine::config_list(std::int64_t list1, std::int64_t list2) {
 
 namespace {
 
-Result<void> check_position(std::string_view who, std::int64_t position) {
+Result<void> check_position(std::int64_t position) {
     if (position >= 0 && position < greatest_list_memory) return {};
-    return fail(Trouble::refused, fmt::format("{}: position {} is outside 0 to {}; nothing was changed", who, position,
+    return fail(Trouble::refused, fmt::format("the list position {} is outside 0 to {}; nothing was changed", position,
                                               greatest_list_memory - 1));
 }
 
@@ -51,7 +51,7 @@ std::int64_t place(std::size_t list, std::int64_t position, const Lists& l) {
 }  // namespace
 
 Result<void> Engine::set_start_list(std::uint32_t list, std::int64_t position) {
-    MOTIONRACK_CHECK(check_position("set_start_list", position));
+    MOTIONRACK_CHECK(check_position(position));
     Lists& l = state_.lists;
     const std::size_t number = list_of(list, l);
     open(place(number, position, l), l.begin[number + 1]);
@@ -70,15 +70,15 @@ void Engine::open(std::int64_t input, std::int64_t end) {
 Result<void> Engine::load_sub(std::uint32_t index) {
     Lists& l = state_.lists;
     if (index >= subroutine_count)
-        return fail(Trouble::refused, fmt::format("load_sub: there is no subroutine {}; 0 to {}. Nothing was changed", index,
-                                                  subroutine_count - 1));
+        return fail(Trouble::refused, fmt::format("load_sub: there is no subroutine {}; 0 to {}. Nothing was changed",
+                                                  index, subroutine_count - 1));
     open(l.begin[2] + l.list3_used, l.begin[3]);
     l.loading = index + 1;
     return {};
 }
 
 Result<std::uint32_t> Engine::load_list(std::uint32_t list, std::int64_t position) {
-    MOTIONRACK_CHECK(check_position("load_list", position));
+    MOTIONRACK_CHECK(check_position(position));
     Lists& l = state_.lists;
     const std::uint32_t status = list_status();
     const auto free = [&](std::size_t i, bool used) {
@@ -127,7 +127,7 @@ Result<void> Engine::put(const Command& command) {
 }
 
 Result<void> Engine::execute_list(std::uint32_t list, std::int64_t position) {
-    MOTIONRACK_CHECK(check_position("execute_list", position));
+    MOTIONRACK_CHECK(check_position(position));
     return execute_at(place(list_of(list, state_.lists), position, state_.lists));
 }
 
@@ -169,7 +169,8 @@ void Engine::end_list(bool written, std::int64_t tick) {
 /// What cannot be called (-1: nothing is there) is a list_nop.
 void Engine::call(std::int64_t position, std::int64_t tick) {
     Lists& l = state_.lists;
-    if (position < 0 || position == l.current || l.depth == static_cast<std::int64_t>(greatest_depth)) return begin_hold(1);
+    if (position < 0 || position == l.current || l.depth == static_cast<std::int64_t>(greatest_depth))
+        return begin_hold(1);
     if (l.called_at != tick) l.calls = 0;
     l.called_at = tick;
     // Calls that take no time could follow each other for ever.
