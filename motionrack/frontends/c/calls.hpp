@@ -3,11 +3,10 @@
 
 #include <motionrack/c.h>
 
-#include <exception>
 #include <initializer_list>
 #include <memory>
+#include <motionrack/frontends/calls/calls.hpp>
 #include <motionrack/rack/session.hpp>
-#include <new>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -56,16 +55,12 @@ inline const char* first_null(std::initializer_list<Pointer> pointers) noexcept 
 /// Runs `call`, which gives a Result; whatever it throws becomes an error.
 template <class Call>
 int guarded(Call call) noexcept {
-    try {
-        const auto result = call();
-        return result ? static_cast<int>(MR_OK) : failed(code_of(result.error().trouble), result.error().text());
-    } catch (const std::bad_alloc&) {
-        return failed(MR_INTERNAL, "There is not enough memory; nothing was done.");
-    } catch (const std::exception& e) {
-        return failed(MR_INTERNAL, e.what());
-    } catch (...) {
-        return failed(MR_INTERNAL, "Something went wrong in the library that it has no words for.");
-    }
+    return calls::guarded(
+        [&]() -> Result<int> {
+            MOTIONRACK_CHECK(call());
+            return static_cast<int>(MR_OK);
+        },
+        [](Trouble trouble, std::string_view sentence) { return failed(code_of(trouble), sentence); });
 }
 
 /// The same, after it was made sure that none of these pointers is null.

@@ -38,22 +38,14 @@ std::string named_as_here(std::string_view sentence) {
 
 }  // namespace
 
-Shared& shared() {
-    static Shared one;
+calls::Process<Bench>& process() {
+    static calls::Process<Bench> one;
     return one;
 }
 
 void failed(const char* who, std::string_view sentence) noexcept {
     try {
-        const std::string start = std::string(who) + ": ";
-        last_error = named_as_here(sentence);
-        if (last_error.rfind(start, 0) != 0) last_error.insert(0, start);
-        const auto [handler, user] = [] {
-            const std::lock_guard<std::mutex> alone(shared().lock);
-            return std::pair(shared().handler, shared().user);
-        }();
-        // A copy: the handler may call functions that fail.
-        if (handler != nullptr) handler(std::string(last_error).c_str(), user);
+        process().failed(last_error, who, named_as_here(sentence));
     } catch (...) {
         last_error.clear();
     }
@@ -91,8 +83,5 @@ const char* mcx314_last_error(void) { return motionrack::mcx314lib::last_error.c
 void mcx314_clear_error(void) { motionrack::mcx314lib::last_error.clear(); }
 
 void mcx314_on_error(void (*handler)(const char* sentence, void* user), void* user) {
-    motionrack::mcx314lib::Shared& shared = motionrack::mcx314lib::shared();
-    const std::lock_guard<std::mutex> alone(shared.lock);
-    shared.handler = handler;
-    shared.user = user;
+    motionrack::mcx314lib::process().on_error(handler, user);
 }

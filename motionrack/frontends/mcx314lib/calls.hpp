@@ -2,23 +2,13 @@
 // out.
 #pragma once
 
-#include <exception>
+#include <motionrack/frontends/calls/calls.hpp>
 #include <motionrack/frontends/mcx314lib/bench.hpp>
-#include <mutex>
-#include <new>
-#include <string>
 #include <string_view>
 
 namespace motionrack::mcx314lib {
 
-/// What the process shares, and its lock.
-struct Shared {
-    std::mutex lock;
-    Bench bench;
-    void (*handler)(const char*, void*) = nullptr;
-    void* user = nullptr;
-};
-Shared& shared();
+calls::Process<Bench>& process();
 
 /// Keeps the sentence for this thread, with the function's name in front, and calls the handler. The lock must be free.
 void failed(const char* who, std::string_view sentence) noexcept;
@@ -26,21 +16,8 @@ void failed(const char* who, std::string_view sentence) noexcept;
 /// Runs `call` with the bench; it gives a Result<Value>.
 template <class Value, class Call>
 Value with_bench(const char* who, Value otherwise, Call call) noexcept {
-    try {
-        Result<Value> result = [&] {
-            const std::lock_guard<std::mutex> alone(shared().lock);
-            return call(shared().bench);
-        }();
-        if (result) return *result;
-        failed(who, result.error().text());
-    } catch (const std::bad_alloc&) {
-        failed(who, "there is not enough memory; nothing was done.");
-    } catch (const std::exception& e) {
-        failed(who, e.what());
-    } catch (...) {
-        failed(who, "something went wrong in the library that it has no words for.");
-    }
-    return otherwise;
+    return calls::guarded([&]() -> Result<Value> { return process().alone(call); },
+                          [&](Trouble, std::string_view sentence) { return failed(who, sentence), otherwise; });
 }
 
 /// Runs `call` with the selected chip; it gives a Result<Value>.

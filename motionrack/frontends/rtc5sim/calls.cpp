@@ -59,8 +59,8 @@ Result<UINT> cards_wanted() {
 
 }  // namespace
 
-Shared& shared() {
-    static Shared one;
+calls::Process<Bench>& process() {
+    static calls::Process<Bench> one;
     return one;
 }
 
@@ -153,20 +153,8 @@ Result<bool> Bench::run_to_rest(std::int64_t ticks) {
 // ---- errors ----
 
 void failed(std::string_view who, std::string_view sentence) noexcept {
-    try {
-        if (who.substr(0, 2) == "n_") who.remove_prefix(2);
-        last_sentence =
-            sentence.substr(0, who.size()) == who ? std::string(sentence) : fmt::format("{}: {}", who, sentence);
-        if (inside_handler) return;
-        const auto [handler, user] = [] {
-            const std::lock_guard<std::mutex> alone(shared().lock);
-            return std::pair(shared().handler, shared().user);
-        }();
-        // A copy: the handler may call functions that fail.
-        if (handler != nullptr) handler(std::string(last_sentence).c_str(), user);
-    } catch (...) {
-        last_sentence.clear();
-    }
+    if (who.substr(0, 2) == "n_") who.remove_prefix(2);
+    process().failed(last_sentence, who, sentence, !inside_handler);
 }
 
 UINT error_bits(Trouble trouble) {
@@ -185,8 +173,7 @@ UINT error_bits(Trouble trouble) {
 
 UINT selected() noexcept {
     if (inside_handler) return 1;  // refused there anyway
-    const std::lock_guard<std::mutex> alone(shared().lock);
-    return shared().bench.selected;
+    return process().alone([](Bench& bench) { return bench.selected; });
 }
 
 Result<void> as(Trouble trouble, Result<void> result) {
@@ -237,8 +224,5 @@ void rtc5sim_clear_error(void) {
 }
 
 void rtc5sim_on_error(rtc5sim_error_handler handler, void* user) {
-    motionrack::rtc5sim::Shared& shared = motionrack::rtc5sim::shared();
-    const std::lock_guard<std::mutex> alone(shared.lock);
-    shared.handler = handler;
-    shared.user = user;
+    motionrack::rtc5sim::process().on_error(handler, user);
 }

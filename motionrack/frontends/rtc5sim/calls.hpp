@@ -5,12 +5,10 @@
 #include <rtc5sim.h>
 
 #include <array>
-#include <exception>
 #include <functional>
 #include <memory>
 #include <motionrack/cards/rtc5/model/engine.hpp>
-#include <mutex>
-#include <new>
+#include <motionrack/frontends/calls/calls.hpp>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -72,14 +70,7 @@ class Bench {
     std::vector<std::unique_ptr<Card>> cards_;
 };
 
-/// What the process shares, and its lock.
-struct Shared {
-    std::mutex lock;
-    Bench bench;
-    rtc5sim_error_handler handler = nullptr;
-    void* user = nullptr;
-};
-Shared& shared();
+calls::Process<Bench>& process();
 
 /// This thread is in a samples handler: functions of the library are refused there.
 extern thread_local bool inside_handler;
@@ -96,26 +87,15 @@ UINT selected() noexcept;
 /// Runs `call` with the bench; it gives a Result<Value>.
 template <class Value, class Call>
 Value with_bench(std::string_view who, Value otherwise, Call call) noexcept {
-    try {
-        if (inside_handler) {
-            failed(who,
-                   "it was called by the samples handler, while the cards run. Nothing was done; call it after them.");
-            return otherwise;
-        }
-        Result<Value> result = [&]() -> Result<Value> {
-            const std::lock_guard<std::mutex> alone(shared().lock);
-            return call(shared().bench);
-        }();
-        if (result) return *result;
-        failed(who, result.error().text());
-    } catch (const std::bad_alloc&) {
-        failed(who, "there is not enough memory; nothing was done.");
-    } catch (const std::exception& e) {
-        failed(who, e.what());
-    } catch (...) {
-        failed(who, "something went wrong in the library that it has no words for.");
-    }
-    return otherwise;
+    return calls::guarded(
+        [&]() -> Result<Value> {
+            if (inside_handler)
+                return fail(Trouble::refused,
+                            "it was called by the samples handler, while the cards run. Nothing was "
+                            "done; call it after them.");
+            return process().alone(call);
+        },
+        [&](Trouble, std::string_view sentence) { return failed(who, sentence), otherwise; });
 }
 
 /// Runs `call` with a card; it gives a Result<Value>. The card keeps the error's bits. One that asks takes time before.
