@@ -71,7 +71,7 @@ void put_something(Feed& feed, Engine* const (&cards)[2], Verdict& verdict) {
 }
 
 void control_something(Feed& feed, Engine* const (&cards)[2]) {
-    const std::uint32_t what = feed.below(20);
+    const std::uint32_t what = feed.below(26);
     const double a = number(feed), b = number(feed);
     const std::uint32_t word = feed.word(), other = feed.word();
     const int small = static_cast<int>(word % 6) - 1;
@@ -134,8 +134,28 @@ void control_something(Feed& feed, Engine* const (&cards)[2]) {
             case 18:
                 static_cast<void>(c->set_mcbsp_in(small, a));
                 break;
+            case 19:
+                static_cast<void>(c->load_list(word, other % 120));
+                break;
+            case 20:
+                static_cast<void>(c->load_sub(word % 1200));
+                break;
+            case 21:
+                word % 2 ? c->disable_laser() : c->enable_laser();
+                break;
+            case 22:
+                static_cast<void>(c->set_mcbsp_out(std::array<std::uint32_t, 2>{word % 48, other % 48}));
+                static_cast<void>(c->mcbsp_sent());
+                break;
+            case 23:
+                static_cast<void>(c->get_value(word % 60));
+                c->get_mcbsp();
+                break;
+            case 24:
+                static_cast<void>(word % 2 ? c->set_mcbsp_x(a) : c->set_mcbsp_rot(b));
+                break;
             default:
-                static_cast<void>(c->set_start_list(small));
+                static_cast<void>(c->set_start_list(static_cast<std::uint32_t>(small), other % 120));
                 break;
         }
     }
