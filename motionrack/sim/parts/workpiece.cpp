@@ -153,29 +153,40 @@ std::int64_t Nearest::row(double y) const {
 }
 
 double Nearest::distance(sim::Spot p) const {
-    double best = std::numeric_limits<double>::infinity();
-    if (segments_.empty()) return best;
+    double best2 = std::numeric_limits<double>::infinity();
+    if (segments_.empty()) return best2;
     const std::int64_t c0 = column(p.x), r0 = row(p.y);
+    const double slack = 1e-6 * side_ + 1e-9;  // a place at the edge may be in either square
+    const auto beside = [&](double at, double low, std::int64_t square) {
+        const double begin = low + static_cast<double>(square) * side_;
+        return std::max({begin - slack - at, at - begin - side_ - slack, 0.0});
+    };
     // A square of ring n is at least n - 1 sides away from the point's own; a point outside is further still.
     for (std::int64_t ring = 0; ring <= std::max(columns_, rows_); ++ring) {
-        if (static_cast<double>(ring - 1) * side_ > best) break;
+        if (static_cast<double>(ring - 1) * side_ > std::sqrt(best2)) break;
         for (std::int64_t r = std::max<std::int64_t>(0, r0 - ring); r <= std::min(rows_ - 1, r0 + ring); ++r) {
             const bool edge_row = r == r0 - ring || r == r0 + ring;
+            const double above = beside(p.y, low_.y, r);
             for (std::int64_t c = c0 - ring; c <= c0 + ring; c += edge_row || ring == 0 ? 1 : 2 * ring) {
                 if (c < 0 || c >= columns_) continue;
-                const auto square = static_cast<std::size_t>(r * columns_ + c);
-                for (std::uint32_t k = begins_[square]; k < begins_[square + 1]; ++k) {
-                    const Segment& s = segments_[members_[k]];
-                    const sim::Spot way = minus(s.to, s.from), to = minus(p, s.from);
-                    const double square_mm = way.x * way.x + way.y * way.y;
-                    const double part =
-                        square_mm > 0 ? std::clamp((to.x * way.x + to.y * way.y) / square_mm, 0.0, 1.0) : 0;
-                    best = std::min(best, length_of({to.x - part * way.x, to.y - part * way.y}));
-                }
+                const double aside = beside(p.x, low_.x, c);
+                if (aside * aside + above * above >= best2) continue;
+                look_in(static_cast<std::size_t>(r * columns_ + c), p, best2);
             }
         }
     }
-    return best;
+    return std::sqrt(best2);
+}
+
+void Nearest::look_in(std::size_t square, sim::Spot p, double& best2) const {
+    for (std::uint32_t k = begins_[square]; k < begins_[square + 1]; ++k) {
+        const Segment& s = segments_[members_[k]];
+        const sim::Spot way = minus(s.to, s.from), to = minus(p, s.from);
+        const double square_mm = way.x * way.x + way.y * way.y;
+        const double part = square_mm > 0 ? std::clamp((to.x * way.x + to.y * way.y) / square_mm, 0.0, 1.0) : 0;
+        const sim::Spot off{to.x - part * way.x, to.y - part * way.y};
+        best2 = std::min(best2, off.x * off.x + off.y * off.y);
+    }
 }
 
 }  // namespace motionrack::parts

@@ -93,6 +93,8 @@ class Nearest {
   private:
     std::int64_t column(double x) const;
     std::int64_t row(double y) const;
+    /// Lowers `best2`, the square of a distance, to that of the nearest segment of the square.
+    void look_in(std::size_t square, sim::Spot p, double& best2) const;
 
     std::vector<Segment> segments_;
     sim::Spot low_;
