@@ -165,8 +165,8 @@ MR_API int mr_part_get(mr_rack *rack, const char *part_dot_quantity, double *val
  * MR_BAD_CALL; MR_REFUSED (cannot be set; no number; more than 10,000,000 microsteps away). */
 MR_API int mr_part_set(mr_rack *rack, const char *part_dot_quantity, double value);
 
-/* Breaks something on purpose, or mends it: fault "NAME" or "NAME=VALUE" (without a value: 1), target the axis ("X") or, for
- * the last three and those of an encoder's tracks, a belt or table by its name.
+/* Breaks something on purpose, or mends it: fault "NAME" or "NAME=VALUE" (without a value: 1), target the axis ("X")
+ * or, for the last three and those of an encoder's tracks, a belt or table by its name.
  *   motor.stall              the axle is held fast; 0 lets it go
  *   motor.lose_steps         the rotor falls back by about VALUE pulses (whole electrical cycles), at most 10,000,000
  *   motor.push               the rotor is moved by about VALUE microsteps, at most 10,000,000 either way

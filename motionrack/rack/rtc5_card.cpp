@@ -101,7 +101,7 @@ class Rtc5Card final : public Card {
         for (const Number& number : numbers) out.push_back(number.name);
         return out;
     }
-    void copy_from(const Card& other) override { card_.copy_tables(dynamic_cast<const Rtc5Card&>(other).card_); }
+    void copy_from(const Card& other) override { card_.copy_beside_state(dynamic_cast<const Rtc5Card&>(other).card_); }
 
     sim::VirtualHost& host() override { return host_; }
     std::string describe(const sim::Condition& condition) const override { return rtc5::describe(condition, name_); }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <limits>
 #include <motionrack/frontends/rtc5sim/calls.hpp>
+#include <motionrack/rack/rtc5_card.hpp>
 
 namespace motionrack::rtc5sim {
 
@@ -16,6 +17,7 @@ namespace {
 
 thread_local std::string last_sentence;
 constexpr UINT most_cards = 16;
+constexpr std::uint64_t ns_per_tick = 10'000;
 constexpr std::int64_t end_of_time =
     std::numeric_limits<std::int64_t>::max() / 1000;  ///< ticks; laser instants fit, too
 
@@ -84,8 +86,7 @@ Result<void> Bench::open() {
     if (!cards_.empty()) return {};
     MOTIONRACK_TRY(const UINT wanted, cards_wanted());
     for (UINT i = 1; i <= wanted; ++i) {
-        cards_.push_back(std::make_unique<Card>());
-        cards_.back()->number = i;
+        cards_.push_back(std::make_unique<Card>(i));
     }
     return {};
 }
@@ -97,7 +98,13 @@ Result<UINT> Bench::count() {
 
 Result<Card*> Bench::card(UINT number) {
     MOTIONRACK_CHECK(open());
-    if (number >= 1 && number <= cards_.size()) return cards_[number - 1].get();
+    if (number >= 1 && number <= cards_.size()) {
+        Card& card = *cards_[number - 1];
+        if (card.wired != nullptr) card.wired->engine();  // it is at the present instant, and looks what it was told
+        return &card;
+    }
+    if (rack_)
+        return fail(Trouble::bad_input, fmt::format("there is no card {}; the rack has {} of type rtc5. Nothing was done.", number, cards_.size()));
     return fail(Trouble::bad_input,
                 fmt::format("there is no card {}; the environment variable RTC5SIM_CARDS makes it {}. "
                             "Nothing was done.",
@@ -114,6 +121,7 @@ Result<void> Bench::select(UINT number) {
 
 Result<std::int64_t> Bench::tick() {
     MOTIONRACK_CHECK(open());
+    if (rack_) return static_cast<std::int64_t>(rack_->now_ns() / ns_per_tick);
     return cards_.front()->engine.tick();
 }
 
@@ -121,6 +129,7 @@ Result<void> Bench::pass(std::int64_t ticks) {
     MOTIONRACK_TRY(const std::int64_t present, tick());
     if (ticks > end_of_time - present) return fail(Trouble::refused, "the end of time is reached. Nothing was run.");
     const Inside inside(samples != nullptr);
+    if (rack_) return pass_rack(ticks);
     for (const auto& card : cards_) {
         Handed sink(samples, samples_user, card->number);
         card->engine.run_until(present + ticks, samples == nullptr ? nullptr : &sink);
@@ -128,15 +137,44 @@ Result<void> Bench::pass(std::int64_t ticks) {
     return {};
 }
 
+Result<void> Bench::pass_rack(std::int64_t ticks) {
+    std::vector<Handed> sinks;
+    for (const auto& card : cards_) sinks.emplace_back(samples, samples_user, card->number);
+    for (std::size_t i = 0; samples != nullptr && i < sinks.size(); ++i) cards_[i]->wired->watch(&sinks[i]);
+    const Result<void> done = rack_->advance(static_cast<std::uint64_t>(ticks) * ns_per_tick);
+    for (const auto& card : cards_) card->wired->watch(nullptr);
+    return done;
+}
+
+Result<void> Bench::open_rack(std::string_view path_or_text) {
+    MOTIONRACK_TRY(std::unique_ptr<rack::Session> opened, rack::Session::open(path_or_text));
+    std::vector<std::unique_ptr<Card>> found;
+    for (const rack::RackCard& each : opened->rack().config().cards)
+        if (rtc5::Card* card = rack::rtc5_card_of(opened->rack(), each.name))
+            found.push_back(std::make_unique<Card>(static_cast<UINT>(found.size() + 1), *card));
+    if (found.empty())
+        return fail(Trouble::bad_input, "the rack has no card of type rtc5. Nothing was done; the cards are as before.");
+    close();
+    cards_ = std::move(found);
+    rack_ = std::move(opened);
+    return {};
+}
+
+Result<rack::Session*> Bench::rack() {
+    if (rack_) return rack_.get();
+    return fail(Trouble::refused, "the cards are not those of a rack. Nothing was done; call rtc5sim_open first.");
+}
+
 void Bench::close() {
     cards_.clear();
+    rack_.reset();
     selected = 1;
 }
 
 Result<bool> Bench::run_to_rest(std::int64_t ticks) {
     MOTIONRACK_TRY(const std::int64_t present, tick());
     ticks = std::min(ticks, end_of_time - present);
-    if (cards_.size() == 1) {
+    if (cards_.size() == 1 && !rack_) {
         Handed sink(samples, samples_user, 1);
         const Inside inside(samples != nullptr);
         return cards_.front()->engine.run_to_rest(ticks, samples == nullptr ? nullptr : &sink);

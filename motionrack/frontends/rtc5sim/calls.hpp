@@ -7,8 +7,10 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <motionrack/cards/rtc5/model/card.hpp>
 #include <motionrack/cards/rtc5/model/engine.hpp>
 #include <motionrack/frontends/calls/calls.hpp>
+#include <motionrack/rack/session.hpp>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -37,8 +39,15 @@ class Belt final : public rtc5::Inputs {
 };
 
 struct Card {
+    /// A card by itself.
+    explicit Card(UINT n) : number(n), own(std::make_unique<rtc5::Engine>()), engine(*own) {}
+    /// A card of a rack.
+    Card(UINT n, rtc5::Card& card) : number(n), wired(&card), engine(card.engine()) {}
+
     UINT number = 0;  ///< from 1
-    rtc5::Engine engine;
+    std::unique_ptr<rtc5::Engine> own;
+    rtc5::Card* wired = nullptr;  ///< nullptr: it has no wires
+    rtc5::Engine& engine;
     Belt belt;
     std::array<std::array<std::int32_t, 16>, rtc5::table_count> headers{};  ///< of the correction files loaded
     UINT errors = 0, last_error = 0;                                        ///< the board's bits
@@ -61,12 +70,17 @@ class Bench {
     Result<std::int64_t> tick();
     /// The cards end; the next use makes others.
     void close();
+    /// The cards end, and those of type rtc5 of this rack (its file or text) take their places, in the file's order.
+    Result<void> open_rack(std::string_view path_or_text);
+    Result<rack::Session*> rack();
 
     rtc5sim_samples_handler samples = nullptr;
     void* samples_user = nullptr;
 
   private:
     Result<void> open();
+    Result<void> pass_rack(std::int64_t ticks);
+    std::unique_ptr<rack::Session> rack_;  ///< nullptr: the cards are by themselves
     std::vector<std::unique_ptr<Card>> cards_;
 };
 

@@ -37,6 +37,12 @@ int done(const char* who, UINT number, Call call) {
     });
 }
 
+Result<void> check_unwired(const Card& card) {
+    if (card.wired == nullptr) return {};
+    return fail(Trouble::refused, "the card is that of a rack, whose wires turn its encoders. Nothing was changed; set the speed of a belt "
+                                  "by rtc5sim_part_set.");
+}
+
 void move(Card& card, std::size_t encoder, std::int64_t count, double counts_per_s) {
     const std::int64_t tick = card.engine.tick();
     card.belt.set(encoder, tick, count, counts_per_s);
@@ -85,6 +91,7 @@ int64_t rtc5sim_now_us(void) {
 int rtc5sim_encoder_speed(UINT CardNo, UINT Encoder, double counts_per_s) {
     return done(__func__, CardNo, [&](Card& card) -> Result<void> {
         MOTIONRACK_CHECK(check_encoder(Encoder));
+        MOTIONRACK_CHECK(check_unwired(card));
         if (!(std::abs(counts_per_s) <= 1e9))
             return fail(
                 Trouble::refused,
@@ -97,6 +104,7 @@ int rtc5sim_encoder_speed(UINT CardNo, UINT Encoder, double counts_per_s) {
 int rtc5sim_encoder_count(UINT CardNo, UINT Encoder, int32_t count) {
     return done(__func__, CardNo, [&](Card& card) -> Result<void> {
         MOTIONRACK_CHECK(check_encoder(Encoder));
+        MOTIONRACK_CHECK(check_unwired(card));
         move(card, Encoder, count, card.belt.speed(Encoder));
         return {};
     });

@@ -356,6 +356,18 @@ RTC5_API void rtc5sim_clear_error(void);
 typedef void (*rtc5sim_error_handler)(const char *sentence, void *user);
 RTC5_API void rtc5sim_on_error(rtc5sim_error_handler handler, void *user);
 
+/* The cards become those of type rtc5 of a rack file (its path, or the text itself), card 1 is the first in the file: on
+ * the rack's wires, in its time, with its belts, sensors and scan heads. A file with mistakes is refused, with all of
+ * them in the sentence, and the cards stay as they are. rtc5sim_close ends them, as free_rtc5_dll does; the next use
+ * makes others as RTC5SIM_CARDS says. 0, or -1. */
+RTC5_API int rtc5sim_open(const char *rack);
+RTC5_API int rtc5sim_close(void);
+
+/* What is true of a part of that rack, "line.position_mm", "head.marked_mm", and setting it, "line.speed_mm_s": the
+ * names are those of mr_part_get. 0, or -1. */
+RTC5_API int rtc5sim_part_get(const char *part_dot_quantity, double *value);
+RTC5_API int rtc5sim_part_set(const char *part_dot_quantity, double value);
+
 /* What a question takes from here on: 0 .. 1,000,000,000 us, a multiple of 10. */
 RTC5_API int rtc5sim_question_us(int64_t us);
 
@@ -370,7 +382,7 @@ RTC5_API int rtc5sim_run(int64_t most_us);
 RTC5_API int64_t rtc5sim_now_us(void);
 
 /* What comes to a card: an encoder line (Encoder 0, 1) that counts on with this speed, up to 1e9 counts/s; the line's
- * count set to a number; a McBSP word; a start signal; a stop signal. They act in the next 10 us. 0, or -1. */
+ * count set to a number (both not of a rack's card); a McBSP word; a start signal; a stop signal. They act in the next 10 us. 0, or -1. */
 RTC5_API int rtc5sim_encoder_speed(UINT CardNo, UINT Encoder, double counts_per_s);
 RTC5_API int rtc5sim_encoder_count(UINT CardNo, UINT Encoder, int32_t count);
 RTC5_API int rtc5sim_receive(UINT CardNo, uint32_t word);

@@ -101,9 +101,10 @@ TEST(Rtc5InARack, HasNoBusAndTellsWhatItHas) {
     EXPECT_THAT(bench.session->part("c1.height").error().message, HasSubstr("mark_speed_bits_ms"));
 }
 
-TEST(Rtc5InARack, ACopyGoesOnAlikeWithItsTables) {
+TEST(Rtc5InARack, ACopyGoesOnAlikeWithItsTablesAndWhatWasRecorded) {
     Bench bench;
     bench.begin();
+    bench.put(Op::set_trigger, {1, 7, 8});
     bench.put(Op::set_fly_x, {2});
     bench.put(Op::mark_abs, {4000, 500});
     bench.put(Op::fly_return, {0, 0});
@@ -121,6 +122,9 @@ TEST(Rtc5InARack, ACopyGoesOnAlikeWithItsTables) {
     EXPECT_EQ(*copy->wire("c1.xout"), *bench.session->wire("c1.xout"));
     EXPECT_EQ(copy->state_hash(), bench.session->state_hash());
     EXPECT_NE(*copy->wire("c1.xout"), 0);
+    const rtc5::Engine& ended = rtc5_card_of(copy->rack(), "c1")->engine();
+    ASSERT_GT(ended.recording().count, 40);
+    for (std::int64_t i = 0; i < ended.recording().count; ++i) EXPECT_EQ(ended.recorded(0, i), bench.engine().recorded(0, i)) << i;
 }
 
 TEST(Rtc5InARack, ItsOutputsAreRecordedTickByTick) {

@@ -67,7 +67,8 @@ void Card::catch_up(Instant now) {
     tell();
 }
 
-void Card::laser(std::int64_t at, bool) {
+void Card::laser(std::int64_t at, bool on) {
+    if (watcher_ != nullptr) watcher_->laser(at, on);
     if (lines_.change_count < static_cast<std::int64_t>(lines_.changes.size()))
         lines_.changes[static_cast<std::size_t>(lines_.change_count++)] = (at * half_us).count();
 }

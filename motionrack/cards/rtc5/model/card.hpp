@@ -27,8 +27,10 @@ class Card final : public sim::Device, private Sink {
     const Engine& engine() const { return engine_; }
     /// The same at the present instant, in a run too.
     const Engine& caught_up();
-    /// What no snapshot holds: tables.
-    void copy_tables(const Card& other) { engine_.copy_tables(other.engine_); }
+    /// What no snapshot holds: see Engine.
+    void copy_beside_state(const Card& other) { engine_.copy_beside_state(other.engine_); }
+    /// Hears of the samples and the laser of every tick worked off; nullptr: nobody. Must not ask the card.
+    void watch(Sink* sink) { watcher_ = sink; }
     sim::DeviceId id() const { return id_; }
     sim::WireId busy_wire() const;
 
@@ -50,7 +52,9 @@ class Card final : public sim::Device, private Sink {
         std::int64_t laser = 0, told_unwritten = 0, told_flags = 0, told_lost = 0;
     };
 
-    void samples(const Samples&) override {}
+    void samples(const Samples& block) override {
+        if (watcher_ != nullptr) watcher_->samples(block);
+    }
     void laser(std::int64_t half_us, bool on) override;
     void catch_up(Instant now);
     void plan(Instant now);
@@ -65,6 +69,7 @@ class Card final : public sim::Device, private Sink {
     sim::DeviceId id_{};
     std::array<sim::WireId, std::size(map::pins)> wires_{};
     Lines lines_;
+    Sink* watcher_ = nullptr;
     sim::HeldState lists_, inputs_;
 };
 

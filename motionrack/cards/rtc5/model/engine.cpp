@@ -208,4 +208,11 @@ void Engine::advance(std::int64_t n) {
     state_.sampled = state_.tick - 1;
 }
 
+void Engine::copy_beside_state(const Engine& other) {
+    tables_ = other.tables_;
+    fly_table_ = other.fly_table_;
+    const Recording& r = state_.recording;
+    std::copy_n(other.recorded_.get(), static_cast<std::size_t>(r.count * r.channels), recorded_.get());
+}
+
 }  // namespace motionrack::rtc5

@@ -104,8 +104,8 @@ class Engine {
     void set_extstartpos(std::int64_t position) { state_.starts.position = position; }
     Result<void> set_encoder_speed(int encoder, double counts_ms, double smooth);
     void load_fly_2d_table(std::shared_ptr<const FlyTable> table) { fly_table_ = std::move(table); }
-    /// Correction and compensation tables as the other card has them; they are no part of the state.
-    void copy_tables(const Engine& other) { tables_ = other.tables_, fly_table_ = other.fly_table_; }
+    /// What is no part of the state as the other card, whose state was copied, has it: tables, and the samples recorded.
+    void copy_beside_state(const Engine& other);
     void init_fly_2d(std::int32_t offset_x, std::int32_t offset_y);
     Result<void> set_mcbsp_in(int mode, double scale);
     /// Words carry their type; those of type 3 are the laser's power (see multi_power).

@@ -1,0 +1,39 @@
+// The functions of our own for cards of a rack: opening it, and its parts.
+#include <motionrack/frontends/rtc5sim/calls.hpp>
+
+using namespace motionrack::rtc5sim;
+using motionrack::Result;
+
+int rtc5sim_open(const char* rack) {
+    return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
+        MOTIONRACK_CHECK(check_pointer(rack, "The name of the rack file"));
+        MOTIONRACK_CHECK(bench.open_rack(rack));
+        return 0;
+    });
+}
+
+int rtc5sim_close(void) {
+    return with_bench(__func__, -1, [](Bench& bench) -> Result<int> {
+        bench.close();
+        return 0;
+    });
+}
+
+int rtc5sim_part_get(const char* part_dot_quantity, double* value) {
+    return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
+        MOTIONRACK_CHECK(check_pointer(part_dot_quantity, "The name"));
+        MOTIONRACK_CHECK(check_pointer(value, "The place for the value"));
+        MOTIONRACK_TRY(motionrack::rack::Session * rack, bench.rack());
+        MOTIONRACK_TRY(*value, rack->part(part_dot_quantity));
+        return 0;
+    });
+}
+
+int rtc5sim_part_set(const char* part_dot_quantity, double value) {
+    return with_bench(__func__, -1, [&](Bench& bench) -> Result<int> {
+        MOTIONRACK_CHECK(check_pointer(part_dot_quantity, "The name"));
+        MOTIONRACK_TRY(motionrack::rack::Session * rack, bench.rack());
+        MOTIONRACK_CHECK(rack->set_part(part_dot_quantity, value));
+        return 0;
+    });
+}
