@@ -78,6 +78,12 @@ TEST(Examples, TheMarkingJobInCPrintsWhatItsFolderSays) {
     EXPECT_EQ(ran.out, text_of(examples / "rtc5sim" / "expected.txt"));
 }
 
+TEST(Examples, TheMarkingLineInCPrintsWhatItsFolderSays) {
+    const Ran ran = run(examples / "14_line", MOTIONRACK_LINE_EXAMPLE " line.toml");
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_EQ(ran.out, text_of(examples / "14_line" / "expected.txt"));
+}
+
 TEST(Examples, TheOldHostProgramPrintsWhatItsFolderSays) {
     const Ran ran = run(examples, MOTIONRACK_DATABOARD_C_EXAMPLE);
     EXPECT_EQ(ran.code, 0);

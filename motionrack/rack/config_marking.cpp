@@ -182,11 +182,11 @@ class MarkingReader {
         double fastest = std::fabs(track.speed);
         if (!track.profile.empty()) fastest = 0;
         for (const parts::SpeedPoint& point : track.profile) fastest = std::max(fastest, std::fabs(point.speed));
-        const double counts = fastest * std::fabs(track.counts_per_unit) * (1 - track.slip);
-        if (counts > greatest_track_counts)
-            problems_.warn(node_->place_of(with_unit("counts_per_{u}", unit_)),
-                              fmt::format("{}: its encoder makes {:.0f} counts/s at {} {}/s, but its lines show {:.0f} at most; counts will be lost.",
-                                          what_, counts, number_text(fastest), unit_, greatest_track_counts));
+        if (fastest > track.greatest_speed())
+            refuse(*node_, with_unit("speed_{u}_s", unit_),
+                   fmt::format("it goes at {0} {1}/s, but at more than {2:.6g} {1}/s its encoder would make more than {3:.0f} counts a second, or "
+                               "more than {4:.0f} parts a second would come.",
+                               number_text(fastest), unit_, track.greatest_speed(), greatest_track_counts, greatest_parts));
     }
 
     /// Two tracks at one pin would drive against each other.

@@ -37,7 +37,12 @@ struct RackTrack {
     std::string_view unit() const { return rotary ? "deg" : "mm"; }
     bool has_encoder() const { return counts_per_unit != 0; }
     parts::TrackSettings settings() const;
+    /// mm/s or degrees/s: quicker neither its encoder nor its sensor can be followed.
+    double greatest_speed() const;
 };
+
+/// What the encoder of a track can show, counts a second; what can pass a sensor, parts a second.
+inline constexpr double greatest_track_counts = 1e7, greatest_parts = 1e5;
 
 struct RackLens {
     double f1_mm = 163.064, f2_mm = -1.259, f3_mm = -21.465, f4_mm = -26.664;

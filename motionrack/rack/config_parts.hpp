@@ -57,9 +57,6 @@ struct TrackEnd {
 };
 std::span<const TrackEnd> track_ends();
 
-/// Counts a second that the encoder of a track can show.
-inline constexpr double greatest_track_counts = 1e7;
-
 inline constexpr std::string_view estop_doc = "the emergency stop button: low while it is pressed";
 inline constexpr std::array<std::string_view, 6> axis_names = {"X", "Y", "Z", "A", "B", "C"};
 inline constexpr int slot_count = 21;

@@ -11,7 +11,7 @@ namespace motionrack::rack {
 
 namespace {
 
-constexpr double places_per_unit = 1e6;  // of the parts: nm, or millionths of a degree
+constexpr double places_per_unit = 1e5;  // of the parts: 10 nm, or 1/100,000 degree
 /// Faults of the encoder's lines; see parts::LineOutput.
 constexpr std::array<std::string_view, 7> encoder_faults = {"encoder.broken_a", "encoder.broken_b", "encoder.swapped", "encoder.inverted_a",
                                                             "encoder.inverted_b", "encoder.noise",    "encoder.jitter"};
@@ -35,6 +35,13 @@ parts::TrackSettings RackTrack::settings() const {
     if (profile.empty()) out.profile = {{0, speed}};
     if (has_encoder()) out.counts_per_unit = counts_per_unit;
     out.slip = slip;
+    return out;
+}
+
+double RackTrack::greatest_speed() const {
+    double out = parts::greatest_track_speed;
+    if (has_encoder()) out = std::min(out, greatest_track_counts / (std::fabs(counts_per_unit) * (1 - slip)));
+    if (passing) out = std::min(out, greatest_parts * passing->every);
     return out;
 }
 
@@ -72,7 +79,7 @@ RunningTrack build_track(sim::Kernel& kernel, const RackTrack& config) {
     out.config = config;
     const Result<parts::Track> track = parts::Track::make(config.settings());
     MOTIONRACK_ASSERT(track.has_value());  // read_rack has looked
-    out.drive = std::make_unique<parts::TrackDrive>(kernel, config.name, *track);
+    out.drive = std::make_unique<parts::TrackDrive>(kernel, config.name, *track, config.greatest_speed());
     if (config.has_encoder()) {
         out.counts = std::make_unique<parts::TrackMotion>(kernel, config.name + ".counts", out.track(), config.counts_per_unit * (1 - config.slip));
         out.drive->add(*out.counts);

@@ -139,9 +139,10 @@ Result<void> set_track_quantity(Rack& rack, const RunningTrack& track, std::stri
     const std::string speed = with_unit(track_speed, track.config.unit());
     if (name != speed)
         return fail(Trouble::refused, fmt::format("Of {} only {} can be set, not {}. Nothing was done.", track.config.name, speed, in_quotes(name)));
-    if (!(std::fabs(value) <= parts::greatest_track_speed))
-        return fail(Trouble::refused, fmt::format("{}.{} cannot become {}: {:.0f} to {:.0f} are possible. Nothing was done.", track.config.name, speed, value,
-                                                  -parts::greatest_track_speed, parts::greatest_track_speed));
+    const double greatest = track.config.greatest_speed();
+    if (!(std::fabs(value) <= greatest))
+        return fail(Trouble::refused, fmt::format("{}.{} cannot become {}: {:.6g} to {:.6g} are possible. Nothing was done.", track.config.name, speed,
+                                                  value, -greatest, greatest));
     return inject_fault(rack, fmt::format("drive.speed={:.17g}", value), track.config.name);
 }
 

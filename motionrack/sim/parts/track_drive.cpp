@@ -9,8 +9,8 @@ namespace {
 constexpr std::array<std::string_view, 2> all_faults = {"drive.speed", "drive.profile"};
 }
 
-TrackDrive::TrackDrive(sim::Kernel& kernel, const std::string& name, const Track& track)
-    : track_(track), id_(kernel.add(*this, sim::Phase::parts, name)) {}
+TrackDrive::TrackDrive(sim::Kernel& kernel, const std::string& name, const Track& track, double greatest_speed)
+    : track_(track), greatest_speed_(greatest_speed), id_(kernel.add(*this, sim::Phase::parts, name)) {}
 
 std::span<const std::string_view> TrackDrive::fault_names() {
     return all_faults;
@@ -19,7 +19,7 @@ std::span<const std::string_view> TrackDrive::fault_names() {
 bool TrackDrive::fault(std::string_view name, double value, Instant now) {
     const bool by_hand = name == all_faults[0];
     if (!by_hand && name != all_faults[1]) return false;
-    if (!(std::fabs(value) <= greatest_track_speed)) return false;
+    if (!(std::fabs(value) <= greatest_speed_)) return false;
     for (TrackMotion* motion : motions_) motion->hand_over_edges();
     const double before = track_.speed(to_seconds(now));
     if (by_hand)

@@ -2,7 +2,7 @@
 //
 //   TrackDrive ──► Track ──► TrackMotion (counts of an encoder), TrackMotion (place of the parts), ScanHead, WordSource
 //
-// The faults: drive.speed x (x mm/s or degrees/s from now on; 0: it stands), drive.profile (its own profile again).
+// The faults: drive.speed x (x mm/s or degrees/s from now on, up to the greatest speed; 0: it stands), drive.profile (its own profile again).
 #pragma once
 
 #include <motionrack/sim/kernel.hpp>
@@ -16,8 +16,8 @@ namespace motionrack::parts {
 
 class TrackDrive final : public sim::Device {
   public:
-    /// Adds the device `name` to the kernel, before it starts.
-    TrackDrive(sim::Kernel& kernel, const std::string& name, const Track& track);
+    /// Adds the device `name` to the kernel, before it starts. `greatest_speed`: at most greatest_track_speed.
+    TrackDrive(sim::Kernel& kernel, const std::string& name, const Track& track, double greatest_speed = greatest_track_speed);
 
     const Track& track() const { return track_; }
     sim::DeviceId id() const { return id_; }
@@ -31,6 +31,7 @@ class TrackDrive final : public sim::Device {
 
   private:
     Track track_;
+    double greatest_speed_;
     std::vector<TrackMotion*> motions_;
     sim::DeviceId id_{};
 };
