@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <motionrack/mark/job.hpp>
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
@@ -69,6 +70,11 @@ bool has_heading(const fs::path& page, const std::string& anchor) {
 TEST(Docs, TheRackFilePageIsCurrent) {
     EXPECT_EQ(text_of(root / "docs/reference/rack-file.md"), rack::rack_file_reference())
         << "make it anew: motionrack describe rack-file > docs/reference/rack-file.md";
+}
+
+TEST(Docs, TheMarkingJobPageIsCurrent) {
+    EXPECT_EQ(text_of(root / "docs/reference/marking-job.md"), mark::job_file_reference())
+        << "make it anew: motionrack describe marking-job > docs/reference/marking-job.md";
 }
 
 TEST(Docs, LinksLeadSomewhere) {

@@ -1,4 +1,5 @@
 // The commands `mark` and `calibrate` as a user calls them, and their page.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -40,6 +41,22 @@ TEST_F(MarkCommand, ItsPageShowsWhatItsCommandsPrint) {
     for (const auto& [arguments, code] : codes) EXPECT_EQ(code, 0) << arguments;
     EXPECT_EQ(text_of(folder / "square.svg"), text_of(root / "docs/pictures/marking_square.svg"))
         << "make it anew: motionrack mark examples/marking/square.toml --picture docs/pictures/marking_square.svg";
+}
+
+TEST_F(MarkCommand, TheExamplesPrintAndDrawWhatTheirPageShows) {
+    const std::map<std::string, int> codes = run_page("examples/marking/README.md");
+    ASSERT_EQ(codes.size(), 8u);
+    for (const auto& [arguments, code] : codes) EXPECT_EQ(code, arguments.find("serial") != std::string::npos ? 4 : 0) << arguments;
+    for (const char* name : {"serial", "dial", "long", "speed_encoder", "speed_simulated", "mcbsp_late", "mcbsp_offset"})
+        EXPECT_EQ(text_of(folder / fmt::format("{}.svg", name)), text_of(root / fmt::format("examples/marking/pictures/{}.svg", name)))
+            << fmt::format("make it anew: motionrack mark examples/marking/{0}.toml --picture examples/marking/pictures/{0}.svg", name);
+}
+
+TEST_F(MarkCommand, ALongDrawingOnAFastBeltIsRefusedWithTheSpeedThatFits) {
+    std::string job = text_of(root / "examples/marking/long.toml");
+    job.replace(job.find("speed_mm_s = 150"), 16, "speed_mm_s = 300");
+    job.replace(job.find("ruler.svg"), 9, "examples/marking/ruler.svg");
+    refused(job, 3, "It just fits at");
 }
 
 TEST_F(MarkCommand, WritesPicturesOfBothKindsAndAPage) {

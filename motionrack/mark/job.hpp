@@ -1,4 +1,4 @@
-// A marking job: what is drawn, with which card settings, optics and laser, on a part that moves how; read from TOML.
+// A marking job: what is drawn, with which card settings, optics and laser, on parts that move how; read from TOML.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace motionrack::mark {
 enum class Anchor : std::uint8_t { centre, origin };
 
 struct DrawingSource {
-    std::optional<std::string> svg, gcode, text;  ///< just one of them: two file names, or the text itself
+    std::optional<std::string> svg, gcode, text;  ///< just one of them: two file names, or the text itself, with {n} for the part's number
     double height_mm = 5;                         ///< of the text's capitals
     std::optional<double> width_mm;               ///< the drawing is made so wide
     double scale = 1, rotate_deg = 0;
@@ -56,16 +56,41 @@ struct Belt {
 };
 
 enum class FlyMode : std::uint8_t { off, encoder, simulated, mcbsp };
+enum class Waits : std::uint8_t { none, automatic };
 
 struct FlySettings {
     FlyMode mode = FlyMode::off;
     double tracking_error_us = 0;  ///< whole 10 us
     double scale_factor = 1;       ///< of the right scale: what a wrong calibration does
+    std::optional<double> simulated_speed;  ///< mm/s or degrees/s that the simulated encoder stands for; none: the belt's
+    double offset_us = 0;  ///< everything is marked so much of the belt's first speed further on: for a source that is late
+    Waits waits = Waits::none;
+    double margin_mm = 1;  ///< with waits: marks keep so far from the field's edge
+};
+
+enum class PartStart : std::uint8_t {
+    sensor,       ///< each part's edge is an external start, with track delay
+    equidistant,  ///< only the first; then each list asks for the next start, a spacing after its own
+};
+
+/// Parts that come one after the other. Units are mm on a belt and degrees on a table.
+struct PartsSettings {
+    std::int64_t count = 1;
+    double spacing = 0;
+    std::vector<double> at;   ///< instead of count and spacing: way of the belt until each part is at the sensor
+    double track_delay = 0;   ///< from the sensor to where the drawing is meant to be marked
+    PartStart start = PartStart::sensor;
+    std::int64_t first_number = 1, number_step = 1;  ///< of {n} in texts
+
+    std::size_t size() const { return at.empty() ? static_cast<std::size_t>(count) : at.size(); }
+    std::int64_t number(std::size_t marked) const { return first_number + static_cast<std::int64_t>(marked) * number_step; }
+    /// Way of the belt until part `i` is where it should be marked.
+    double way(std::size_t i) const { return (at.empty() ? static_cast<double>(i) * spacing : at[i]) + track_delay; }
 };
 
 struct Job {
     std::string file;
-    DrawingSource drawing;
+    std::vector<DrawingSource> drawings;
     Optics optics;
     std::optional<LensData> lens;
     parts::GalvoSettings galvo;
@@ -73,9 +98,12 @@ struct Job {
     Pace pace;
     Belt belt;
     FlySettings fly;
+    std::optional<PartsSettings> parts;  ///< none: one part, and the job begins by itself
     parts::SenderSettings sender;
 
     parts::TrackSettings track() const;
+    /// 1 or -1: where the belt goes, seen from its direction.
+    double sense() const;
 };
 
 /// A job, or everything that is wrong with it, with the places.
@@ -85,10 +113,16 @@ struct JobRead {
 };
 JobRead read_job(std::string_view text, const std::string& file);
 
+/// Every key of a job file, as a page.
+std::string job_file_reference();
+
 /// Gives the bytes of a file that a job names (relative to the job).
 using Load = std::function<Result<std::string>(const std::string& path)>;
 
-/// The drawing of a job in the field's mm, placed, scaled and turned. Errors: of the file, or a drawing without lines.
-Result<Drawing> drawing_of(const Job& job, const Load& load);
+/// The drawing of a job in the field's mm, placed, scaled and turned, with this number in its texts. Errors: of the file, or a drawing
+/// without lines.
+Result<Drawing> drawing_of(const Job& job, const Load& load, std::int64_t number);
+/// Whether its texts have a number.
+bool has_numbers(const Job& job);
 
 }  // namespace motionrack::mark

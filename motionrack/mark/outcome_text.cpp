@@ -31,15 +31,18 @@ void overflows(Out to, const Marked& m) {
 
 void fit(Out to, const Job& job, const Outcome& out) {
     if (!out.fits_factor) return;
+    const char* what = out.starts_limit ? "the time between two parts" : "the field";
     const char* unit = job.belt.rotary ? "degrees/s" : "mm/s";
-    if (*out.fits_factor == 0) {
+    if (*out.fits_factor == 0 && out.starts_limit) {
+        fmt::format_to(to, "Starts are lost however slow the parts are. Let them come further apart.\n");
+    } else if (*out.fits_factor == 0) {
         fmt::format_to(to, "The drawing does not fit the field even while the part is at rest. Make it smaller.\n");
     } else if (out.fits_any) {
         fmt::format_to(to, "It fits the field at any speed up to {:g} times this one.\n", *out.fits_factor);
     } else if (job.belt.profile.empty()) {
-        fmt::format_to(to, "It just fits the field at {:.5g} {}; this job has {:g} {}.\n", *out.fits_factor * job.belt.speed, unit, job.belt.speed, unit);
+        fmt::format_to(to, "It just fits {} at {:.5g} {}; this job has {:g} {}.\n", what, *out.fits_factor * job.belt.speed, unit, job.belt.speed, unit);
     } else {
-        fmt::format_to(to, "It just fits the field at {:.4g} times the speeds of the profile.\n", *out.fits_factor);
+        fmt::format_to(to, "It just fits {} at {:.4g} times the speeds of the profile.\n", what, *out.fits_factor);
     }
 }
 
@@ -56,7 +59,7 @@ std::vector<std::string> warnings_of(const Outcome& out) {
     std::vector<std::string> warnings;
     const Room room = room_of(out, out.on);
     const double wanted = least_room_part * (out.field.high.x - out.field.low.x);
-    if (room.mm >= 0 && room.mm < wanted)
+    if (!out.waits && room.mm >= 0 && room.mm < wanted)
         warnings.push_back(fmt::format("only {:.3f} mm are left at the {} edge of the field, less than {:.3g} mm ({:g} % of its width): a little more speed or a start a "
                                        "little later and the correction overflows", room.mm, room.edge, wanted, least_room_part * 100));
     return warnings;
@@ -71,6 +74,7 @@ std::string outcome_text(const Job& job, const Outcome& out) {
                    "duty %", "energy J");
     row(to, out.off ? "with correction" : "without correction", out.on);
     if (out.off) row(to, "without correction", *out.off);
+    text += parts_text(job, out.on);
     overflows(to, out.on);
     const Room room = room_of(out, out.on);
     if (room.mm >= 0) fmt::format_to(to, "room: {:.3f} mm are left in the field, at its {} edge\n", room.mm, room.edge);

@@ -62,7 +62,7 @@ void OverflowLog::close(std::size_t i, std::int64_t tick) {
     const rtc5::BitInfo& bit = info_of(edges[i]);
     const Spot field{edge.at.x / k_, edge.at.y / k_};
     const double from_s = static_cast<double>(edge.since) * 1e-5;
-    all_.push_back({std::string(bit.name), std::string(bit.meaning), from_s, static_cast<double>(tick) * 1e-5, field, track_.on_part(field, from_s), edge.beyond / k_, edge.marking});
+    all_.push_back({std::string(bit.name), std::string(bit.meaning), from_s, static_cast<double>(tick) * 1e-5, field, track_.on_part(field, from_s), 0, edge.beyond / k_, edge.marking});
 }
 
 void OverflowLog::finish(std::int64_t tick) {

@@ -56,19 +56,46 @@ Spot nearest_on(std::span<const parts::Segment> segments, Spot p) {
     return best;
 }
 
+constexpr std::size_t most_parts = 24;  ///< in one picture
+
+/// Parts side by side, or around their table.
+std::vector<Node> side_by_side(const Marked& marked, const auto& nodes_of_part) {
+    std::vector<Node> out;
+    for (std::size_t i = 0; i < std::min(marked.parts.size(), most_parts); ++i)
+        for (const Node& node : nodes_of_part(marked.parts[i])) out.push_back({marked.parts[i].shown(node.at), node.first});
+    return out;
+}
+std::vector<Node> marks_of(const Marked& marked, const PartMarked& part) {
+    return nodes_of(std::span(marked.points).subspan(part.first_point, part.points));
+}
+std::vector<Node> marks_of(const Marked& marked) {
+    return side_by_side(marked, [&](const PartMarked& part) { return marks_of(marked, part); });
+}
+std::vector<Node> drawings_of(const Prepared& prepared, const Marked& marked) {
+    return side_by_side(marked, [&](const PartMarked& part) { return nodes_of(std::span<const parts::Segment>(prepared.of(part.drawing).segments)); });
+}
+/// The part that has the worst place of all.
+std::size_t worst_part(const Marked& marked) {
+    const auto worst = std::max_element(marked.parts.begin(), marked.parts.end(), [](const PartMarked& a, const PartMarked& b) { return a.deviation.worst_mm < b.deviation.worst_mm; });
+    return static_cast<std::size_t>(worst - marked.parts.begin());
+}
+std::string of_part(const Marked& marked) {
+    return marked.parts.size() > 1 ? fmt::format(" of part {}", worst_part(marked) + 1) : std::string();
+}
+
 /// What all pictures of a job share.
 struct Scene {
     const Prepared& prepared;
     const Outcome& out;
-    std::vector<Node> drawing = nodes_of(std::span<const parts::Segment>(prepared.segments));
+    std::vector<Node> drawing;
     Box box{};  ///< of drawing and marks
 
-    Scene(const Prepared& p, const Outcome& o) : prepared(p), out(o) {
+    Scene(const Prepared& p, const Outcome& o) : prepared(p), out(o), drawing(drawings_of(p, o.on)) {
         if (drawing.empty()) return;
         box = mark::box_of(std::span<const Node>(drawing));
         const Box most = grown(box, 3 * size_of(box));
         for (const Marked* m : {&out.on, out.off ? &*out.off : nullptr})
-            if (m != nullptr && !m->points.empty()) box = joined(box, mark::box_of(nodes_of(std::span<const parts::MarkedPoint>(m->points))));
+            if (m != nullptr && !m->points.empty()) box = joined(box, mark::box_of(marks_of(*m)));
         box = {{std::max(box.low.x, most.low.x), std::max(box.low.y, most.low.y)},
                {std::min(box.high.x, most.high.x), std::min(box.high.y, most.high.y)}};
     }
@@ -76,12 +103,12 @@ struct Scene {
 };
 
 /// The overflows with the laser on, where it was or should have been.
-std::string crosses(const Plot& plot, const std::vector<Overflow>& overflows, Spot Overflow::*place) {
+std::string crosses(const Plot& plot, const std::vector<Overflow>& overflows, const auto& place) {
     constexpr std::size_t most = 200;
     std::string out;
     std::size_t drawn = 0;
     for (const Overflow& o : overflows)
-        if (o.marking && drawn++ < most) out += plot.cross(o.*place, fmt::format("{} at {:.5f} s, by {:.3f} mm", o.name, o.from_s, o.beyond_mm));
+        if (o.marking && drawn++ < most) out += plot.cross(place(o), fmt::format("{} at {:.5f} s, by {:.3f} mm", o.name, o.from_s, o.beyond_mm));
     return out;
 }
 
@@ -93,17 +120,20 @@ Part part_of(const Scene& scene, const Marked* marked, const char* title, const 
     constexpr double margin = 34;
     part.height = static_cast<int>(std::clamp((part.width - 2 * margin) * shape + 2 * margin, scene.wide() ? 130.0 : 240.0, 460.0));
     const Plot plot(scene.box, part.width, part.height, margin);
-    part.body = plot.grid() + plot.outline(scene.out.field, "box") + plot.strokes(scene.drawing, "planned");
+    const std::size_t parts = scene.out.on.parts.size();
+    part.body = plot.grid() + (parts > 1 ? std::string() : plot.outline(scene.out.field, "box")) + plot.strokes(scene.drawing, "planned");
     if (marked == nullptr) {
         part.words.push_back(fmt::format("{:.3f} mm in {}", scene.out.drawing_mm, rack::counted(scene.out.strokes, "stroke")));
+        if (parts > 1) part.words.push_back(fmt::format("on each of {} parts{}", parts, parts > most_parts ? fmt::format(", of which {} are shown", most_parts) : ""));
         part.body += plot.strokes(scene.drawing, "drawn");
     } else {
         const parts::Deviation& d = marked->deviation;
-        part.words = {fmt::format("worst {} at {:.3f}, {:.3f} mm; rms {}", shown_length(d.worst_mm), d.worst_at.x, d.worst_at.y, shown_length(d.rms_mm)),
+        part.words = {fmt::format("worst {} at {:.3f}, {:.3f} mm{}; rms {}", shown_length(d.worst_mm), d.worst_at.x, d.worst_at.y, of_part(*marked), shown_length(d.rms_mm)),
                       d.missing_mm > 0 ? fmt::format("{} of the drawing not marked", shown_length(d.missing_mm)) : "all of the drawing marked"};
-        part.body += plot.strokes(nodes_of(std::span<const parts::MarkedPoint>(marked->points)), look);
-        part.body += crosses(plot, marked->overflows, &Overflow::part);
-        if (d.worst_mm > 0) part.body += plot.ring(d.worst_at);
+        part.body += plot.strokes(marks_of(*marked), look);
+        part.body += crosses(plot, marked->overflows, [&](const Overflow& o) { return marked->parts[o.part_no].shown(o.part); });
+        const std::size_t worst = worst_part(*marked);
+        if (d.worst_mm > 0 && worst < most_parts) part.body += plot.ring(marked->parts[worst].shown(d.worst_at));
     }
     part.body += plot.scale_bar();
     return part;
@@ -130,7 +160,7 @@ Part field_of(const Scene& scene) {
     }
     part.body = plot.grid() + plot.outline(out.field, "box") + plot.strokes(jumps, "jumps") + plot.strokes(marks, out.off ? "driven" : "without") +
                 (out.off ? plot.outline(out.on.reach, "reach") : std::string()) +
-                crosses(plot, out.on.overflows, &Overflow::field) + plot.scale_bar();
+                crosses(plot, out.on.overflows, [](const Overflow& o) { return o.field; }) + plot.scale_bar();
     return part;
 }
 
@@ -140,12 +170,14 @@ Part worst_of(const Scene& scene, const Marked& marked, const char* title, const
     const parts::Deviation& d = marked.deviation;
     const double reach = std::max(d.worst_mm * 2, 2e-4);
     if (d.worst_mm <= 0 || reach > size_of(scene.box) / 8) return part;
-    const Spot on = nearest_on(scene.prepared.segments, d.worst_at), middle{(on.x + d.worst_at.x) / 2, (on.y + d.worst_at.y) / 2};
+    const PartMarked& worst = marked.parts[worst_part(marked)];
+    const std::vector<parts::Segment>& segments = scene.prepared.of(worst.drawing).segments;
+    const Spot on = nearest_on(segments, d.worst_at), middle{(on.x + d.worst_at.x) / 2, (on.y + d.worst_at.y) / 2};
     part.height = 300;
     const Plot plot(grown({middle, middle}, reach), part.width, part.height);
     part.title = title;
-    part.words = {fmt::format("{} off at {:.3f}, {:.3f} mm", shown_length(d.worst_mm), d.worst_at.x, d.worst_at.y), fmt::format("marked at {:.5f} s", d.worst_s)};
-    part.body = plot.strokes(scene.drawing, "planned") + plot.strokes(nodes_of(std::span<const parts::MarkedPoint>(marked.points)), look) +
+    part.words = {fmt::format("{} off at {:.3f}, {:.3f} mm{}", shown_length(d.worst_mm), d.worst_at.x, d.worst_at.y, of_part(marked)), fmt::format("marked at {:.5f} s", d.worst_s)};
+    part.body = plot.strokes(nodes_of(std::span<const parts::Segment>(segments)), "planned") + plot.strokes(marks_of(marked, worst), look) +
                 plot.line(on, d.worst_at, "off-by") + plot.ring(d.worst_at) + plot.scale_bar();
     return part;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/mark/plan.hpp>
+#include <motionrack/mark/waits.hpp>
 
 namespace motionrack::mark {
 
@@ -65,53 +66,152 @@ Direction direction_of(const parts::TrackSettings& track) {
     return {clean(d.cos), clean(d.sin)};
 }
 
-/// What one unit (mm or degree) of movement is in the numbers that the card gets.
-double per_unit(const Job& job, const Following& following) {
-    switch (following.mode) {
-        case FlyMode::encoder: return following.track.counts_per_unit;
-        case FlyMode::mcbsp: return job.sender.bits_per_mm;
-        default: return following.track.profile[0].speed != 0 ? 1e6 / following.track.profile[0].speed : 0;
+/// The correction of what goes along X, Y or both.
+void put_linear(List& list, const Job& job, const Prepared& prepared, const Following& following) {
+    const Direction d = direction_of(following.track);
+    const double scale = prepared.bits_per_mm * job.fly.scale_factor / counts_per_unit(job, following);
+    if (following.mode == FlyMode::mcbsp) {
+        if (d.x != 0) list.put(Op::set_fly_x_pos, {scale * (d.y != 0 ? 1 : d.x)});
+        if (d.y != 0) list.put(Op::set_fly_y_pos, {scale * (d.x != 0 ? 1 : d.y)});
+    } else if (d.x != 0 && d.y != 0 && !job.parts) {
+        // Both at once, so that neither counter begins a tick later; they are at 0 at the list's begin.
+        list.put(Op::activate_fly_xy, {scale * d.x, scale * d.y});
+    } else {
+        // Several parts: both are made 0 by the start itself.
+        if (d.x != 0) list.put(Op::set_fly_x, {scale * d.x});
+        if (d.y != 0) list.put(Op::set_fly_y, {scale * d.y});
     }
 }
 
 void put_fly(List& list, const Job& job, const Prepared& prepared, const Following& following) {
-    const double unit = per_unit(job, following);
+    const double unit = counts_per_unit(job, following);
     if (following.mode == FlyMode::off || unit == 0) return;
     const bool words = following.mode == FlyMode::mcbsp;
-    if (following.track.rotary) {
-        const Spot centre = following.track.centre_mm;
-        list.put(Op::set_rot_center_list, {list.bits(centre.x), list.bits(centre.y)});
-        const double resolution = 360 * unit / job.fly.scale_factor;
-        if (std::fabs(resolution) < rtc5::least_resolution)
-            list.refuse(fmt::format("{:g} counts a turn; under {:g} the card's rotary correction is off", resolution, rtc5::least_resolution));
-        list.put(words ? Op::set_fly_rot_pos : Op::set_fly_rot, {resolution});
+    if (!following.corrects) {
+        // Off, but the count begins at 0 for the waits.
+        if (job.fly.waits != Waits::none && !words) list.put(Op::set_fly_x, {0});
         return;
     }
-    const Direction d = direction_of(following.track);
-    const double scale = prepared.bits_per_mm * job.fly.scale_factor / unit;
-    if (words) {
-        if (d.x != 0) list.put(Op::set_fly_x_pos, {scale * (d.y != 0 ? 1 : d.x)});
-        if (d.y != 0) list.put(Op::set_fly_y_pos, {scale * (d.x != 0 ? 1 : d.y)});
-    } else if (d.x != 0 && d.y != 0) {
-        // Both at once, so that neither counter begins a tick later; they are at 0 at the list's begin.
-        list.put(Op::activate_fly_xy, {scale * d.x, scale * d.y});
+    if (!following.track.rotary) return put_linear(list, job, prepared, following);
+    const Spot centre = following.track.centre_mm;
+    list.put(Op::set_rot_center_list, {list.bits(centre.x), list.bits(centre.y)});
+    const double resolution = 360 * unit / job.fly.scale_factor;
+    if (std::fabs(resolution) < rtc5::least_resolution)
+        list.refuse(fmt::format("{:g} counts a turn; under {:g} the card's rotary correction is off", resolution, rtc5::least_resolution));
+    list.put(words ? Op::set_fly_rot_pos : Op::set_fly_rot, {resolution});
+}
+
+/// Everything further on by what the belt goes in a time; before fly, so that the flags see it.
+void put_offset(List& list, const Job& job, const Following& following) {
+    constexpr double before_fly = 4;
+    if (job.fly.offset_us == 0 || !following.corrects) return;
+    const double way = following.track.profile[0].speed * job.fly.offset_us * 1e-6;
+    Spot offset;
+    if (following.track.rotary) {
+        const SinCos t = sin_cos(way * (pi / 180));
+        const Spot c = following.track.centre_mm;
+        list.put(Op::set_angle_list, {before_fly, way, 0});
+        offset = {c.x - (t.cos * c.x - t.sin * c.y), c.y - (t.sin * c.x + t.cos * c.y)};
     } else {
-        list.put(d.x != 0 ? Op::set_fly_x : Op::set_fly_y, {scale * (d.x != 0 ? d.x : d.y)});
+        const Direction d = direction_of(following.track);
+        offset = {way * d.x, way * d.y};
     }
+    list.put(Op::set_offset_list, {before_fly, list.bits(offset.x), list.bits(offset.y), 0});
+}
+
+void put_settings(List& list, const Job& job) {
+    list.speed(Op::set_jump_speed, "A jump speed", job.pace.jump_mm_s);
+    list.speed(Op::set_mark_speed, "A mark speed", job.pace.mark_mm_s);
+    list.put(Op::set_scanner_delays, {job.pace.jump_delay_us / 10, job.pace.mark_delay_us / 10, job.pace.polygon_delay_us / 10});
+    list.put(Op::set_laser_delays, {job.pace.laser_on_us * 2, job.pace.laser_off_us * 2});
+}
+
+/// A stroke from where the last jump ended, or with a jump before it, shifted.
+void put_stroke(List& list, const Stroke& stroke, Spot shift, bool jump) {
+    if (jump) list.put(Op::jump_abs, {list.bits(stroke.from.x + shift.x), list.bits(stroke.from.y + shift.y)});
+    for (const Element& e : stroke.elements) {
+        if (e.sweep == 0)
+            list.put(Op::mark_abs, {list.bits(e.to.x + shift.x), list.bits(e.to.y + shift.y)});
+        else
+            list.put(Op::arc_abs, {list.bits(e.centre.x + shift.x), list.bits(e.centre.y + shift.y), -e.sweep * (180 / pi)});
+    }
+}
+
+/// Holds until the belt has gone so far.
+void put_wait(List& list, const Job& job, const Following& following, double way) {
+    const double unit = counts_of(job, following, way), rising = unit < 0 ? -1 : 1;
+    if (following.mode == FlyMode::mcbsp)
+        list.put(Op::wait_for_mcbsp, {direction_of(following.track).x != 0 ? 0.0 : 1.0, unit, rising});
+    else
+        list.put(Op::wait_for_encoder_mode, {unit, 0, rising});
+}
+
+/// Each batch waits, parked where it will begin, so that the waiting spot does not go out of the field with the part.
+Result<void> put_batches(List& list, const Job& job, const Prepared& prepared, const Following& following, const Drawing& drawing) {
+    const double margin = job.fly.margin_mm, sense = job.sense();
+    Box field = prepared.field();
+    field = {{field.low.x + margin, field.low.y + margin}, {field.high.x - margin, field.high.y - margin}};
+    if (!(field.low.x < field.high.x)) return fail(Trouble::refused, fmt::format("A margin of {:g} mm leaves nothing of a field of {:.3f} mm. Nothing was marked.", margin, field.high.x - field.low.x + 2 * margin));
+    const Direction d = direction_of(following.track);
+    const Spot movement{d.x * sense, d.y * sense};
+    MOTIONRACK_TRY(const std::vector<Batch> batches, batches_of(drawing, field, movement));
+    for (const Batch& batch : batches) {
+        const Spot way{movement.x * batch.at_mm, movement.y * batch.at_mm}, begin = batch.strokes[0].from;
+        const Spot shift = following.corrects ? Spot{} : way;
+        const bool waits = batch.at_mm > 0;
+        if (waits) {
+            const double x = list.bits(begin.x + way.x), y = list.bits(begin.y + way.y);
+            following.corrects ? list.put(Op::park_position, {0, x, y}) : list.put(Op::jump_abs, {x, y});
+            put_wait(list, job, following, batch.at_mm);
+            if (following.corrects) list.put(Op::park_return, {1, list.bits(begin.x), list.bits(begin.y)});
+        }
+        for (std::size_t i = 0; i < batch.strokes.size(); ++i) put_stroke(list, batch.strokes[i], shift, i > 0 || !waits);
+    }
+    return {};
 }
 
 }  // namespace
 
+Box Prepared::field() const {
+    return {{rtc5::field_least / bits_per_mm, rtc5::field_least / bits_per_mm}, {rtc5::field_greatest / bits_per_mm, rtc5::field_greatest / bits_per_mm}};
+}
+
 Following following_of(const Job& job, double factor) {
-    Following out{job.track(), job.fly.mode};
+    Following out{job.track(), job.fly.mode, job.fly.simulated_speed.value_or(job.belt.speed) * factor, true};
     for (parts::SpeedPoint& point : out.track.profile) point.speed *= factor;
     return out;
 }
 
+double counts_per_unit(const Job& job, const Following& following) {
+    switch (following.mode) {
+        case FlyMode::mcbsp: return job.sender.bits_per_mm;
+        case FlyMode::simulated: return following.simulated_speed != 0 ? 1e6 / following.simulated_speed : 0;
+        default: return following.track.counts_per_unit;
+    }
+}
+
+double counts_of(const Job& job, const Following& following, double way) {
+    const double unit = counts_per_unit(job, following);
+    return std::floor(way * (following.mode == FlyMode::simulated ? std::fabs(unit) : unit * job.sense()) + 0.5);
+}
+
 Result<Prepared> prepare(const Job& job, const Load& load) {
     Prepared out;
-    MOTIONRACK_TRY(out.drawing, drawing_of(job, load));
-    out.segments = segments_of(out.drawing);
+    const PartsSettings parts = job.parts.value_or(PartsSettings{});
+    const std::size_t different = has_numbers(job) ? parts.size() : 1;
+    std::size_t elements = 0;
+    for (std::size_t i = 0; i < different; ++i) {
+        PartDrawing part;
+        MOTIONRACK_TRY(part.drawing, drawing_of(job, load, parts.number(i)));
+        part.segments = segments_of(part.drawing);
+        elements += part.segments.size();
+        if (elements > most_elements)
+            return fail(Trouble::bad_input, fmt::format("The drawings of {} parts with their numbers have more than {} lines. Nothing was marked; mark fewer parts at once.", different, most_elements), {}, job.file);
+        if (i == 0)
+            static_cast<PartDrawing&>(out) = std::move(part);
+        else
+            out.further.push_back(std::move(part));
+    }
     out.bits_per_mm = job.lens ? job.lens->bits_per_mm : job.optics.bits_per_mm;
     if (job.lens) out.lens = job.lens->lens();
     if (job.optics.ct5) {
@@ -135,22 +235,26 @@ Result<Prepared> prepare(const Job& job, const Load& load) {
     return out;
 }
 
-Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const Following& following) {
+Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const Following& following, std::size_t marked) {
     List list(prepared.bits_per_mm);
-    list.speed(Op::set_jump_speed, "A jump speed", job.pace.jump_mm_s);
-    list.speed(Op::set_mark_speed, "A mark speed", job.pace.mark_mm_s);
-    list.put(Op::set_scanner_delays, {job.pace.jump_delay_us / 10, job.pace.mark_delay_us / 10, job.pace.polygon_delay_us / 10});
-    list.put(Op::set_laser_delays, {job.pace.laser_on_us * 2, job.pace.laser_off_us * 2});
+    const Drawing& drawing = prepared.of(marked).drawing;
+    if (job.parts && job.parts->start == PartStart::equidistant && marked + 1 < job.parts->size())
+        list.put(Op::simulate_ext_start, {counts_of(job, following, job.parts->spacing), 0});
+    put_settings(list, job);
+    put_offset(list, job, following);
     put_fly(list, job, prepared, following);
-    for (const Stroke& stroke : prepared.drawing.strokes) {
-        list.put(Op::jump_abs, {list.bits(stroke.from.x), list.bits(stroke.from.y)});
-        for (const Element& e : stroke.elements) {
-            if (e.sweep == 0)
-                list.put(Op::mark_abs, {list.bits(e.to.x), list.bits(e.to.y)});
-            else
-                list.put(Op::arc_abs, {list.bits(e.centre.x), list.bits(e.centre.y), -e.sweep * (180 / pi)});
-        }
-    }
+    if (job.fly.waits != Waits::none)
+        MOTIONRACK_CHECK(put_batches(list, job, prepared, following, drawing));
+    else
+        for (const Stroke& stroke : drawing.strokes) put_stroke(list, stroke, {}, true);
+    list.put(Op::fly_return, {0, 0});
+    list.put(Op::set_end_of_list);
+    return list.take();
+}
+
+Result<std::vector<rtc5::Command>> arming_list_of(const Job& job, const Prepared& prepared, const Following& following) {
+    List list(prepared.bits_per_mm);
+    put_fly(list, job, prepared, following);
     list.put(Op::fly_return, {0, 0});
     list.put(Op::set_end_of_list);
     return list.take();

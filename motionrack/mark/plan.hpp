@@ -9,14 +9,23 @@
 
 namespace motionrack::mark {
 
-/// What a job marks and with what; made once, run as often as wanted.
-struct Prepared {
+struct PartDrawing {
     Drawing drawing;
     std::vector<parts::Segment> segments;  ///< the drawing as straight pieces
+};
+
+/// What a job marks and with what; made once, run as often as wanted. It is itself the first part's drawing.
+struct Prepared : PartDrawing {
+    std::vector<PartDrawing> further;  ///< of the second marked part on; empty: all are like the first
     double bits_per_mm = 0;
     std::optional<sim::ScanLens> lens;
     std::shared_ptr<const rtc5::Table> table;  ///< none: 1:1
     std::vector<std::string> notes;            ///< what the user should know before
+
+    /// Of the part that is marked `marked`th, from 0 on.
+    const PartDrawing& of(std::size_t marked) const { return marked == 0 || further.empty() ? *this : further[marked - 1]; }
+    /// mm that the card's output reaches.
+    Box field() const;
 };
 
 /// Errors: of the files the job names.
@@ -26,11 +35,20 @@ Result<Prepared> prepare(const Job& job, const Load& load);
 struct Following {
     parts::TrackSettings track;
     FlyMode mode = FlyMode::off;
+    double simulated_speed = 0;  ///< mm/s or degrees/s that the simulated encoder stands for
+    bool corrects = true;        ///< false: all is done but the correction
 };
 /// A job's, with all speeds times `factor`.
 Following following_of(const Job& job, double factor = 1);
+/// What one mm or degree of movement is in the numbers that the card gets; 0: nothing.
+double counts_per_unit(const Job& job, const Following& following);
+/// Whole counts of a way that the belt goes, with their sign.
+double counts_of(const Job& job, const Following& following, double way);
 
-/// The list, up to and with set_end_of_list. Errors: refused: a speed, place or scale that the card does not take.
-Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const Following& following);
+/// The list of the part that is marked `marked`th, up to and with set_end_of_list. Errors: refused: a speed, place or scale that the card
+/// does not take; with waits, a drawing that does not come into the field.
+Result<std::vector<rtc5::Command>> list_of(const Job& job, const Prepared& prepared, const Following& following, std::size_t marked = 0);
+/// Before the first start: asks for the encoders to become 0 at it. Errors: as list_of.
+Result<std::vector<rtc5::Command>> arming_list_of(const Job& job, const Prepared& prepared, const Following& following);
 
 }  // namespace motionrack::mark

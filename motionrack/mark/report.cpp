@@ -12,6 +12,7 @@ std::string verdict_text(const Outcome& out) {
     if (!out.on.overflows.empty())
         return fmt::format("The correction left the field {} times, first at {:.5f} s ({}); the mirrors stayed at its edge meanwhile.",
                            out.on.overflows.size() + out.on.lost_overflows, out.on.overflows.front().from_s, out.on.overflows.front().name);
+    if (out.on.parts_lost() > 0) return fmt::format("{} of {} parts were not marked, because their starts were lost.", out.on.parts_lost(), out.on.parts.size());
     std::string text = fmt::format("Marked within {} of the drawing", shown_length(out.on.deviation.worst_mm));
     if (out.on.deviation.missing_mm > 0) text += fmt::format("; {} of it were not marked", shown_length(out.on.deviation.missing_mm));
     return text + ".";
@@ -42,6 +43,17 @@ trace::ReportTable overflows(const Marked& m) {
     for (const Overflow& o : m.overflows)
         t.rows.push_back({o.name, o.meaning, fmt::format("{:.5f} s", o.from_s), fmt::format("{:.5f} s", o.to_s), fmt::format("{:.3f} mm", o.beyond_mm),
                           fmt::format("{:.3f}, {:.3f} mm", o.part.x, o.part.y), o.marking ? "on" : "off"});
+    return t;
+}
+
+trace::ReportTable parts_table(const Marked& m) {
+    trace::ReportTable t{"Parts", "What became of each, in the order in which they pass", {"Part", "Number", "Fate", "From", "To", "Worst", "RMS", "Not marked"}, {}};
+    for (std::size_t i = 0; i < m.parts.size(); ++i) {
+        const PartMarked& p = m.parts[i];
+        t.rows.push_back({fmt::format("{}", i + 1), p.fate == PartFate::marked ? fmt::format("{}", p.number) : "", name_of(p.fate), fmt::format("{:.5f} s", p.begin_s),
+                          fmt::format("{:.5f} s", p.end_s), fmt::format("{:.4f} mm", p.deviation.worst_mm), fmt::format("{:.4f} mm", p.deviation.rms_mm),
+                          fmt::format("{:.3f} mm", p.deviation.missing_mm)});
+    }
     return t;
 }
 
@@ -79,11 +91,12 @@ trace::ReportData report_of(const Job& job, const Prepared& prepared, const Outc
     data.title = "Marking job";
     data.program_kind = "Job";
     data.program_name = job.file;
-    data.verdict = {out.on.overflows.empty(), verdict_text(out)};
+    data.verdict = {out.on.good(), verdict_text(out)};
     add_numbers(job, out, data);
     data.pictures = pictures_of(prepared, out);
     data.pictures_hint = "Wide and pale is the drawing, thin is what was marked; a ring is the worst place, a cross an overflow of the field.";
     data.tables.push_back(deviations(out));
+    if (job.parts) data.tables.push_back(parts_table(out.on));
     if (!out.on.overflows.empty()) data.tables.push_back(overflows(out.on));
     trace::ReportTable known{"Warnings and notes", "What to know of this job", {""}, {}};
     for (const std::string& warning : warnings_of(out)) known.rows.push_back({"Warning: " + warning});

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <motionrack/base/trig.hpp>
-#include <motionrack/cards/rtc5/model/engine.hpp>
+#include <motionrack/mark/parts_marked.hpp>
 #include <motionrack/mark/run.hpp>
 
 namespace motionrack::mark {
@@ -13,47 +12,14 @@ namespace {
 
 using rtc5::Engine;
 
-constexpr std::int64_t slice = 50'000;  // ticks between two looks at progress and stop
-constexpr auto greatest_ticks = static_cast<std::int64_t>(greatest_seconds * 1e5);
-
-/// The part's movement as the card's inputs see it.
-class Senses final : public rtc5::Inputs {
-  public:
-    static Result<Senses> make(const Job& job, const parts::TrackSettings& settings, FlyMode mode) {
-        MOTIONRACK_TRY(parts::Track track, parts::Track::make(settings));
-        Senses out(std::move(track));
-        if (mode == FlyMode::mcbsp) {
-            parts::SenderSettings sender = job.sender;
-            const double quarter = settings.direction_deg / 90;
-            sender.two_axes = !settings.rotary && quarter != std::floor(quarter);
-            out.sender_ = sender;
-        }
-        return out;
-    }
-    /// After it has come to its place.
-    Result<void> begin() {
-        if (!sender_) return {};
-        MOTIONRACK_TRY(source_, parts::PositionSender::make(track_, *sender_));
-        return {};
-    }
-    void counts(int, std::int64_t first, std::span<std::int32_t> out) override { track_.counts(first, out); }
-    bool words(std::int64_t first, std::span<std::uint32_t> out) override {
-        if (source_) source_->words(first, out);
-        return source_.has_value();
-    }
-
-  private:
-    explicit Senses(parts::Track track) : track_(std::move(track)) {}
-    parts::Track track_;
-    std::optional<parts::SenderSettings> sender_;
-    std::optional<parts::PositionSender> source_;
-};
-
 class StationSink final : public rtc5::Sink {
   public:
-    /// `step`: ticks from one sample of the course to the next.
-    StationSink(parts::MarkingStation& station, OverflowLog& overflows, std::int64_t step) : station_(station), overflows_(overflows), step_(step) {}
-    void samples(const rtc5::Samples& b) override {
+    /// `begin`: the card's tick in which the belt's time is 0. `step`: ticks from one sample of the course to the next.
+    StationSink(parts::MarkingStation& station, OverflowLog& overflows, std::int64_t begin, std::int64_t step)
+        : station_(station), overflows_(overflows), begin_(begin), step_(step) {}
+    void samples(const rtc5::Samples& block) override {
+        rtc5::Samples b = block;
+        b.first -= begin_;
         station_.block(b.first, b.x, b.y);
         overflows_.block(b);
         for (std::size_t i = 0; i < b.x.size(); ++i) {
@@ -65,83 +31,80 @@ class StationSink final : public rtc5::Sink {
             open_ = 0;
         }
     }
-    void laser(std::int64_t half_us, bool on) override { station_.laser(half_us, on); }
+    void laser(std::int64_t half_us, bool on) override { station_.laser(half_us - begin_ * rtc5::half_us_per_tick, on); }
     std::vector<FieldSample> take_course() { return std::move(course_); }
 
   private:
     parts::MarkingStation& station_;
     OverflowLog& overflows_;
     std::vector<FieldSample> course_;
-    std::int64_t step_, open_ = 0;
+    std::int64_t begin_, step_, open_ = 0;
 };
 
-/// A card with the job's list, begun.
-Result<Engine> card_of(const Job& job, const Prepared& prepared, const Following& following) {
-    MOTIONRACK_TRY(const std::vector<rtc5::Command> list, list_of(job, prepared, following));
-    rtc5::Settings settings;
-    settings.list1 = settings.list_memory;
-    settings.list2 = 0;
-    if (static_cast<std::int64_t>(list.size()) > settings.list1)
-        return fail(Trouble::refused, fmt::format("The drawing needs {} list commands; the card's memory has {}. Nothing was marked; draw less at once or with a "
-                                                  "greater tolerance.", list.size(), settings.list1));
-    Engine card(settings);
-    MOTIONRACK_CHECK(card.set_start_list(1));
-    for (const rtc5::Command& command : list) MOTIONRACK_CHECK(card.put(command));
-    if (prepared.table) {
-        MOTIONRACK_CHECK(card.load_correction(prepared.table, 1));
-        MOTIONRACK_CHECK(card.select_cor_table(1, 0));
-    }
-    const bool follows = following.mode != FlyMode::off;
-    if (following.mode == FlyMode::simulated) MOTIONRACK_CHECK(card.simulate_encoder(3));
-    const auto error = static_cast<std::uint16_t>(job.fly.tracking_error_us / 10);
-    if (follows) card.set_tracking_error(error, error);
-    MOTIONRACK_CHECK(card.execute_list(1));
-    return card;
+/// A run that nobody looks at: quick.
+struct Quick {
+    double ticks = 0;
+    double beyond_mm = 0;  ///< how far the corrected position was beyond the field; 0 or less: it fits
+    bool some_lost = false;  ///< starts; those of which eight waited are lost at any speed
+    bool fits() const { return beyond_mm <= 0 && !some_lost; }
+};
+
+Result<Quick> run_quick(const Job& job, const Prepared& prepared, double factor, const Watch& watch) {
+    MOTIONRACK_TRY(const std::unique_ptr<Line> line, Line::make(job, prepared, following_of(job, factor)));
+    MOTIONRACK_CHECK(line->run(nullptr, {}, watch));
+    Quick out{static_cast<double>(line->card().tick() - line->begin()), 0, line->some_lost()};
+    const rtc5::Extent& e = line->card().extent();
+    if (!e.empty())
+        out.beyond_mm = std::max({rtc5::field_least - e.least_x, rtc5::field_least - e.least_y, e.greatest_x - rtc5::field_greatest, e.greatest_y - rtc5::field_greatest}) /
+                        prepared.bits_per_mm;
+    return out;
 }
 
-Result<void> run_to_end(Engine& card, rtc5::Sink* sink, const std::function<void(std::int64_t)>& done, const Watch& watch) {
-    while (!card.run_to_rest(slice, sink)) {
-        if (watch.stop && watch.stop()) return fail(Trouble::stopped, "Stopped; nothing was written.");
-        if (card.tick() > greatest_ticks)
-            return fail(Trouble::refused, fmt::format("The job takes more than {:g} s of marking. It was given up; mark faster or draw less.", greatest_seconds));
-        if (done) done(card.tick());
-    }
-    return {};
-}
+/// The greatest factor of the speed at which everything fits.
+class FitSearch {
+  public:
+    FitSearch(const Job& job, const Prepared& prepared, const Watch& watch) : job_(job), prepared_(prepared), watch_(watch) {}
 
-/// How far the correction went; whether the run came to its end in time.
-Result<bool> fits(const Job& job, const Prepared& prepared, double factor, const Watch& watch) {
-    const Following following = following_of(job, factor);
-    MOTIONRACK_TRY(Senses senses, Senses::make(job, following.track, following.mode));
-    MOTIONRACK_CHECK(senses.begin());
-    MOTIONRACK_TRY(Engine card, card_of(job, prepared, following));
-    card.set_inputs(&senses);
-    MOTIONRACK_CHECK(run_to_end(card, nullptr, {}, watch));
-    const rtc5::Extent& e = card.extent();
-    if (e.empty()) return true;
-    return e.least_x >= rtc5::field_least && e.least_y >= rtc5::field_least && e.greatest_x <= rtc5::field_greatest && e.greatest_y <= rtc5::field_greatest;
-}
-
-/// The greatest factor of the speed that fits, seen from one that does.
-Result<void> find_fit(const Job& job, const Prepared& prepared, bool fits_now, const Watch& watch, Outcome& out) {
-    double low = fits_now ? 1 : 0, high = fits_now ? 2 : 1;
-    if (!fits_now && !out.drawing_in_field) return out.fits_factor = 0, Result<void>{};
-    if (fits_now) {
-        for (; high <= 1000; high *= 2) {
-            MOTIONRACK_TRY(const bool good, fits(job, prepared, high, watch));
-            if (!good) break;
-            low = high;
+    Result<void> find(const Quick& now, Outcome& out) {
+        constexpr double greatest = 1000;
+        const double least = std::max(1e-3, now.ticks * 1e-5 / greatest_seconds);
+        double low = 1, high = 1;
+        out.starts_limit = now.beyond_mm <= 0;
+        if (!now.fits() && !out.drawing_in_field) return out.fits_factor = 0, Result<void>{};
+        if (now.fits()) {
+            for (bool good = true; good && high <= greatest;) {
+                low = high, high *= 2;
+                if (high > greatest) break;
+                MOTIONRACK_TRY(good, fits(high, out));
+            }
+            if (high > greatest) return out.fits_factor = low, out.fits_any = true, Result<void>{};
+        } else {
+            for (bool good = false; !good;) {
+                high = low, low /= 2;
+                if (low < least) return out.fits_factor = 0, Result<void>{};
+                MOTIONRACK_TRY(good, fits(low, out));
+            }
         }
-        if (high > 1000) return out.fits_factor = low, out.fits_any = true, Result<void>{};
+        while (high - low > 1e-4 * high) {
+            const double middle = (low + high) / 2;
+            MOTIONRACK_TRY(const bool good, fits(middle, out));
+            (good ? low : high) = middle;
+        }
+        out.fits_factor = low;
+        return {};
     }
-    while (high - low > 1e-4 * high) {
-        const double middle = (low + high) / 2;
-        MOTIONRACK_TRY(const bool good, fits(job, prepared, middle, watch));
-        (good ? low : high) = middle;
+
+  private:
+    Result<bool> fits(double factor, Outcome& out) {
+        MOTIONRACK_TRY(const Quick quick, run_quick(job_, prepared_, factor, watch_));
+        if (!quick.fits()) out.starts_limit = quick.beyond_mm <= 0;
+        return quick.fits();
     }
-    out.fits_factor = low;
-    return {};
-}
+
+    const Job& job_;
+    const Prepared& prepared_;
+    const Watch& watch_;
+};
 
 Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Following& following, double expected_ticks, const std::function<void(double)>& progress,
                          const Watch& watch) {
@@ -152,21 +115,17 @@ Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Followi
     settings.laser = job.laser;
     settings.track = following.track;
     MOTIONRACK_TRY(parts::MarkingStation station, parts::MarkingStation::make(settings));
-    MOTIONRACK_TRY(Senses senses, Senses::make(job, following.track, following.mode));
-    MOTIONRACK_CHECK(senses.begin());
-    MOTIONRACK_TRY(Engine card, card_of(job, prepared, following));
-    card.set_inputs(&senses);
+    MOTIONRACK_TRY(const std::unique_ptr<Line> line, Line::make(job, prepared, following));
+    Engine& card = line->card();
     OverflowLog overflows(prepared.bits_per_mm, station.track());
-    StationSink sink(station, overflows, static_cast<std::int64_t>(expected_ticks) / most_field_samples + 1);
-    MOTIONRACK_CHECK(run_to_end(card, &sink, [&](std::int64_t tick) { if (progress) progress(static_cast<double>(tick) / expected_ticks); }, watch));
-    const std::int64_t end = card.tick();
+    StationSink sink(station, overflows, line->begin(), static_cast<std::int64_t>(expected_ticks) / most_field_samples + 1);
+    MOTIONRACK_CHECK(line->run(&sink, [&](std::int64_t tick) { if (progress) progress(static_cast<double>(tick) / expected_ticks); }, watch));
+    const std::int64_t end = card.tick() - line->begin();
     // The mirrors and the laser come to their rest a little later.
-    card.run_until(end + static_cast<std::int64_t>((job.galvo.ideal ? 0 : job.galvo.dead_us / 10 + 200) + job.laser.off_delay_us / 10) + 2, &sink);
+    card.run_until(card.tick() + static_cast<std::int64_t>((job.galvo.ideal ? 0 : job.galvo.dead_us / 10 + 200) + job.laser.off_delay_us / 10) + 2, &sink);
     station.workpiece().finish();
-    overflows.finish(card.tick());
+    overflows.finish(card.tick() - line->begin());
     Marked out;
-    out.deviation = station.workpiece().compare(prepared.segments);
-    out.points.assign(station.workpiece().points().begin(), station.workpiece().points().end());
     out.lost_points = station.workpiece().lost_points();
     out.seconds = static_cast<double>(end) * 1e-5;
     out.duty = end > 0 ? static_cast<double>(card.state().laser.on_time) / (static_cast<double>(end) * rtc5::half_us_per_tick) : 0;
@@ -178,11 +137,21 @@ Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Followi
     out.course = sink.take_course();
     out.overflows = overflows.all();
     out.lost_overflows = overflows.lost();
+    share_out(job, prepared, line->runs(), station.track(), station.workpiece().points(), out);
     return out;
 }
 
 bool moves(const parts::TrackSettings& track) {
     return std::any_of(track.profile.begin(), track.profile.end(), [](const parts::SpeedPoint& p) { return p.speed != 0; });
+}
+
+/// Waits promise that everything is marked where it should be.
+Result<void> refuse_too_fast(const Job& job, const Quick& now, const Outcome& out) {
+    const std::string fast = job.belt.profile.empty() ? fmt::format("{:g} mm/s", std::fabs(job.belt.speed)) : "the speeds of the profile";
+    const std::string slow = job.belt.profile.empty() ? fmt::format("{:.5g} mm/s", *out.fits_factor * std::fabs(job.belt.speed)) : fmt::format("{:.4g} times them", *out.fits_factor);
+    return fail(Trouble::refused, fmt::format("The belt is too fast: at {} marks go up to {:.3f} mm beyond the field before they are done, waits or not. It just fits at {}. "
+                                              "Nothing was marked; slow the belt down, mark and jump faster, or leave the waits out to see what would be marked.",
+                                              fast, now.beyond_mm, slow));
 }
 
 }  // namespace
@@ -193,27 +162,29 @@ Result<Outcome> run_job(const Job& job, const Prepared& prepared, const Watch& w
     out.drawing_mm = length_of(prepared.drawing);
     out.strokes = prepared.drawing.strokes.size();
     out.elements = element_count(prepared.drawing);
+    out.field = prepared.field();
     const Box box = box_of(prepared.drawing);
-    const double k = prepared.bits_per_mm;
-    out.field = {{rtc5::field_least / k, rtc5::field_least / k}, {rtc5::field_greatest / k, rtc5::field_greatest / k}};
-    out.drawing_in_field = box.low.x * k >= rtc5::field_least && box.low.y * k >= rtc5::field_least && box.high.x * k <= rtc5::field_greatest &&
-                           box.high.y * k <= rtc5::field_greatest;
+    const bool waits = out.waits = job.fly.waits != Waits::none;
+    out.drawing_in_field = waits || (box.low.x >= out.field.low.x && box.low.y >= out.field.low.y && box.high.x <= out.field.high.x && box.high.y <= out.field.high.y);
     const Following with = following_of(job);
-    const Following without{with.track, FlyMode::off};
+    Following without = with;
+    without.corrects = false;
     const bool follows = with.mode != FlyMode::off && moves(with.track);
-    // A run that nobody looks at is quick and says how long the job takes.
-    MOTIONRACK_TRY(Engine dry, card_of(job, prepared, without));
-    MOTIONRACK_CHECK(run_to_end(dry, nullptr, {}, watch));
-    const auto ticks = static_cast<double>(dry.tick()) + 1;
+    MOTIONRACK_TRY(const Quick quick, run_quick(job, prepared, 1, watch));
+    FitSearch search(job, prepared, watch);
+    if (waits && quick.beyond_mm > 0) {
+        MOTIONRACK_CHECK(search.find(quick, out));
+        MOTIONRACK_CHECK(refuse_too_fast(job, quick, out));
+    }
     const auto progress = [&](double begin, double share) -> std::function<void(double)> {
         if (!watch.progress) return {};
         return [&watch, begin, share](double part) { watch.progress(begin + share * std::min(part, 1.0)); };
     };
+    const double ticks = quick.ticks + 1;
     MOTIONRACK_TRY(out.on, mark_once(job, prepared, with, ticks, progress(0, follows ? 0.45 : 1), watch));
     if (!follows) return out;
     MOTIONRACK_TRY(out.off, mark_once(job, prepared, without, ticks, progress(0.45, 0.45), watch));
-    MOTIONRACK_TRY(const bool fits_now, fits(job, prepared, 1, watch));
-    MOTIONRACK_CHECK(find_fit(job, prepared, fits_now, watch, out));
+    MOTIONRACK_CHECK(search.find(quick, out));
     return out;
 }
 

@@ -1,7 +1,9 @@
 // Runs a marking job on the virtual card in a simulated machine, with its correction and without, and says what is on the part.
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <motionrack/mark/line.hpp>
 #include <motionrack/mark/overflow.hpp>
 #include <motionrack/mark/plan.hpp>
 #include <motionrack/sim/parts/workpiece.hpp>
@@ -16,10 +18,39 @@ struct FieldSample {
 };
 inline constexpr std::int64_t most_field_samples = 10'000;
 
+enum class PartFate : std::uint8_t {
+    marked,
+    lost_busy,      ///< its start came while the list of another part ran
+    lost_too_many,  ///< eight starts were waiting as its edge came
+    not_started     ///< the card was not asked for its start, because that of an earlier part was lost
+};
+
+constexpr const char* name_of(PartFate fate) {
+    switch (fate) {
+        case PartFate::marked: return "marked";
+        case PartFate::lost_busy: return "lost: a list was running";
+        case PartFate::lost_too_many: return "lost: eight were waiting";
+        default: return "not started";
+    }
+}
+
+/// What became of one part.
+struct PartMarked {
+    PartFate fate = PartFate::marked;
+    std::int64_t number = 0;         ///< of {n}, if it was marked
+    std::size_t drawing = 0;         ///< Prepared::of; of a lost part the one it would have got
+    double begin_s = 0, end_s = 0;   ///< of its list; when lost: the instant
+    parts::Deviation deviation;      ///< in its own coordinates
+    double marked_mm = 0;
+    std::size_t first_point = 0, points = 0;  ///< of Marked::points
+    Affine shown;  ///< its coordinates to those of a picture in which no part lies on another: a table as it is, parts of a belt side by side
+};
+
 /// One run.
 struct Marked {
-    parts::Deviation deviation;
-    std::vector<parts::MarkedPoint> points;
+    parts::Deviation deviation;  ///< of all parts
+    std::vector<parts::MarkedPoint> points;  ///< each in its own part's coordinates
+    std::vector<PartMarked> parts;           ///< in the order in which they pass; one if the job has no [parts]
     std::uint64_t lost_points = 0;
     double seconds = 0;       ///< until the card rests
     double duty = 0;          ///< part of it with the gate open
@@ -28,6 +59,12 @@ struct Marked {
     std::vector<FieldSample> course;  ///< in even steps, about most_field_samples
     std::vector<Overflow> overflows;    ///< every stretch in which the corrected position was outside the field, in the order of their ends
     std::uint64_t lost_overflows = 0;   ///< more than OverflowLog::most
+
+    std::size_t parts_lost() const {
+        return static_cast<std::size_t>(std::count_if(parts.begin(), parts.end(), [](const PartMarked& p) { return p.fate != PartFate::marked; }));
+    }
+    /// The correction stayed in the field and no part was lost.
+    bool good() const { return overflows.empty() && parts_lost() == 0; }
 };
 
 struct Outcome {
@@ -40,18 +77,13 @@ struct Outcome {
     /// or movement. 0: the drawing does not fit even at rest.
     std::optional<double> fits_factor;
     bool fits_any = false;  ///< it fits at any speed that was tried (1000 times)
+    bool starts_limit = false;  ///< what ends it is a start that is lost, not the field
     Box field;              ///< mm
+    bool waits = false;     ///< marks keep the job's own margin from the field's edge
     std::vector<std::string> notes;
 };
 
-struct Watch {
-    std::function<void(double part)> progress;  ///< 0 .. 1
-    std::function<bool()> stop;                 ///< true: give up
-};
-
-inline constexpr double greatest_seconds = 1000;  ///< of virtual time
-
-/// Errors: as list_of; refused: a list that is too long, a job that takes more than greatest_seconds; stopped.
+/// Errors: as Line; refused: waits on a belt that is too fast for them.
 Result<Outcome> run_job(const Job& job, const Prepared& prepared, const Watch& watch = {});
 
 }  // namespace motionrack::mark

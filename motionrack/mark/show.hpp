@@ -10,6 +10,8 @@ namespace motionrack::mark {
 
 /// The outcome as a table for people.
 std::string outcome_text(const Job& job, const Outcome& outcome);
+/// A row for each part of a job with [parts]; empty without.
+std::string parts_text(const Job& job, const Marked& marked);
 
 /// How much of the field a run left free, and where the least of it is.
 struct Room {

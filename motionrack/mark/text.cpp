@@ -59,7 +59,38 @@ static_assert(well_formed(), "every stroke of the font has two points or more, a
 
 double on_grid(char c) { return c == 'a' ? -1 : c == 'b' ? -2 : c - '0'; }
 
+tl::unexpected<Error> wrong_braces(std::size_t at) {
+    return fail(Trouble::bad_input, fmt::format("Character {} of the text: in braces there may be n, or n:05 for five digits with zeros in front. Nothing was marked.", at + 1));
+}
+
 }  // namespace
+
+Result<std::string> numbered(std::string_view text, std::int64_t number) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '}') return wrong_braces(i);
+        if (text[i] != '{') {
+            out += text[i];
+            continue;
+        }
+        const std::size_t end = text.find('}', i);
+        const std::string_view inside = end == std::string_view::npos ? "" : text.substr(i + 1, end - i - 1);
+        std::size_t digits = 0;
+        const bool plain = inside == "n";
+        if (!plain) {
+            const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+            if (inside.substr(0, 3) != "n:0" || inside.size() > 5 || !std::all_of(inside.begin() + 3, inside.end(), digit)) return wrong_braces(i);
+            for (const char c : inside.substr(3)) digits = digits * 10 + static_cast<std::size_t>(c - '0');
+            if (digits < 1 || digits > 18) return wrong_braces(i);
+        }
+        const std::string shown = fmt::format("{:0{}}", number, digits);
+        if (!plain && shown.size() > digits)
+            return fail(Trouble::bad_input, fmt::format("The number {} has more than the {} digits of character {} of the text. Nothing was marked; give it more.", number, digits, i + 1));
+        out += shown;
+        i = end;
+    }
+    return out;
+}
 
 Result<Drawing> text_drawing(std::string_view text, double height_mm) {
     Drawing out;

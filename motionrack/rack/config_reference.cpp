@@ -2,34 +2,10 @@
 #include <fmt/format.h>
 
 #include <motionrack/rack/config_parts.hpp>
+#include <motionrack/rack/fields_table.hpp>
 
 namespace motionrack::rack {
 namespace {
-
-/// "lead_mm", or "max_speed_mm_s / max_speed_deg_s" for a key of both kinds of axis.
-std::string both_units(std::string_view text, std::string_view only, std::string_view quote) {
-    const auto one = [&](std::string_view unit) { return fmt::format("{}{}{}", quote, with_unit(text, unit), quote); };
-    if (text.find("{u}") == std::string_view::npos || !only.empty()) return one(only);
-    return one("mm") + " / " + one("deg");
-}
-
-std::string defaults_text(const Field& field, const void* linear, const void* rotary) {
-    const std::string first = default_text(field, field.only == "deg" ? rotary : linear);
-    const std::string second = default_text(field, field.only == "mm" ? linear : rotary);
-    return first == second ? first : first + " / " + second;
-}
-
-std::string rows(std::span<const Field> fields, const void* linear, const void* rotary) {
-    std::string out = "| key | unit | range | default | meaning |\n|---|---|---|---|---|\n";
-    for (const Field& field : fields) {
-        Field without_unit = field;
-        without_unit.unit = {};
-        out += fmt::format("| {} | {} | {} | {} | {} |\n", both_units(field.key, field.only, "`"),
-                           field.unit.empty() ? "-" : both_units(field.unit, field.only, ""),
-                           range_text(without_unit, ""), defaults_text(field, linear, rotary), field.doc);
-    }
-    return out + '\n';
-}
 
 std::string card_type_text(const CardType& type) {
     RackCard defaults;
@@ -38,7 +14,7 @@ std::string card_type_text(const CardType& type) {
                                   : type.channels.empty() ? "It has one channel, without a name: an axis on it has no key `channel`"
                                                         : fmt::format("Channels: {}", fmt::join(type.channels, " ")));
     const void* settings = type.settings_of(defaults);
-    if (!type.settings.empty()) out += rows(type.settings, settings, settings);
+    if (!type.settings.empty()) out += fields_table(type.settings, settings, settings);
     out += "| pin | direction | meaning | wired by default to |\n|---|---|---|---|\n";
     const auto direction = [](const PinType& pin) { return pin.direction == PinDirection::input ? "input" : "output"; };
     for (const PinType& pin : type.channel_pins) {
@@ -98,54 +74,54 @@ std::string rack_file_reference() {
         "are told at once, with line and column. Text such as `card.c1 = \"mcx314\"` (a card alone, by its type) is a "
         "rack too: default settings "
         "and four ideal axes X Y Z A, 1000 pulses and 1000 encoder counts a mm or degree.\n\n";
-    out += "## [rack]\n" + rows(rack_fields(), &rack, &rack);
+    out += "## [rack]\n" + fields_table(rack_fields(), &rack, &rack);
     out +=
         "## [card.NAME]\nOne section a card; NAME is yours: letters, digits, `_`. The card types are described "
         "below.\n\n" +
-        rows(card_fields(), &card, &card);
+        fields_table(card_fields(), &card, &card);
     out += "## [axis.NAME]\nNAME is X, Y, Z (linear, mm) or A, B, C (rotary, degrees).\n\n" +
-           rows(axis_fields(), &linear, &rotary);
-    out += "## [axis.NAME.motor]\nPulses are microsteps.\n\n" + rows(motor_fields(), &linear.motor, &rotary.motor);
+           fields_table(axis_fields(), &linear, &rotary);
+    out += "## [axis.NAME.motor]\nPulses are microsteps.\n\n" + fields_table(motor_fields(), &linear.motor, &rotary.motor);
     const RackServo servo;
     out += "## [axis.NAME.servo]\nA servo amplifier with a DC motor and its tacho, in place of the stepping motor; with the section, even an "
            "empty one, the axis follows a voltage. The model is a first-order lag with a current limit.\n\n" +
-           rows(servo_fields(), &servo, &servo);
+           fields_table(servo_fields(), &servo, &servo);
     out += "## [axis.NAME.switches]\nMachine positions where they act.\n\n" +
-           rows(switch_fields(), &linear.switches, &rotary.switches);
+           fields_table(switch_fields(), &linear.switches, &rotary.switches);
     out += "## [axis.NAME.homing]\nHow `motionrack home` finds the home switch.\n\n" +
-           rows(homing_fields(), &linear.homing, &rotary.homing);
+           fields_table(homing_fields(), &linear.homing, &rotary.homing);
     const RackStage stage;
     const RackStageServo stage_servo;
     out += "## [stage.NAME]\nA stage on a linear motor with a grating scale, driven by an analog output of a card of a grating bus.\n\n" +
-           rows(stage_fields(), &stage, &stage);
-    out += "## [stage.NAME.scale]\n" + rows(scale_fields(), &stage.scale, &stage.scale);
+           fields_table(stage_fields(), &stage, &stage);
+    out += "## [stage.NAME.scale]\n" + fields_table(scale_fields(), &stage.scale, &stage.scale);
     out += "## [stage.NAME.servo]\nWith the section, even an empty one, the card's processor closes a loop through the bus' frames and follows "
            "the profile.\n\n" +
-           rows(stage_servo_fields(), &stage_servo, &stage_servo);
+           fields_table(stage_servo_fields(), &stage_servo, &stage_servo);
     const RackTrack belt;
     RackTrack turning;
     turning.rotary = true;
     out += "## [belt.NAME], [table.NAME]\nWhat moves the part under a scan head: a belt (mm) or a rotary table (degrees). In place of its speed "
            "`profile = [[0, 50], [0.5, 120]]`: seconds and speeds, straight between, constant before and after. `motionrack run` and `mr_part_set` "
            "change the speed: fault `drive.speed`.\n\n" +
-           rows(track_fields(), &belt, &turning);
+           fields_table(track_fields(), &belt, &turning);
     const parts::SenderSettings sender;
     out += "## [belt.NAME.sender]\nWith the section, even an empty one, a position sender reads the place and gives the card's serial input words. In "
            "[table.NAME.sender] the same.\n\n" +
-           rows(sender_fields(), &sender, &sender);
+           fields_table(sender_fields(), &sender, &sender);
     const RackParts passing;
     out += "## [belt.NAME.parts]\nWith the section, even an empty one, parts pass a light barrier, which starts the card. In [table.NAME.parts] the "
            "same.\n\n" +
-           rows(passing_fields(), &passing, &passing);
+           fields_table(passing_fields(), &passing, &passing);
     const RackScanner scanner;
     const RackLens lens;
     out += "## [scanner.NAME]\nMirrors, lens and laser over a part, which keeps what was marked; driven by a card of type rtc5.\n\n" +
-           rows(scanner_fields(), &scanner, &scanner);
+           fields_table(scanner_fields(), &scanner, &scanner);
     out += "## [scanner.NAME.lens]\nWith the section, even an empty one, the field is that of two mirrors and an f-theta lens.\n\n" +
-           rows(lens_fields(), &lens, &lens);
-    out += "## [scanner.NAME.galvo]\n" + rows(galvo_fields(), &scanner.galvo, &scanner.galvo);
-    out += "## [scanner.NAME.laser]\n" + rows(laser_fields(), &scanner.laser, &scanner.laser);
-    out += "## [controller]\n" + rows(controller_fields(), &rack.controller, &rack.controller);
+           fields_table(lens_fields(), &lens, &lens);
+    out += "## [scanner.NAME.galvo]\n" + fields_table(galvo_fields(), &scanner.galvo, &scanner.galvo);
+    out += "## [scanner.NAME.laser]\n" + fields_table(laser_fields(), &scanner.laser, &scanner.laser);
+    out += "## [controller]\n" + fields_table(controller_fields(), &rack.controller, &rack.controller);
     out += wires_text();
     out += "## Card types\n\n";
     for (const CardType& type : card_types()) out += card_type_text(type);

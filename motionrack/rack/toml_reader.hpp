@@ -29,7 +29,7 @@ struct TomlNode {
     std::int64_t integer = 0;
     double number = 0;  ///< may be NaN or infinite here; fields refuse them
     bool flag = false;
-    std::vector<TomlNode> children;
+    std::vector<TomlNode> children;  ///< of a table its entries, of an array its values (without keys)
 
     /// The entry of that name, or nullptr.
     const TomlNode* find(std::string_view name) const;
@@ -102,6 +102,7 @@ struct Field {
     std::string_view doc;  ///< one sentence without a full stop
     std::span<const std::string_view> choices = {};
     std::string_view only = {};         ///< the section unit that the key belongs to ("mm", "deg"); empty: all
+    bool lines = false;                 ///< a text that may have line ends
     bool required = false;              ///< the key must be there
     bool optional = false;              ///< may be absent, and that means something; `default_doc` says what
     std::string_view default_doc = {};  ///< in place of the default, where there is none to show
@@ -205,6 +206,9 @@ constexpr Field with_choices(Field f, std::span<const std::string_view> choices)
 }
 constexpr Field only_in(Field f, std::string_view unit) {
     return f.only = unit, f;
+}
+constexpr Field with_lines(Field f) {
+    return f.lines = true, f;
 }
 constexpr Field required(Field f, std::string_view instead) {
     return f.required = true, f.default_doc = instead, f;

@@ -1,4 +1,4 @@
-// describe: a card's registers, commands, states and pins, or the keys of a rack file.
+// describe: a card's registers, commands, states and pins, or the keys of a rack file or marking job.
 #include <fmt/format.h>
 
 #include <memory>
@@ -6,6 +6,7 @@
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/mark/job.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config.hpp>
 
@@ -23,9 +24,13 @@ int describe(const DescribeOptions& options) {
         fmt::print("{}", rack::rack_file_reference());
         return exit_done;
     }
+    if (options.what == "marking-job") {
+        fmt::print("{}", mark::job_file_reference());
+        return exit_done;
+    }
     const rack::CardKind* kind = rack::find_card_kind(options.what);
     if (!kind) {
-        std::string known = "rack-file";
+        std::string known = "rack-file, marking-job";
         for (const rack::CardKind& each : rack::card_kinds()) known += fmt::format(", {}", each.type);
         print_error(fmt::format("There is nothing called '{}' to describe; there are: {}.", options.what, known));
         return exit_usage;
@@ -39,8 +44,8 @@ int describe(const DescribeOptions& options) {
 
 void add_describe(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<DescribeOptions>();
-    CLI::App* command = app.add_subcommand("describe", "Tell a card's registers, commands, states and pins, or the keys of a rack file");
-    command->add_option("CARD", options->what, "a card type (mcx314, databoard4002, ioflex02, rtc5), or rack-file")->required();
+    CLI::App* command = app.add_subcommand("describe", "Tell a card's registers, commands, states and pins, or the keys of a rack file or marking job");
+    command->add_option("CARD", options->what, "a card type (mcx314, databoard4002, ioflex02, rtc5), rack-file, or marking-job")->required();
     auto* markdown = command->add_flag("--markdown", options->markdown, "as Markdown, as in docs/reference");
     command->add_flag("--json", options->json, "as JSON")->excludes(markdown);
     command->footer("Example: motionrack describe mcx314 | less");

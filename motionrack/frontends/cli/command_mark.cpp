@@ -37,6 +37,10 @@ nlohmann::ordered_json json_of(const mark::Marked& m) {
     for (const mark::Overflow& o : m.overflows)
         out["overflows"].push_back({{"name", o.name}, {"meaning", o.meaning}, {"from_s", o.from_s}, {"to_s", o.to_s}, {"field_mm", {o.field.x, o.field.y}},
                                     {"part_mm", {o.part.x, o.part.y}}, {"beyond_mm", o.beyond_mm}, {"marking", o.marking}});
+    out["parts"] = nlohmann::ordered_json::array();
+    for (const mark::PartMarked& p : m.parts)
+        out["parts"].push_back({{"fate", mark::name_of(p.fate)}, {"number", p.number}, {"from_s", p.begin_s}, {"to_s", p.end_s}, {"worst_mm", p.deviation.worst_mm},
+                                {"rms_mm", p.deviation.rms_mm}, {"missing_mm", p.deviation.missing_mm}, {"marked_mm", p.marked_mm}});
     return out;
 }
 
@@ -100,7 +104,7 @@ int run_mark(const MarkOptions& options) {
         for (const std::string& warning : mark::warnings_of(*outcome)) print_warning(warning);
     if (const Result<void> done = write_files(options, *read.job, *prepared, *outcome, *text); !done) return report(done.error());
     if (!options.json && !options.quiet && !files.empty()) fmt::print("written: {}\n", fmt::join(files, ", "));
-    return outcome->on.overflows.empty() ? exit_done : exit_machine;
+    return outcome->on.good() ? exit_done : exit_machine;
 }
 
 }  // namespace
@@ -119,7 +123,7 @@ void add_mark(CLI::App& app, Action& chosen) {
     command->add_flag("-q,--quiet", options->quiet, "no progress");
     command->footer("Example: motionrack mark square.toml --picture square.png --report square.html\n"
                     "Nothing is written if the job is refused or stopped.\n"
-                    "Exit code 4: the correction left the field, so that some of the drawing was not marked where it should be.");
+                    "Exit code 4: the correction left the field, or the start of a part was lost, so that not all was marked where it should be.");
     command->callback([options, &chosen] {
         std::erase(options->pictures, std::string());
         chosen = [options] { return run_mark(*options); };

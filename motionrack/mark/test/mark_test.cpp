@@ -4,34 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <motionrack/mark/show.hpp>
+#include <motionrack/mark/test/helpers.hpp>
 
 namespace motionrack::mark {
 namespace {
 
 using testing::HasSubstr;
 
-constexpr const char* square_svg = R"(<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm" viewBox="0 0 10 10"><path d="M0 10 H10 V0 H0 Z"/></svg>)";
 /// The reference job: a square of 10 mm from its corner on, at 500 mm/s on a belt at 100 mm/s.
 const std::string belt_job = "[drawing]\nsvg = 'square.svg'\nanchor = 'origin'\n[pace]\nmark_mm_s = 500\n[belt]\nspeed_mm_s = 100\n";
-
-Load one_file(const std::string& text) {
-    return [text](const std::string&) -> Result<std::string> { return text; };
-}
-
-Job job_of(const std::string& text) {
-    JobRead read = read_job(text, "job.toml");
-    for (const Error& error : read.errors) ADD_FAILURE() << error.text();
-    return read.job.value_or(Job{});
-}
-
-Outcome run(const Job& job, const std::string& svg = square_svg) {
-    const Result<Prepared> prepared = prepare(job, one_file(svg));
-    if (!prepared) return ADD_FAILURE() << prepared.error().text(), Outcome{};
-    Result<Outcome> out = run_job(job, *prepared);
-    if (!out) return ADD_FAILURE() << out.error().text(), Outcome{};
-    return *out;
-}
 
 /// Whether a point was marked within `near_mm`, as the end of a piece.
 bool has_corner(const Marked& marked, Spot corner, double near_mm) {

@@ -141,6 +141,22 @@ const std::vector<BadFile>& bad_files() {
     return files;
 }
 
+TEST(TomlReader, ArraysHaveTheirValuesWithTheirPlaces) {
+    const Result<TomlNode> root = parse_toml("a = [1, [2.5, 'x'],\n  true]\n[[t]]\nk = 1\n[[t]]\nk = 2\n", "f");
+    ASSERT_TRUE(root) << root.error().text();
+    const TomlNode& a = root->children[0];
+    ASSERT_EQ(a.type, TomlType::array);
+    ASSERT_EQ(a.children.size(), 3u);
+    EXPECT_EQ(a.children[0].integer, 1);
+    EXPECT_EQ(a.children[1].children[1].text, "x");
+    EXPECT_EQ(a.children[2].value_place.line, 2);
+    EXPECT_EQ(a.children[2].value_place.column, 3);
+    const TomlNode& t = root->children[1];
+    ASSERT_EQ(t.type, TomlType::array);
+    ASSERT_EQ(t.children.size(), 2u);
+    EXPECT_EQ(t.children[1].find("k")->integer, 2);
+}
+
 TEST(RackFile, TellsWhatIsWrongAndWhere) {
     for (const BadFile& bad : bad_files()) {
         const RackReading reading = read_rack_text(bad.text, "bad.toml");

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/sim/parts/position_sender.hpp>
 
@@ -41,12 +42,12 @@ std::uint32_t PositionSender::word_at(double t_s) const {
 }
 
 void PositionSender::words(std::int64_t first_tick, std::span<std::uint32_t> out) const {
-    double read_before = -1;
+    double read_before = std::numeric_limits<double>::quiet_NaN();
     std::uint32_t word = 0;
     for (std::size_t i = 0; i < out.size(); ++i) {
         const double us = static_cast<double>(first_tick + static_cast<std::int64_t>(i)) * 10 - settings_.delay_us;
         const double reading = std::floor(us / settings_.period_us);
-        if (reading != read_before) word = reading < 0 ? 0 : word_at(reading * settings_.period_us * 1e-6);
+        if (reading != read_before) word = word_at(reading * settings_.period_us * 1e-6);
         read_before = reading;
         out[i] = word;
     }

@@ -21,7 +21,7 @@ class PositionSender {
   public:
     /// `track` must live as long. Refused: numbers that are none or out of range.
     static Result<PositionSender> make(const Track& track, const SenderSettings& settings);
-    /// The latest complete word at ticks of 10 us: first, first + 1, ..; 0 before the first.
+    /// The latest complete word at ticks of 10 us: first, first + 1, ..; it has been reading since long before 0 s.
     void words(std::int64_t first_tick, std::span<std::uint32_t> out) const;
     /// The word of a reading at t_s.
     std::uint32_t word_at(double t_s) const;

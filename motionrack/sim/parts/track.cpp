@@ -91,24 +91,37 @@ double Track::law_speed(double t_s) const {
     return a.speed + (b.speed - a.speed) * ((t_s - a.at_s) / (b.at_s - a.at_s));
 }
 
-double Track::law_travel(double t_s) const {
+std::ptrdiff_t Track::point_before(double t_s) const {
     const auto& p = settings_.profile;
-    if (t_s <= p.front().at_s) return p.front().speed * t_s;
-    const auto above =
-        std::upper_bound(p.begin(), p.end(), t_s, [](double t, const SpeedPoint& q) { return t < q.at_s; });
-    const auto i = static_cast<std::size_t>(above - p.begin()) - 1;
+    if (t_s <= p.front().at_s) return -1;
+    return std::upper_bound(p.begin(), p.end(), t_s, [](double t, const SpeedPoint& q) { return t < q.at_s; }) - p.begin() - 1;
+}
+
+double Track::law_travel_from(std::ptrdiff_t point, double t_s) const {
+    const auto& p = settings_.profile;
+    if (point < 0) return p.front().speed * t_s;
+    const auto i = static_cast<std::size_t>(point);
     const double dt = t_s - p[i].at_s;
-    if (above == p.end()) return travelled_[i] + p[i].speed * dt;
-    return travelled_[i] + (p[i].speed + (above->speed - p[i].speed) / (above->at_s - p[i].at_s) * (dt / 2)) * dt;
+    if (i + 1 == p.size()) return travelled_[i] + p[i].speed * dt;
+    const SpeedPoint& next = p[i + 1];
+    return travelled_[i] + (p[i].speed + (next.speed - p[i].speed) / (next.at_s - p[i].at_s) * (dt / 2)) * dt;
+}
+
+double Track::law_travel(double t_s) const {
+    return law_travel_from(point_before(t_s), t_s);
 }
 
 double Track::speed(double t_s) const {
     return driving_.by_hand ? driving_.speed : law_speed(t_s);
 }
 
-double Track::travel(double t_s) const {
+double Track::driven(double law, double t_s) const {
     const Driving& d = driving_;
-    return d.travelled + (d.by_hand ? d.speed * (t_s - d.since_s) : law_travel(t_s) - d.law);
+    return d.travelled + (d.by_hand ? d.speed * (t_s - d.since_s) : law - d.law);
+}
+
+double Track::travel(double t_s) const {
+    return driven(driving_.by_hand ? 0 : law_travel(t_s), t_s);
 }
 
 void Track::drive(double t_s, double speed) {
@@ -139,24 +152,35 @@ double Track::leaves(double from_s, double low, double high) const {
 
 void Track::counts(std::int64_t first_tick, std::span<std::int32_t> out) const {
     const double per_unit = settings_.counts_per_unit * (1 - settings_.slip);
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const std::int64_t tick = first_tick + static_cast<std::int64_t>(i);
-        double count = travel(static_cast<double>(tick) * tick_s) * per_unit;
-        if (settings_.jitter_counts > 0) count += settings_.jitter_counts * tremble(tick);
-        out[i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(count))));
+    const auto time = [&](std::size_t i) { return static_cast<double>(first_tick + static_cast<std::int64_t>(i)) * tick_s; };
+    for (std::size_t begin = 0; begin < out.size();) {
+        // The profile is looked through once a stretch, not once a tick.
+        const std::ptrdiff_t point = point_before(time(begin));
+        std::size_t end = out.size();
+        if (point_before(time(end - 1)) != point)
+            for (end = begin + 1; point_before(time(end)) == point;) ++end;
+        for (std::size_t i = begin; i < end; ++i) {
+            double count = driven(law_travel_from(point, time(i)), time(i)) * per_unit;
+            if (settings_.jitter_counts > 0) count += settings_.jitter_counts * tremble(first_tick + static_cast<std::int64_t>(i));
+            auto whole = static_cast<std::int64_t>(count);
+            whole -= count < static_cast<double>(whole);
+            out[i] = static_cast<std::int32_t>(static_cast<std::uint32_t>(whole));
+        }
+        begin = end;
     }
 }
 
+sim::Spot Track::carried(sim::Spot place, double way) const {
+    if (settings_.rotary) return turned(place, settings_.centre_mm, way);
+    return {place.x + way * cosine_, place.y + way * sine_};
+}
+
 sim::Spot Track::on_part(sim::Spot field, double t_s) const {
-    const double way = travel(t_s);
-    if (settings_.rotary) return turned(field, settings_.centre_mm, -way);
-    return {field.x - way * cosine_, field.y - way * sine_};
+    return carried(field, -travel(t_s));
 }
 
 sim::Spot Track::in_field(sim::Spot part, double t_s) const {
-    const double way = travel(t_s);
-    if (settings_.rotary) return turned(part, settings_.centre_mm, way);
-    return {part.x + way * cosine_, part.y + way * sine_};
+    return carried(part, travel(t_s));
 }
 
 }  // namespace motionrack::parts

@@ -47,6 +47,8 @@ class Track {
     void follow_profile(double t_s);
     /// The encoder's counts (wrapping) at ticks of 10 us: first, first + 1, ..
     void counts(std::int64_t first_tick, std::span<std::int32_t> out) const;
+    /// A place that the part carries on by so many mm or degrees.
+    sim::Spot carried(sim::Spot place, double way) const;
     /// The place on the part that is at `field` mm, and back. Part and field are one at travel 0.
     sim::Spot on_part(sim::Spot field, double t_s) const;
     sim::Spot in_field(sim::Spot part, double t_s) const;
@@ -65,6 +67,10 @@ class Track {
   private:
     double law_speed(double t_s) const;
     double law_travel(double t_s) const;
+    /// The point of the profile at or before that time; -1: before the first.
+    std::ptrdiff_t point_before(double t_s) const;
+    double law_travel_from(std::ptrdiff_t point, double t_s) const;
+    double driven(double law, double t_s) const;
 
     Driving driving_;
     TrackSettings settings_;

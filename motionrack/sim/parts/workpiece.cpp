@@ -79,14 +79,14 @@ void Workpiece::finish() {
     flush();
 }
 
-Deviation Workpiece::compare(std::span<const Segment> drawing, double step_mm, double near_mm) const {
+Deviation compare(std::span<const MarkedPoint> points, std::span<const Segment> drawing, double step_mm, double near_mm) {
     Deviation out;
     std::vector<Segment> marked;
     const Nearest wanted(drawing);
     double weights = 0, squares = 0;
-    for (std::size_t i = 1; i < points().size(); ++i) {
-        if (points()[i].first) continue;
-        const Segment s{points()[i - 1].at, points()[i].at};
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        if (points[i].first) continue;
+        const Segment s{points[i - 1].at, points[i].at};
         marked.push_back(s);
         const sim::Spot way = minus(s.to, s.from);
         const double mm = length_of(way);
@@ -97,7 +97,7 @@ Deviation Workpiece::compare(std::span<const Segment> drawing, double step_mm, d
             const double off = wanted.distance(at);
             weights += mm / looks;
             squares += off * off * (mm / looks);
-            if (off > out.worst_mm) out.worst_mm = off, out.worst_at = at, out.worst_s = points()[i].begun_s;
+            if (off > out.worst_mm) out.worst_mm = off, out.worst_at = at, out.worst_s = points[i].begun_s;
         }
     }
     if (weights > 0) out.rms_mm = std::sqrt(squares / weights);

@@ -41,6 +41,9 @@ struct Deviation {
     double missing_mm = 0;            ///< length of the drawing with no mark within `near_mm`
 };
 
+/// Marked points against the drawing and the drawing against them, looked at every `step_mm`.
+Deviation compare(std::span<const MarkedPoint> points, std::span<const Segment> drawing, double step_mm = 0.05, double near_mm = 0.1);
+
 class Workpiece {
   public:
     explicit Workpiece(const WorkpieceSettings& settings = {}) : settings_(settings) {}
@@ -56,8 +59,10 @@ class Workpiece {
     std::uint64_t lost_points() const { return static_cast<std::uint64_t>(state_.lost); }
     double length_mm() const { return state_.length; }
     double energy_j() const { return state_.energy; }
-    /// Marked points against the drawing and the drawing against them, looked at every `step_mm`.
-    Deviation compare(std::span<const Segment> drawing, double step_mm = 0.05, double near_mm = 0.1) const;
+    /// What is on it against a drawing.
+    Deviation compare(std::span<const Segment> drawing, double step_mm = 0.05, double near_mm = 0.1) const {
+        return parts::compare(points(), drawing, step_mm, near_mm);
+    }
 
     /// All but the points themselves: points come only behind others, so that their number says which there were.
     std::span<std::byte> state() { return std::as_writable_bytes(std::span(&state_, 1)); }

@@ -63,6 +63,17 @@ TEST(Track, TravelIsTheIntegralOfTheProfile) {
     EXPECT_NEAR(sum, track.travel(4.5), 1e-6);
 }
 
+TEST(Track, CountsOfABlockAreThoseOfItsTicksOneByOne) {
+    const Track track = *Track::make({.profile = {{0.00105, 30}, {0.002, 300}, {0.00201, -50}, {0.004, -51}}, .counts_per_unit = 777.7, .jitter_counts = 0.5});
+    std::vector<std::int32_t> block(700), one(1);
+    track.counts(-50, block);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+        track.counts(static_cast<std::int64_t>(i) - 50, one);
+        ASSERT_EQ(block[i], one[0]) << i;
+        EXPECT_NEAR(block[i], track.travel((static_cast<double>(i) - 50) * 1e-5) * 777.7 - 0.5, 1.01) << i;
+    }
+}
+
 TEST(Track, SlipAndJitterAreOfTheEncoderNotOfTheTravel) {
     const Track track = *Track::make({.counts_per_unit = 1000, .slip = 0.01, .jitter_counts = 3});
     std::vector<std::int32_t> counts(10'000), again(10'000);
@@ -99,7 +110,7 @@ TEST(PositionSender, WordsHaveResolutionPeriodAndDelay) {
     const Track track = *Track::make({.direction_deg = 90, .profile = {{0, 100}}});
     std::vector<std::uint32_t> words(2000);
     PositionSender::make(track, {.bits_per_mm = 1000, .period_us = 50, .delay_us = 120})->words(0, words);
-    EXPECT_EQ(words[11], 0u);
+    EXPECT_EQ(static_cast<std::int32_t>(words[11]), -5);  // read at -0.05 ms
     EXPECT_EQ(words[1000], 985u);  // read at 9.85 ms, at hand after 9.97 ms
     EXPECT_EQ(words[1001], 985u);
     EXPECT_EQ(words[1002], 990u);

@@ -47,6 +47,21 @@ class Inputs {
     virtual bool words(std::int64_t first, std::span<std::uint32_t> out) { return (void)first, (void)out, false; }
 };
 
+/// What an external start came to.
+enum class StartFate : std::uint8_t {
+    begun,     ///< the list began
+    busy,      ///< lost: when it was due a list was running or the card moved
+    too_many,  ///< lost as it came: eight were waiting
+};
+
+/// Is told of lists that begin by an external start and of lists that end, in the tick itself; must not command the card.
+class ListListener {
+  public:
+    virtual ~ListListener() = default;
+    virtual void started(std::int64_t tick, StartFate fate) = 0;
+    virtual void ended(std::int64_t tick) = 0;
+};
+
 class Engine {
   public:
     /// `settings` must pass check().
@@ -137,7 +152,9 @@ class Engine {
     /// A tick in which both lines of an encoder changed.
     void encoder_sequence_error(int encoder);
     /// nullptr: set_count and receive.
-    void set_inputs(Inputs* inputs) { inputs_ = inputs; }
+    void set_inputs(Inputs* inputs) { inputs_ = inputs, not_due_until_ = 0; }
+    /// nullptr: nobody.
+    void set_listener(ListListener* listener) { listener_ = listener; }
 
     // ---- running
     /// Runs ticks up to, not including, `tick`.
@@ -273,6 +290,7 @@ class Engine {
     void take_starts();
     void enqueue(std::int32_t delay, int encoder);
     void begin_start();
+    void tell_start(StartFate fate);
     std::int64_t ticks_to_start(std::int64_t limit);
 
     // lists.cpp
@@ -316,6 +334,9 @@ class Engine {
     std::unique_ptr<std::int32_t[], Free> recorded_;
     State state_;
     Inputs* inputs_ = nullptr;
+    ListListener* listener_ = nullptr;
+    Start not_due_;                    // this start, until that tick, as far as the inputs were looked at
+    std::int64_t not_due_until_ = 0;
     std::array<std::shared_ptr<const Table>, table_count> tables_;
     std::shared_ptr<const FlyTable> fly_table_;
     std::unique_ptr<Scratch> scratch_;

@@ -164,6 +164,7 @@ void Engine::end_list(bool written, std::int64_t tick) {
         return;
     }
     l.running = 0;
+    if (listener_ != nullptr) listener_->ended(tick);
 }
 
 /// What cannot be called (-1: nothing is there) is a list_nop.

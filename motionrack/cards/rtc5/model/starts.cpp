@@ -41,7 +41,7 @@ void Engine::enqueue(std::int32_t delay, int encoder) {
     if (delay == 0) return begin_start();
     if (s.waiting == start_queue) {
         state_.startstop_info |= startstop_bit("START_LOST");
-        return;
+        return tell_start(StartFate::too_many);
     }
     std::int64_t from = state_.encoders[static_cast<std::size_t>(encoder)].travel;
     if (state_.control_mode & control_equidistant) {
@@ -62,7 +62,7 @@ void Engine::begin_start() {
     if (l.running || l.moving_alone) {
         raise(marking_bit("TRIGGER_ERROR"), state_.tick);
         state_.startstop_info |= startstop_bit("START_LOST");
-        return;
+        return tell_start(StartFate::busy);
     }
     for (Encoder& e : state_.encoders) {
         if (e.reset_at_start) e.zero = e.travel;
@@ -72,6 +72,11 @@ void Engine::begin_start() {
     l.depth = 0;
     l.next = l.current = s.position;
     state_.startstop_info |= startstop_bit("EXTERNAL_START");
+    tell_start(StartFate::begun);
+}
+
+void Engine::tell_start(StartFate fate) {
+    if (listener_ != nullptr) listener_->started(state_.tick, fate);
 }
 
 /// Ticks from this one to the one in which the first waiting start is due, at most `limit`.
@@ -83,16 +88,21 @@ std::int64_t Engine::ticks_to_start(std::int64_t limit) {
         return std::clamp<std::int64_t>((start.target - e.travel + simulated_counts - 1) / simulated_counts, 1, limit);
     }
     if (inputs_ == nullptr) return limit;
-    const auto n = static_cast<std::size_t>(std::min<std::int64_t>(limit, block));
+    const bool known = not_due_.target == start.target && not_due_.delay == start.delay && not_due_.encoder == start.encoder;
+    if (known && state_.tick < not_due_until_) return std::min(limit, not_due_until_ - state_.tick);
+    const auto n = block;
     load_counts(static_cast<int>(start.encoder), n);
     const auto& counts = scratch_->counts[start.encoder];
     std::int64_t travel = e.travel;
     for (std::size_t i = 1; i < n; ++i) {
         travel += static_cast<std::int32_t>(static_cast<std::uint32_t>(counts[i]) -
                                             static_cast<std::uint32_t>(counts[i - 1]));
-        if (due(start, travel)) return static_cast<std::int64_t>(i);
+        if (!due(start, travel)) continue;
+        return std::min(limit, static_cast<std::int64_t>(i));
     }
-    return static_cast<std::int64_t>(n);
+    not_due_ = start;
+    not_due_until_ = state_.tick + static_cast<std::int64_t>(n);
+    return std::min(limit, static_cast<std::int64_t>(n));
 }
 
 }  // namespace motionrack::rtc5

@@ -203,6 +203,29 @@ TEST(Rtc5Starts, TrackDelaysQueueEightAndAStartIntoARunningListIsLost) {
     EXPECT_EQ(rig.card.get_marking_info(), marking_bit("TRIGGER_ERROR"));
 }
 
+TEST(Rtc5Starts, AListenerIsToldOfEachStartAndEndInItsTick) {
+    struct Told final : ListListener {
+        std::vector<std::pair<std::int64_t, int>> all;  // 0 to 2: StartFate, 3: end
+        void started(std::int64_t tick, StartFate fate) override { all.emplace_back(tick, static_cast<int>(fate)); }
+        void ended(std::int64_t tick) override { all.emplace_back(tick, 3); }
+    } told;
+    Rig rig;
+    rig.card.set_listener(&told);
+    ASSERT_TRUE(rig.card.simulate_encoder(1));
+    rig.card.set_control_mode(control_ext_start);
+    ASSERT_TRUE(rig.card.set_ext_start_delay(1000, 0));
+    rig.put(Op::long_delay, {20});
+    rig.put(Op::set_end_of_list);
+    rig.card.external_start();
+    rig.run(10);  // in tick 0: ten counts are there, 1010 after tick 100
+    rig.card.external_start();
+    rig.run(50);
+    for (int i = 0; i < 7; ++i) rig.card.external_start();
+    rig.card.run_to_rest(1000);
+    const std::vector<std::pair<std::int64_t, int>> expected = {{60, 2}, {100, 0}, {110, 1}, {120, 3}, {160, 0}, {160, 1}, {160, 1}, {160, 1}, {160, 1}, {160, 1}, {180, 3}};
+    EXPECT_EQ(told.all, expected);
+}
+
 TEST(Rtc5Starts, EquidistantPartsCountFromTheStartBefore) {
     Rig rig;
     ASSERT_TRUE(rig.card.simulate_encoder(1));

@@ -1,0 +1,132 @@
+// The keys of a marking job, section by section: the reader and the reference page are made from these tables.
+#pragma once
+
+#include <array>
+#include <motionrack/mark/job.hpp>
+#include <motionrack/rack/toml_reader.hpp>
+
+namespace motionrack::mark::fields {
+
+using rack::absent_means;
+using rack::Field;
+using rack::field;
+using rack::with_choices;
+using rack::with_lines;
+
+inline constexpr std::array<std::string_view, 2> anchors = {"centre", "origin"};
+inline constexpr std::array<std::string_view, 4> modes = {"off", "encoder", "simulated", "mcbsp"};
+inline constexpr std::array<std::string_view, 2> waits = {"none", "auto"};
+inline constexpr std::array<std::string_view, 2> starts = {"sensor", "equidistant"};
+
+inline constexpr std::array<Field, 10> drawing_fields = {
+    absent_means(field<&DrawingSource::svg>("svg", 1, 1000, "", "SVG file"), "one of the three"),
+    absent_means(field<&DrawingSource::gcode>("gcode", 1, 1000, "", "part program"), "one of the three"),
+    absent_means(with_lines(field<&DrawingSource::text>("text", 1, 10'000, "", "text in a single-stroke font, in lines; `{n}` is the part's number, `{n:05}` with zeros in front")), "one of the three"),
+    field<&DrawingSource::height_mm>("height_mm", 0.01, 1000, "mm", "height of the text's capitals"),
+    absent_means(field<&DrawingSource::width_mm>("width_mm", 0.001, 10'000, "mm", "the drawing is made so wide"), "as it is"),
+    field<&DrawingSource::scale>("scale", 1e-6, 1e6, "", "makes the drawing larger"),
+    field<&DrawingSource::rotate_deg>("rotate_deg", -3600, 3600, "deg", "turns it, counter-clockwise"),
+    field<&DrawingSource::x_mm>("x_mm", -1000, 1000, "mm", "where its anchor is"),
+    field<&DrawingSource::y_mm>("y_mm", -1000, 1000, "mm", "where its anchor is"),
+    with_choices(field<&DrawingSource::anchor>("anchor", 0, 0, "", "its centre or its own origin"), anchors),
+};
+inline constexpr std::array<Field, 3> optics_fields = {
+    field<&Optics::bits_per_mm>("bits_per_mm", 1, 1e6, "bits/mm", "without lens and ct5"),
+    absent_means(field<&Optics::ct5>("ct5", 1, 1000, "", "correction file of the card"), "made from the lens"),
+    field<&Optics::correction>("correction", 0, 1, "", "false: no table in the card"),
+};
+inline constexpr std::array<Field, 6> lens_fields = {
+    field<&LensData::f1_mm>("f1_mm", 1, 10'000, "mm", "image height for the angle"),
+    field<&LensData::f2_mm>("f2_mm", -1e5, 1e5, "mm", "its square"),
+    field<&LensData::f3_mm>("f3_mm", -1e5, 1e5, "mm", "its cube"),
+    field<&LensData::f4_mm>("f4_mm", -1e5, 1e5, "mm", "its fourth power"),
+    field<&LensData::calibration_deg>("calibration_deg", 1, 22, "deg", "mechanical deflection at 96 % of the range"),
+    field<&LensData::bits_per_mm>("bits_per_mm", 1, 1e6, "bits/mm", "K"),
+};
+inline constexpr std::array<Field, 5> galvo_fields = {
+    field<&parts::GalvoSettings::ideal>("ideal", 0, 1, "", "mirrors without lag"),
+    field<&parts::GalvoSettings::dead_us>("dead_us", 0, 10'000, "us", "dead time, rounded down to 10 us"),
+    field<&parts::GalvoSettings::natural_hz>("natural_hz", 10, 20'000, "Hz", "natural frequency"),
+    field<&parts::GalvoSettings::damping>("damping", 0.1, 10, "", "1: no overshoot"),
+    field<&parts::GalvoSettings::greatest_speed>("greatest_speed", 1, 1e9, "bits/ms", "speed limit"),
+};
+inline constexpr std::array<Field, 3> laser_fields = {
+    field<&parts::LaserSettings::power_w>("power_w", 0, 1e5, "W", "mean power while on"),
+    field<&parts::LaserSettings::on_delay_us>("on_delay_us", 0, 1e5, "us", "from the gate to the light"),
+    field<&parts::LaserSettings::off_delay_us>("off_delay_us", 0, 1e5, "us", "from the gate to the dark"),
+};
+inline constexpr std::array<Field, 7> pace_fields = {
+    field<&Pace::mark_mm_s>("mark_mm_s", 1e-6, 1e6, "mm/s", "speed of marks"),
+    field<&Pace::jump_mm_s>("jump_mm_s", 1e-6, 1e6, "mm/s", "speed of jumps"),
+    field<&Pace::jump_delay_us>("jump_delay_us", 0, 1e7, "us", "wait after a jump"),
+    field<&Pace::mark_delay_us>("mark_delay_us", 0, 1e7, "us", "wait after a stroke"),
+    field<&Pace::polygon_delay_us>("polygon_delay_us", 0, 1e7, "us", "wait at a corner"),
+    field<&Pace::laser_on_us>("laser_on_us", -16'384, 32'767, "us", "from the begin of a stroke to the laser"),
+    field<&Pace::laser_off_us>("laser_off_us", 0, 32'767, "us", "from the end of a stroke to the laser"),
+};
+inline constexpr std::array<Field, 5> belt_fields = {
+    field<&Belt::speed>("speed_mm_s", -1e5, 1e5, "mm/s", "speed"),
+    field<&Belt::direction_deg>("direction_deg", -3600, 3600, "deg", "where it goes, from +X counter-clockwise"),
+    field<&Belt::counts_per_unit>("counts_per_mm", -1e9, 1e9, "", "of its encoder, four a line"),
+    field<&Belt::slip>("slip", -0.5, 0.5, "", "of the encoder's wheel"),
+    field<&Belt::jitter_counts>("jitter_counts", 0, 1000, "", "noise of a reading"),
+};
+inline constexpr std::array<Field, 6> table_fields = {
+    field<&Belt::speed>("speed_deg_s", -1e5, 1e5, "deg/s", "speed, counter-clockwise"),
+    field<&Belt::centre_x_mm>("centre_x_mm", -1000, 1000, "mm", "centre"),
+    field<&Belt::centre_y_mm>("centre_y_mm", -1000, 1000, "mm", "centre"),
+    field<&Belt::counts_per_unit>("counts_per_deg", -1e9, 1e9, "", "of its encoder, four a line"),
+    field<&Belt::slip>("slip", -0.5, 0.5, "", "of the encoder's wheel"),
+    field<&Belt::jitter_counts>("jitter_counts", 0, 1000, "", "noise of a reading"),
+};
+inline constexpr std::array<Field, 7> fly_fields = {
+    with_choices(field<&FlySettings::mode>("mode", 0, 0, "", "where the card has the movement from"), modes),
+    field<&FlySettings::tracking_error_us>("tracking_error_us", 0, 655'350, "us", "lag of the mirrors that the card makes up for, in steps of 10 us; encoders only"),
+    field<&FlySettings::scale_factor>("scale_factor", 0.01, 100, "", "a wrong scale: 1.01 is one percent too much"),
+    absent_means(field<&FlySettings::simulated_speed>("simulated_speed_{u}_s", -1e5, 1e5, "{u}/s", "mode simulated: the speed that the card's own clock stands for"), "the speed of the belt"),
+    field<&FlySettings::offset_us>("offset_us", -1e6, 1e6, "us", "everything is marked as far ahead as the belt goes in this time at its first speed: for a source that is late"),
+    with_choices(field<&FlySettings::waits>("waits", 0, 0, "", "auto: each stroke waits until it is in the field, long ones in pieces"), waits),
+    field<&FlySettings::margin_mm>("margin_mm", 0, 1000, "mm", "with waits: how far marks keep from the field's edge"),
+};
+inline constexpr std::array<Field, 6> parts_fields = {
+    field<&PartsSettings::count>("count", 1, 10'000, "", "how many come"),
+    field<&PartsSettings::spacing>("spacing_{u}", 0, 1e6, "{u}", "from one to the next"),
+    field<&PartsSettings::track_delay>("track_delay_{u}", 0, 1e6, "{u}", "from the sensor to the place in the field for which the drawing is made"),
+    with_choices(field<&PartsSettings::start>("start", 0, 0, "", "each part's edge at the sensor, or the card itself after each spacing"), starts),
+    field<&PartsSettings::first_number>("first_number", -1e15, 1e15, "", "`{n}` of the first part that is marked"),
+    field<&PartsSettings::number_step>("number_step", -1e9, 1e9, "", "from one marked part to the next"),
+};
+inline constexpr std::array<Field, 3> sender_fields = {
+    field<&parts::SenderSettings::bits_per_mm>("bits_per_unit", -1e9, 1e9, "", "resolution, a mm or degree"),
+    field<&parts::SenderSettings::period_us>("period_us", 1, 1e6, "us", "between readings"),
+    field<&parts::SenderSettings::delay_us>("delay_us", 0, 1e6, "us", "from a reading to its word"),
+};
+/// A key that is no field: an array.
+struct ArrayKey {
+    std::string_view key, unit, range, absent, doc;
+};
+
+struct SectionInfo {
+    std::string_view name;
+    std::span<const Field> fields;
+    std::string_view doc;
+    ArrayKey array{};
+};
+inline constexpr ArrayKey profile_key{"profile", "s, {u}/s", "1 .. 10000 pairs", "none", "instead of the speed: [[seconds, speed], ..], straight between the points"};
+inline constexpr ArrayKey at_key{"at_{u}", "{u}", "1 .. 10000 rising numbers from 0 on", "none", "instead of count and spacing: the way of the belt until each part's edge is at the sensor"};
+
+inline constexpr std::array<SectionInfo, 11> sections = {
+    SectionInfo{"drawing", drawing_fields, "One of `svg`, `gcode` and `text`. `[[drawing]]`, as often as wanted, marks several one after the other."},
+    SectionInfo{"optics", optics_fields, ""},
+    SectionInfo{"lens", lens_fields, "An f-theta lens. The card's table is made from it, or is the ct5 file."},
+    SectionInfo{"galvo", galvo_fields, "Without `ideal` they have dead time, lag and a speed limit."},
+    SectionInfo{"laser", laser_fields, ""},
+    SectionInfo{"pace", pace_fields, "Delays of the mirrors are in steps of 10 us, those of the laser in steps of 0.5 us."},
+    SectionInfo{"belt", belt_fields, "What carries the parts.", profile_key},
+    SectionInfo{"table", table_fields, "A rotary table instead of a belt.", profile_key},
+    SectionInfo{"fly", fly_fields, "How the card follows the part."},
+    SectionInfo{"parts", parts_fields, "Parts that come one after the other. Without it there is one part and the list begins by itself.", at_key},
+    SectionInfo{"sender", sender_fields, "The source of McBSP words, with mode mcbsp."},
+};
+
+}  // namespace motionrack::mark::fields

@@ -1,0 +1,133 @@
+// Reads a marking job, section by section.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/mark/job_check.hpp>
+#include <motionrack/mark/job_fields.hpp>
+
+namespace motionrack::mark {
+
+namespace {
+
+using rack::TomlNode;
+using rack::TomlType;
+
+bool is_number(const TomlNode& node) { return node.type == TomlType::number || node.type == TomlType::integer; }
+double number_of(const TomlNode& node) { return node.type == TomlType::integer ? static_cast<double>(node.integer) : node.number; }
+
+/// profile = [[0, 50], [0.5, 120]]: seconds and speeds.
+void read_profile(const TomlNode& table, Belt& belt, rack::Problems& problems) {
+    const TomlNode* profile = table.find("profile");
+    if (profile == nullptr) return;
+    if (profile->type != TomlType::array || profile->children.empty() || profile->children.size() > 10'000)
+        return problems.error(profile->value_place, "'profile' must be an array of 1 to 10000 pairs [seconds, speed].");
+    for (const TomlNode& pair : profile->children) {
+        if (pair.type != TomlType::array || pair.children.size() != 2 || !is_number(pair.children[0]) || !is_number(pair.children[1]))
+            return problems.error(pair.value_place, "A point of 'profile' must be a pair [seconds, speed].");
+        belt.profile.push_back({number_of(pair.children[0]), number_of(pair.children[1])});
+    }
+    if (table.find("speed_mm_s") != nullptr || table.find("speed_deg_s") != nullptr)
+        problems.error(profile->key_place, "A speed and a 'profile' are both given; leave one out.");
+    if (const auto track = parts::Track::make({.profile = belt.profile}); !track) problems.error(profile->value_place, track.error().message);
+}
+
+/// at_mm = [0, 40, 95]
+void read_at(const TomlNode& table, std::string_view key, PartsSettings& parts, rack::Problems& problems) {
+    const TomlNode* at = table.find(key);
+    if (at == nullptr) return;
+    const auto wrong = [&](Place place) { problems.error(place, fmt::format("'{}' must be an array of 1 to 10000 numbers that rise, from 0 to 1e6.", key)); };
+    if (at->type != TomlType::array || at->children.empty() || at->children.size() > 10'000) return wrong(at->value_place);
+    for (const TomlNode& node : at->children) {
+        const double value = is_number(node) ? number_of(node) : -1;
+        if (!(value >= 0 && value <= 1e6) || (!parts.at.empty() && value <= parts.at.back())) return wrong(node.value_place);
+        parts.at.push_back(value);
+    }
+    for (const char* other : {"count", "spacing_mm", "spacing_deg"})
+        if (table.find(other) != nullptr) problems.error(table.place_of(other), fmt::format("With '{}' the parts' places are known; leave '{}' out.", key, other));
+}
+
+/// One section into its member of the job.
+class SectionReader {
+  public:
+    SectionReader(Job& job, std::string unit, rack::Problems& problems) : job_(job), unit_(std::move(unit)), problems_(problems) {}
+
+    void read(const TomlNode& node, std::string_view name) {
+        const auto* info = std::find_if(fields::sections.begin(), fields::sections.end(), [&](const fields::SectionInfo& s) { return s.name == name; });
+        const std::string array = rack::with_unit(info->array.key, unit_);
+        const std::string_view also[] = {array};
+        const rack::Section section{fmt::format("[{}]", name), unit_, "", std::span(also, array.empty() ? 0 : 1)};
+        rack::read_fields(node, info->fields, object(node, name), section, problems_);
+        if (name == "belt" || name == "table") read_profile(node, job_.belt, problems_);
+        if (name == "parts") read_at(node, array, *job_.parts, problems_);
+    }
+
+  private:
+    void* object(const TomlNode& node, std::string_view name) {
+        if (name == "drawing") return &job_.drawings.emplace_back();
+        if (name == "optics") return &job_.optics;
+        if (name == "lens") return &job_.lens.emplace();
+        if (name == "galvo") return &job_.galvo;
+        if (name == "laser") return &job_.laser;
+        if (name == "pace") return &job_.pace;
+        if (name == "fly") return &job_.fly;
+        if (name == "parts") return &job_.parts.emplace();
+        if (name == "sender") return &job_.sender;
+        job_.belt.rotary = name == "table";
+        job_.belt.place = node.key_place;
+        return &job_.belt;
+    }
+
+    Job& job_;
+    std::string unit_;
+    rack::Problems& problems_;
+};
+
+}  // namespace
+
+parts::TrackSettings Job::track() const {
+    parts::TrackSettings out;
+    out.rotary = belt.rotary;
+    out.direction_deg = belt.direction_deg;
+    out.centre_mm = {belt.centre_x_mm, belt.centre_y_mm};
+    out.profile = belt.profile.empty() ? std::vector<parts::SpeedPoint>{{0, belt.speed}} : belt.profile;
+    out.counts_per_unit = belt.counts_per_unit;
+    out.slip = belt.slip;
+    out.jitter_counts = belt.jitter_counts;
+    return out;
+}
+
+double Job::sense() const {
+    const std::vector<parts::SpeedPoint> profile = track().profile;
+    return std::any_of(profile.begin(), profile.end(), [](const parts::SpeedPoint& p) { return p.speed < 0; }) ? -1 : 1;
+}
+
+JobRead read_job(std::string_view text, const std::string& file) {
+    const Result<TomlNode> root = rack::parse_toml(text, file);
+    if (!root) return {std::nullopt, {root.error()}};
+    rack::Problems problems(file);
+    Job job;
+    job.file = file;
+    std::vector<std::string_view> names;
+    for (const fields::SectionInfo& section : fields::sections) names.push_back(section.name);
+    SectionReader reader(job, root->find("table") != nullptr ? "deg" : "mm", problems);
+    for (const TomlNode& node : root->children) {
+        const bool known = std::find(names.begin(), names.end(), node.key) != names.end();
+        const bool many = node.key == "drawing" && node.type == TomlType::array;
+        if (!known || (!many && node.type != TomlType::table)) {
+            problems.error(node.key_place, fmt::format("There is no section {}{}.", rack::in_quotes(node.key), rack::did_you_mean(node.key, names)));
+            continue;
+        }
+        if (!many) reader.read(node, node.key);
+        for (const TomlNode& each : many ? node.children : std::vector<TomlNode>{}) {
+            if (each.type == TomlType::table)
+                reader.read(each, node.key);
+            else
+                problems.error(each.value_place, "'drawing' must be a section [drawing] or several [[drawing]].");
+        }
+    }
+    if (!problems.any_errors()) check_job(*root, job, problems);
+    if (problems.any_errors()) return {std::nullopt, problems.take_errors()};
+    return {std::move(job), {}};
+}
+
+}  // namespace motionrack::mark

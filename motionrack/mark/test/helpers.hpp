@@ -1,0 +1,46 @@
+// Jobs from their text, run.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <motionrack/mark/show.hpp>
+#include <string>
+
+namespace motionrack::mark {
+
+inline constexpr const char* square_svg = R"(<svg xmlns="http://www.w3.org/2000/svg" width="10mm" height="10mm" viewBox="0 0 10 10"><path d="M0 10 H10 V0 H0 Z"/></svg>)";
+
+inline Load one_file(const std::string& text) {
+    return [text](const std::string&) -> Result<std::string> { return text; };
+}
+
+inline Job job_of(const std::string& text) {
+    JobRead read = read_job(text, "job.toml");
+    for (const Error& error : read.errors) ADD_FAILURE() << error.text();
+    return read.job.value_or(Job{});
+}
+
+/// All that is wrong with a job, one a line.
+inline std::string errors_of(const std::string& text) {
+    std::string out;
+    for (const Error& error : read_job(text, "j.toml").errors) out += error.text() + "\n";
+    return out;
+}
+
+inline Outcome run(const Job& job, const std::string& svg = square_svg) {
+    const Result<Prepared> prepared = prepare(job, one_file(svg));
+    if (!prepared) return ADD_FAILURE() << prepared.error().text(), Outcome{};
+    Result<Outcome> out = run_job(job, *prepared);
+    if (!out) return ADD_FAILURE() << out.error().text(), Outcome{};
+    return *out;
+}
+
+/// Why it does not run.
+inline std::string refusal(const Job& job, const std::string& svg = square_svg) {
+    const Result<Prepared> prepared = prepare(job, one_file(svg));
+    if (!prepared) return prepared.error().text();
+    const Result<Outcome> out = run_job(job, *prepared);
+    return out ? "" : out.error().text();
+}
+
+}  // namespace motionrack::mark
