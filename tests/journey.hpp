@@ -11,13 +11,6 @@ namespace motionrack::rack {
 
 inline RackConfig router() { return *read_rack_text(*rack_template("router")).config; }
 
-inline control::gcode::Settings reader_of(const RackConfig& config) {
-    control::gcode::Settings settings;
-    settings.limits = config.limits();
-    for (const RackAxis& axis : config.axes) settings.start[static_cast<std::size_t>(axis.index())] = axis.start_position;
-    return settings;
-}
-
 struct Done {
     JobOutcome outcome;
     std::uint64_t state_hash = 0;

@@ -21,7 +21,7 @@ int drive_random(test::ProgramSize size) {
     int driven = 0;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {
         const test::RandomProgram program = test::ProgramMaker(seed, size).make();
-        if (!control::gcode::check_program(program.text, reader_of(config), 1).problems.empty()) continue;
+        if (!control::gcode::check_program(program.text, reader_settings(config), 1).problems.empty()) continue;
         SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed) + "\n" + program.text);
         const Done done = drive(config, program.text);
         // Rounding makes two chords one or one longer: then the next takes the turn of both.

@@ -3,19 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <motionrack/control/planner_for.hpp>
+
 namespace motionrack::control {
 
 namespace {
-
-PlannerSettings with_joints(PlannerSettings settings, const PathAxes& axes) {
-    settings.drive = axes.drive_rule();
-    return settings;
-}
-
-MachineLimits with_reserve(MachineLimits limits, double kept_back) {
-    for (AxisLimits& axis : limits) axis.max_accel *= 1 - kept_back;
-    return limits;
-}
 
 std::string words_of(const gcode::Step& step) {
     using gcode::StepKind;
@@ -43,8 +35,7 @@ std::string words_of(const gcode::Step& step) {
 Controller::Controller(PathAxes& axes, const ControllerSettings& settings)
     : axes_(axes),
       settings_(settings),
-      planner_(with_reserve(settings.gcode.limits, settings.kept_back), settings.gcode.start,
-               with_joints(settings.planner, axes)) {}
+      planner_(planner_for(axes, settings.gcode.limits, settings.kept_back, settings.planner, settings.gcode.start)) {}
 
 Result<void> Controller::hand_over() {
     PlannedMove planned;

@@ -42,6 +42,7 @@ struct Move {
     std::int32_t turns = 0;
     std::int32_t line = 0;      ///< line of the source, from 1
     double feed = 0;            ///< see FeedMode; not used by traverse and dwell
+    double haste = 1;           ///< traverse: part of the axes' greatest speed, above 0 to 1
     double tolerance_mm = 0;    ///< for PathControl::continuous
     double centre_first = 0;    ///< mm
     double centre_second = 0;   ///< mm

@@ -11,6 +11,7 @@ namespace motionrack::control {
 namespace {
 
 constexpr int widest_window = 1'000'000;
+constexpr double rounding = 1e-9;
 
 std::uint64_t power_of_two_from(std::uint64_t least) {
     std::uint64_t size = 1;
@@ -161,7 +162,9 @@ void Planner::forward(std::uint64_t until) {
         const double after = ready_ + 1 == tail_ ? 0 : node(ready_ + 1).entry;
         const double entry = committed_ * committed_;
         PlannedMove& planned = slot(ready_);
-        const double exit = std::min(after, entry + here.reach);
+        double exit = std::min(after, entry + here.reach);
+        // After reopen() a joint may want to be slower than can be braked to.
+        if (entry - here.reach - exit > rounding * entry) exit = entry - here.reach;
         const double top = std::min(here.cruise, 0.5 * (entry + exit + here.reach));
         planned.entry = committed_;
         planned.exit = std::sqrt(exit);
@@ -176,6 +179,21 @@ bool Planner::pull(PlannedMove& planned) {
     if (head_ == ready_) return false;
     planned = slot(head_++);
     return true;
+}
+
+bool Planner::pull_early(PlannedMove& planned) {
+    if (head_ == ready_ && ready_ != tail_) {
+        backward();
+        forward(ready_ + 1);
+    }
+    return pull(planned);
+}
+
+void Planner::reopen() {
+    if (head_ == tail_) return;
+    committed_ = head_ == ready_ ? committed_ : slot(head_).entry;
+    position_ = slot(head_).start;
+    ready_ = settled_ = tail_ = head_;
 }
 
 double seconds_of(const PlannedMove& planned) {

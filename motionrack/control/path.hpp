@@ -65,6 +65,17 @@ class Planner {
     /// The next planned move, in the order of push; false if none is ready.
     bool pull(PlannedMove& planned);
 
+    /// The same, and if none is ready the first open one with what is known: its speeds are final then. False if there
+    /// is none at all.
+    bool pull_early(PlannedMove& planned);
+
+    /// How many moves can be pulled or are open.
+    std::size_t size() const { return tail_ - head_; }
+
+    /// Forgets the moves that were not pulled, for they are to be pushed again with other feeds. The path goes on where
+    /// the last pulled move ends, at its speed there, from which all that follows must allow to brake.
+    void reopen();
+
     /// Where the path ends so far.
     const Point& position() const { return position_; }
 

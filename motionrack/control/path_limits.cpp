@@ -79,7 +79,9 @@ AlongPath PathLimits::along(const Geometry& path, const Move& move) const {
         found.speed = std::min(found.speed, std::sqrt(pull_limit));
     }
     found.accel = 1 / per_accel;
-    if (move.kind != MoveKind::traverse) {
+    if (move.kind == MoveKind::traverse) {
+        found.speed *= move.haste;
+    } else {
         found.speed =
             std::min(found.speed, move.feed_mode == FeedMode::inverse_time ? path.length * move.feed : move.feed);
     }

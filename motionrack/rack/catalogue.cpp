@@ -68,10 +68,14 @@ class Mcx314Card final : public MotionCard {
     sim::VirtualHost& host() override { return port_; }
     sim::VirtualPort* port() override { return &port_; }
 
-    Result<control::PathAxes*> path_axes(const RackConfig& config, const control::Point& position) override {
-        single_ = {};
+    Result<control::PathAxes*> path_axes(const RackConfig& config, const std::optional<control::Point>& position) override {
+        const Stand stand = stand_now();
+        for (auto& one : single_) one.reset();
         axes_.emplace(driver_, axis_map(config), access_);
-        MOTIONRACK_CHECK(axes_->set_up(position));
+        MOTIONRACK_CHECK(axes_->set_up(position.value_or(position_of(config, stand))));
+        for (int c = 0; c < mcx314::channel_count && !position; ++c) MOTIONRACK_CHECK(driver_.EPS(1u << c, stand.counts[static_cast<std::size_t>(c)]));
+        group_trusted_ = stand.trusted;
+        if (position) group_trusted_.fill(true);
         return &*axes_;
     }
 
@@ -79,6 +83,7 @@ class Mcx314Card final : public MotionCard {
         const RackAxis* found = config.axis(letter);
         MOTIONRACK_ASSERT(found != nullptr && found->card == name_);
         if (axes_ || !singles_ready_) {
+            before_singles_ = stand_now();
             axes_.reset();
             MOTIONRACK_CHECK(mcx314::SingleAxis::prepare(driver_));
             singles_ready_ = true;
@@ -94,6 +99,8 @@ class Mcx314Card final : public MotionCard {
         settings.pulses_per_turn = found->pulses_per_rev();
         one = std::make_unique<mcx314::SingleAxis>(driver_, settings);
         MOTIONRACK_CHECK(one->set_up());
+        const auto c = static_cast<std::size_t>(settings.channel);
+        if (before_singles_.trusted[c]) MOTIONRACK_CHECK(one->go_on(before_singles_.pulses[c], before_singles_.counts[c], true));
         return one.get();
     }
 
@@ -126,6 +133,31 @@ class Mcx314Card final : public MotionCard {
         return map;
     }
 
+    /// Where the channels stand, and whether that means a place of the machine.
+    struct Stand {
+        std::array<std::int64_t, mcx314::channel_count> pulses = {}, counts = {};
+        std::array<bool, mcx314::channel_count> trusted = {};
+    };
+    Stand stand_now() {
+        Stand out;
+        if (!axes_ && !singles_ready_) return out;
+        for (std::size_t c = 0; c < out.pulses.size(); ++c) {
+            out.pulses[c] = driver_.ReadLPS(static_cast<int>(c));
+            out.counts[c] = driver_.ReadEPS(static_cast<int>(c));
+        }
+        if (axes_) out.trusted = group_trusted_;
+        for (const auto& one : single_)
+            if (one) out.trusted[static_cast<std::size_t>(one->channel())] = one->trusted();
+        return out;
+    }
+    control::Point position_of(const RackConfig& config, const Stand& stand) const {
+        const mcx314::AxisMap map = axis_map(config);
+        control::Point out = {};
+        for (std::size_t i = 0; i < out.size(); ++i)
+            if (map.channel[i] >= 0) out[i] = static_cast<double>(stand.pulses[static_cast<std::size_t>(map.channel[i])]) / map.limits[i].pulses_per_unit;
+        return out;
+    }
+
     sim::RegisterDevice& registers_on_bus() {
         if (narrow_) return byte_bus_;
         return chip_;
@@ -143,6 +175,8 @@ class Mcx314Card final : public MotionCard {
     std::optional<mcx314::Axes> axes_;
     std::array<std::unique_ptr<mcx314::SingleAxis>, 6> single_ = {};
     bool singles_ready_ = false;
+    Stand before_singles_;                                          // when the group lost the card
+    std::array<bool, mcx314::channel_count> group_trusted_ = {};
 };
 
 Result<std::int64_t> Mcx314Card::inspect(std::string_view name) const {

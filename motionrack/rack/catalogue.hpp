@@ -96,10 +96,11 @@ class MotionCard : public Card {
     virtual void connect_ideal_machine() {}
     /// The two inputs of the encoder of that machine, which turns with `pulses(0)`; empty: there is none.
     virtual std::span<const std::string_view> ideal_encoder() const { return {}; }
-    /// The card's axes as a group that follows paths, set up at `position`; `channel[i]` moves axis i of the rack.
-    virtual Result<control::PathAxes*> path_axes(const RackConfig& config, const control::Point& position) = 0;
-    /// One axis of the rack that this card moves, by itself; its position is not trusted at first. Takes the card from path_axes(), and
-    /// the other way round.
+    /// The card's axes as a group that follows paths; `channel[i]` moves axis i of the rack. Set up at `position`, which is trusted then;
+    /// without one they go on from where the counters say that they stand.
+    virtual Result<control::PathAxes*> path_axes(const RackConfig& config, const std::optional<control::Point>& position) = 0;
+    /// One axis of the rack that this card moves, by itself; it goes on from where the group stands, or its position is not trusted at
+    /// first. Takes the card from path_axes(), and the other way round.
     virtual Result<control::Axis*> axis(const RackConfig& config, char letter) = 0;
     /// Part of each acceleration that the planner keeps back for this card.
     virtual double kept_back() const = 0;

@@ -137,7 +137,7 @@ class Databoard4002Card final : public MotionCard {
         if (!ideal_) return {};
         return pins;
     }
-    Result<control::PathAxes*> path_axes(const RackConfig&, const control::Point&) override {
+    Result<control::PathAxes*> path_axes(const RackConfig&, const std::optional<control::Point>&) override {
         return fail(Trouble::refused, fmt::format("Card {} positions its one axis by itself and follows no paths. Nothing was moved.", name_));
     }
     Result<control::Axis*> axis(const RackConfig& config, char letter) override {

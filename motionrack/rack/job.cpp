@@ -7,9 +7,9 @@
 
 namespace motionrack::rack {
 
-Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(settings)) {
+std::vector<WatchedAxis> watched_axes(Rack& rack) {
     std::vector<WatchedAxis> watched;
-    for (RunningAxis& axis : rack_.axes()) {
+    for (RunningAxis& axis : rack.axes()) {
         WatchedAxis one;
         one.index = axis.config.index();
         one.commanded = &axis.turned_by();
@@ -17,12 +17,29 @@ Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(se
         one.real = &axis.machine->rotor();
         one.pulses_per_unit = axis.config.pulses_per_unit();
         one.origin = axis.config.start_position;
-        one.jump_hz = axis.card->jump_hz(rack_.config());
+        one.jump_hz = axis.card->jump_hz(rack.config());
         one.full_step = static_cast<double>(axis.config.microsteps);
         one.accel_hz = axis.config.max_accel * one.pulses_per_unit;
         watched.push_back(one);
     }
-    monitor_ = std::make_unique<Monitor>(rack_.kernel(), std::move(watched), settings_.sample_period, settings_.most_samples);
+    return watched;
+}
+
+control::gcode::Settings reader_settings(const RackConfig& config, bool block_delete) {
+    control::gcode::Settings settings;
+    settings.limits = config.limits();
+    settings.block_delete = block_delete;
+    settings.point_to_point = config.point_to_point();
+    settings.path_tolerance_mm = config.controller.default_path_tolerance_mm;
+    for (const RackAxis& axis : config.axes) {
+        const auto i = static_cast<std::size_t>(axis.index());
+        settings.start[i] = settings.g28[i] = settings.g30[i] = axis.start_position;
+    }
+    return settings;
+}
+
+Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(settings)) {
+    monitor_ = std::make_unique<Monitor>(rack_.kernel(), watched_axes(rack_), settings_.sample_period, settings_.most_samples);
 }
 
 Job::~Job() = default;
@@ -35,11 +52,7 @@ JobOutcome Job::run() {
         return out;
     }
     control::ControllerSettings settings;
-    settings.gcode.limits = rack_.config().limits();
-    settings.gcode.block_delete = settings_.block_delete;
-    settings.gcode.point_to_point = rack_.config().point_to_point();
-    settings.gcode.path_tolerance_mm = rack_.config().controller.default_path_tolerance_mm;
-    settings.gcode.start = settings.gcode.g28 = settings.gcode.g30 = rack_.start_position();
+    settings.gcode = reader_settings(rack_.config(), settings_.block_delete);
     settings.kept_back = rack_.axes().front().card->kept_back();
     const std::int64_t lines = 1 + std::count(settings_.program.begin(), settings_.program.end(), '\n');
     const Instant began = rack_.kernel().now();

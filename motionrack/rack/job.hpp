@@ -72,6 +72,11 @@ struct JobOutcome {
     bool position_trusted = true;      ///< false once steps were lost
 };
 
+/// What a monitor watches of a rack: all its axes.
+std::vector<WatchedAxis> watched_axes(Rack& rack);
+/// How a rack's controller reads part programs; they begin where the axes start.
+control::gcode::Settings reader_settings(const RackConfig& config, bool block_delete = false);
+
 /// Runs a program that has been checked on a rack at standstill. `monitor` keeps what was seen.
 class Job {
   public:

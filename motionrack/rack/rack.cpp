@@ -229,25 +229,25 @@ void Rack::copy_from(Rack& other) {
     for (std::size_t i = 0; i < scanners_.size(); ++i) scanners_[i].head->copy_points(*other.scanners_[i].head);
 }
 
-Result<control::PathAxes*> Rack::path_axes() {
+Result<control::PathAxes*> Rack::path_axes(const std::optional<control::Point>& position) {
     if (axes_.empty())
         return fail(Trouble::refused, "The rack has no axes, so no program can run on it; add an [axis.X] section to the rack file.");
-    if (config_.point_to_point()) return positioning_axes();
+    if (config_.point_to_point()) return positioning_axes(position);
     for (const RunningAxis& axis : axes_)
         if (axis.card != axes_.front().card)
             return fail(Trouble::refused, fmt::format("Axis {} is on card '{}' and axis {} on card '{}', but a path is followed by the axes of "
                                                       "one card. Nothing was moved; put them on one card.",
                                                       axes_.front().config.letter, axes_.front().config.card, axis.config.letter,
                                                       axis.config.card));
-    return axes_.front().card->path_axes(config_, start_position());
+    return axes_.front().card->path_axes(config_, position);
 }
 
-Result<control::PathAxes*> Rack::positioning_axes() {
+Result<control::PathAxes*> Rack::positioning_axes(const std::optional<control::Point>& position) {
     std::array<control::Axis*, control::axis_count> axes = {};
     for (const RunningAxis& axis : axes_) {
         control::Axis*& one = axes[static_cast<std::size_t>(axis.config.index())];
         MOTIONRACK_TRY(one, axis.card->axis(config_, axis.config.letter));
-        MOTIONRACK_CHECK(one->set_position(axis.config.start_position));
+        if (position) MOTIONRACK_CHECK(one->set_position((*position)[static_cast<std::size_t>(axis.config.index())]));
     }
     return &positioning_.emplace(axes, config_.limits(), axes_.front().card->host());
 }

@@ -75,9 +75,11 @@ class Rack {
     /// No more parts: virtual time can run.
     void start();
     bool started() const { return started_; }
-    /// All axes of the rack as a group that follows paths, set up at the machine's start position: those of one card that can, or axes
-    /// that position one by one (see point_to_point). Errors: refused if the rack has both kinds. The rack must be started.
-    Result<control::PathAxes*> path_axes();
+    /// All axes of the rack as a group that follows paths: those of one card that can, or axes that position one by one (see
+    /// point_to_point). They are set up at the machine's start position, or go on from where their counters say that they stand. Errors:
+    /// refused if the rack has both kinds. The rack must be started.
+    Result<control::PathAxes*> path_axes() { return path_axes(start_position()); }
+    Result<control::PathAxes*> path_axes_here() { return path_axes(std::nullopt); }
     /// For progress, draining and Ctrl-C: see VirtualPort.
     void on_slice(Duration slice, std::function<void()> call);
     void set_stop_flag(const std::atomic<bool>* stop);
@@ -87,7 +89,8 @@ class Rack {
     std::string describe(const sim::Condition& condition);
 
   private:
-    Result<control::PathAxes*> positioning_axes();
+    Result<control::PathAxes*> path_axes(const std::optional<control::Point>& position);
+    Result<control::PathAxes*> positioning_axes(const std::optional<control::Point>& position);
     void build_cards();
     void build_axes();
     void build_axis(const RackAxis& axis);

@@ -7,6 +7,7 @@
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/rack/job.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/rack/counted.hpp>
 #include <motionrack/rack/template.hpp>

@@ -29,19 +29,6 @@ std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_cod
     return reading.config;
 }
 
-control::gcode::Settings reader_settings(const rack::RackConfig& config, bool block_delete) {
-    control::gcode::Settings settings;
-    settings.limits = config.limits();
-    settings.block_delete = block_delete;
-    settings.point_to_point = config.point_to_point();
-    settings.path_tolerance_mm = config.controller.default_path_tolerance_mm;
-    for (const rack::RackAxis& axis : config.axes) {
-        const auto i = static_cast<std::size_t>(axis.index());
-        settings.start[i] = settings.g28[i] = settings.g30[i] = axis.start_position;
-    }
-    return settings;
-}
-
 int print_problems(const control::gcode::Check& check, const std::string& name) {
     if (check.problems.empty()) return exit_done;
     for (const control::gcode::Problem& problem : check.problems) print_error(problem.text());

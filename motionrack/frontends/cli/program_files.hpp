@@ -24,9 +24,6 @@ Result<ProgramText> load_program(const std::string& path);
 /// Reads a rack file, prints its warnings, and every error; nothing if there are errors. An empty path is the built-in router.
 std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code);
 
-/// How a rack's controller reads part programs.
-control::gcode::Settings reader_settings(const rack::RackConfig& config, bool block_delete);
-
 /// Prints up to 20 problems of a program with their lines; the exit code (0 if there are none).
 int print_problems(const control::gcode::Check& check, const std::string& name);
 

@@ -149,6 +149,34 @@ TEST(RackHomes, AProgramRunsAfterwardsOnTheSameCard) {
     EXPECT_TRUE(home_axes(rack, again).all_homed());
 }
 
+TEST(RackHomes, TheGroupGoesOnWhereTheAxesStandAndTheAxesWhereTheGroupStands) {
+    Rack rack(config_of(two_axes));
+    rack.start();
+    ASSERT_TRUE(home_axes(rack, {}).all_homed());
+    control::Axis* y = *rack.axes()[1].card->axis(rack.config(), 'Y');
+    ASSERT_TRUE(y->move_by(12.5, 20));
+    ASSERT_TRUE(y->wait(whole_seconds(10)));
+    const std::int64_t counts = rack.axes()[1].card->encoder_counter(rack.axes()[1].channel);
+    control::PathAxes* path = *rack.path_axes_here();
+    EXPECT_NEAR(path->commanded_position()[1], 13.5, 0.5 / 640);
+    EXPECT_EQ(rack.axes()[1].card->encoder_counter(rack.axes()[1].channel), counts);
+    y = *rack.axes()[1].card->axis(rack.config(), 'Y');
+    EXPECT_TRUE(y->trusted());
+    EXPECT_NEAR(y->position(), 13.5, 0.5 / 640);
+    EXPECT_NEAR(y->measured_position(), 13.5, 0.5 / 640);
+    EXPECT_EQ(rack.axes()[1].card->encoder_counter(rack.axes()[1].channel), counts);
+}
+
+TEST(RackHomes, AnAxisThatTheGroupNeverHadIsNotTrusted) {
+    Rack rack(config_of(two_axes));
+    rack.start();
+    control::Axis* y = *rack.axes()[1].card->axis(rack.config(), 'Y');
+    EXPECT_FALSE(y->trusted());
+    ASSERT_TRUE(rack.path_axes_here());
+    y = *rack.axes()[1].card->axis(rack.config(), 'Y');
+    EXPECT_FALSE(y->trusted());
+}
+
 TEST(RackHomes, TextJsonAndPictureTellTheSame) {
     const HomingOutcome out = homed(two_axes);
     const std::string text = homing_text(out);

@@ -19,6 +19,7 @@ constexpr std::uint16_t wr2_software_limits = 0x0003;
 constexpr std::uint16_t wr2_limit_slows = 0x0004;
 constexpr std::uint16_t wr2_pulse_and_direction = 0x0040;
 constexpr Duration joint_timeout = whole_seconds(3600);
+constexpr Duration brake_look = microseconds(50);
 
 }  // namespace
 
@@ -68,12 +69,20 @@ double Axes::joint_speed(const control::Geometry& before, const control::Geometr
     return speed;
 }
 
-/// The speed changes at whole pulses, and the host writes it a little after the joint.
+/// The speed changes at whole pulses, and the host writes it a little after the joint; of an arc that is drawn with chords, at each of
+/// them. Along such an arc a basic pulse is another length of path from chord to chord, so that part of the chip's acceleration goes into
+/// keeping the path's speed.
 double Axes::spent_length(const control::Geometry& path) const {
-    constexpr double pulses = 2;
+    constexpr double pulses = 2, of_chords = 0.06;
     const Drawing drawing = drawing_of(map_, path);
-    const double leading = std::min(basic_pulses_along(map_, drawing, path.tangent_in), basic_pulses_along(map_, drawing, path.tangent_out));
-    return std::min(path.length, pulses / leading);
+    const double in = basic_pulses_along(map_, drawing, path.tangent_in), out = basic_pulses_along(map_, drawing, path.tangent_out);
+    double spent = pulses / std::min(in, out);
+    if (turn_of_first_chord(map_, path) > 0) {
+        const double middle = basic_pulses_along(map_, drawing, control::tangent_at(path, path.length / 2));
+        const double mean = (in * in + 4 * middle * middle + out * out) / 6, most = std::max(in * in, out * out);
+        spent += path.length * (of_chords + std::max(0.0, 1 - mean / most));
+    }
+    return std::min(path.length, spent);
 }
 
 Result<void> Axes::begin() {
@@ -113,17 +122,17 @@ Result<void> Axes::play_ready(std::size_t keep) {
 }
 
 Result<void> Axes::play(const Segment& segment) {
-    if (driver_.interrupt().stop_requested()) return stopped_by_user();
     if (segment.kind == SegmentKind::pause) return play_pause(segment);
-    ++segments_;
     if (segment.starts_chain || !chain_running_) {
         MOTIONRACK_CHECK(wait_for_standstill());
+        if (driver_.interrupt().stop_requested()) return stopped_by_user();
         MOTIONRACK_CHECK(start_chain(segment));
     } else {
         MOTIONRACK_CHECK(queue(segment));
         MOTIONRACK_CHECK(wait_for_joint());
         MOTIONRACK_CHECK(write_speed(segment));
     }
+    ++segments_;
     MOTIONRACK_CHECK(begin_segment(segment));
     chain_running_ = !segment.ends_chain;
     return {};
@@ -146,6 +155,8 @@ Result<void> Axes::play_pause(const Segment& segment) {
 
 Result<void> Axes::start_chain(const Segment& segment) {
     generator_ = segment.axes[0];
+    s_curve_ = segment.s_curve;
+    braking_ = false;
     const unsigned own = 1u << generator_;
     MOTIONRACK_CHECK(driver_.WriteRange(own, range_));
     MOTIONRACK_CHECK(driver_.WriteRange(all_axes & ~own, std::llround(range_ * both_axes_factor)));
@@ -193,7 +204,10 @@ Result<void> Axes::wait_for_joint() {
             if (status.error(all_axes)) return stopped_by_machine();
             return {};  // too late by a hair: the segment has run and ended on its own
         }
-        if (driver_.interrupt().stop_requested()) return stopped_by_user();
+        if (driver_.interrupt().stop_requested()) {
+            MOTIONRACK_CHECK(brake());
+            continue;
+        }
         if (woken) clear_interrupts();  // something else woke us (a companion's end)
         woken = driver_.interrupt().wait(joint_timeout);
     }
@@ -201,10 +215,26 @@ Result<void> Axes::wait_for_joint() {
 
 Result<void> Axes::write_speed(const Segment& segment) {
     const unsigned own = 1u << generator_;
-    if (segment.speed != written_speed_) MOTIONRACK_CHECK(driver_.SetV(own, segment.speed));
+    rest_speed_ = segment.rest_speed;
+    const std::int32_t speed = braking_ ? std::min(segment.speed, rest_speed_) : segment.speed;
+    if (speed != written_speed_) MOTIONRACK_CHECK(driver_.SetV(own, speed));
     if (segment.acceleration != written_acceleration_) MOTIONRACK_CHECK(driver_.SetA(own, segment.acceleration));
-    written_speed_ = segment.speed;
+    written_speed_ = speed;
     written_acceleration_ = segment.acceleration;
+    return {};
+}
+
+/// Somebody wishes to stop. A stop command would end the drive where the queued segment ends, at any speed; so the speed is written down,
+/// segments go on being queued, and the command comes when it has fallen. One look at it; the S-curve's stop fits into its line.
+Result<void> Axes::brake() {
+    if (!driver_.status().interpolating() || s_curve_) return stopped_by_user();
+    if (!braking_ && written_speed_ > rest_speed_) {
+        MOTIONRACK_CHECK(driver_.SetV(1u << generator_, rest_speed_));
+        written_speed_ = rest_speed_;
+    }
+    braking_ = true;
+    if (driver_.ReadCV(generator_) <= rest_speed_) return stopped_by_user();
+    driver_.interrupt().pass(brake_look);
     return {};
 }
 
@@ -221,8 +251,10 @@ Result<void> Axes::wait_until_all_stand() {
     while (true) {
         const MainStatus status = driver_.status();
         if (!status.driving(all_axes) && !status.interpolating()) break;
-        if (driver_.interrupt().stop_requested()) return stopped_by_user();
-        if (driver_.interrupt().wait(joint_timeout)) clear_interrupts();
+        if (driver_.interrupt().stop_requested())
+            MOTIONRACK_CHECK(brake());
+        else if (driver_.interrupt().wait(joint_timeout))
+            clear_interrupts();
     }
     clear_interrupts();
     return {};
@@ -282,6 +314,7 @@ tl::unexpected<Error> Axes::stopped_by_machine() {
 }
 
 tl::unexpected<Error> Axes::stopped_by_user() {
+    braking_ = false;
     driver_.SlowStop(all_axes);
     while (driver_.status().driving(all_axes)) driver_.interrupt().pass(microseconds(100));
     chain_running_ = false;

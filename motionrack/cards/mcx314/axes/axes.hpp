@@ -49,6 +49,7 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     Result<void> start_chain(const Segment& segment);
     Result<void> queue(const Segment& segment);
     Result<void> wait_for_joint();
+    Result<void> brake();
     Result<void> wait_for_standstill();
     Result<void> write_speed(const Segment& segment);
     Result<void> command(const Segment& segment);
@@ -78,6 +79,9 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     std::int32_t written_speed_ = 0;
     std::int32_t written_acceleration_ = 0;
     int generator_ = 0;
+    std::int32_t rest_speed_ = 1;    ///< of the running segment
+    bool s_curve_ = false;           ///< of the running chain
+    bool braking_ = false;           ///< on a wish to stop
     bool chain_running_ = false;
     std::int64_t segments_ = 0;
     // The companion's present drive.

@@ -18,19 +18,20 @@ Pulses4 AxisMap::pulses(const control::Point& position) const {
 Drawing drawing_of(const AxisMap& map, const control::Geometry& path) {
     const control::Point worst = control::worst_components(path);
     int moving = 0, last = -1;
-    bool rotary = false;
+    bool rotary = false, beside_plane = false;
     double scale = 0, least = 1e300;
     for (std::size_t i = 0; i < worst.size(); ++i) {
         if (map.channel[i] < 0 || worst[i] * path.length * map.limits[i].pulses_per_unit < 0.5) continue;
         ++moving;
         last = map.channel[i];
         rotary = rotary || i >= 3;
+        beside_plane = beside_plane || (path.shape == control::PathShape::arc && i != path.first && i != path.second);
         scale = std::max(scale, map.limits[i].pulses_per_unit);
         least = std::min(least, map.limits[i].pulses_per_unit);
     }
     Drawing out;
     out.companion = moving > 3 ? last : -1;
-    out.constant_vector = moving == 2 && !rotary && scale - least <= 1e-9 * scale;
+    out.constant_vector = moving == 2 && !rotary && !beside_plane && scale - least <= 1e-9 * scale;
     return out;
 }
 
@@ -49,12 +50,23 @@ namespace {
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
+/// From its start, the centre that an arc should have. One that starts beside the true circle, because the arc before it ended there, comes
+/// back to it by its end: its centre is the point nearest to the true one that is as far from both.
+std::array<double, 2> wanted_centre(const ArcRequest& wanted, double end_x, double end_y) {
+    constexpr double rounding = 0.75;
+    const double x = wanted.centre[0] - static_cast<double>(wanted.start[0]), y = wanted.centre[1] - static_cast<double>(wanted.start[1]);
+    const double chord = length(end_x, end_y);
+    if (std::fabs(length(x, y) - wanted.radius) < rounding || chord < 1) return {x, y};
+    const double across = (-(x - end_x / 2) * end_y + (y - end_y / 2) * end_x) / (chord * chord);
+    return {end_x / 2 - end_y * across, end_y / 2 + end_x * across};
+}
+
 }  // namespace
 
 std::optional<ChipArc> fit_arc(const ArcRequest& wanted) {
     const std::array<std::int64_t, 2> finish = {wanted.end[0] - wanted.start[0], wanted.end[1] - wanted.start[1]};
-    const std::array<double, 2> ideal = {wanted.centre[0] - static_cast<double>(wanted.start[0]),
-                                         wanted.centre[1] - static_cast<double>(wanted.start[1])};
+    const std::array<double, 2> ideal = wanted_centre(wanted, static_cast<double>(finish[0]), static_cast<double>(finish[1]));
+    const double radius = length(ideal[0], ideal[1]);
     std::optional<ChipArc> best;
     bool best_exact = false;
     for (int dx = -2; dx <= 3; ++dx) {
@@ -64,7 +76,7 @@ std::optional<ChipArc> fit_arc(const ArcRequest& wanted) {
             const rules::ArcEnd end = rules::end_of_arc(cx, cy, finish[0], finish[1], wanted.clockwise);
             const double own_radius = length(static_cast<double>(cx), static_cast<double>(cy));
             const double off = length(static_cast<double>(cx) - ideal[0], static_cast<double>(cy) - ideal[1]) +
-                               std::fabs(own_radius - wanted.radius);
+                               std::fabs(own_radius - radius);
             // One basic pulse is 1 .. 1.414 pulses of path: an arc that is longer than that went round once too often.
             if (static_cast<double>(end.basic_pulses) > wanted.length * 1.02 + 8) continue;
             const bool exact = end.first == finish[0] && end.second == finish[1];

@@ -25,6 +25,7 @@ struct Segment {
     std::array<std::int32_t, 3> moves = {};    ///< where the chip really ends: an arc may end beside its finish point
     std::int32_t initial_speed = 1;            ///< SV, V units; used where the chain starts
     std::int32_t speed = 1;                    ///< V from the segment's start on
+    std::int32_t rest_speed = 1;               ///< V from which it may stand still at once
     std::int32_t acceleration = 1;             ///< A, both ways
     std::int32_t jerk = 65'535;                ///< K, s_curve only
     std::int32_t offset = 0;                   ///< AO, s_curve only: what falling takes more than rising

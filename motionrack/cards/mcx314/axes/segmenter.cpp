@@ -335,6 +335,8 @@ void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
         segment.starts_chain = true;
         segment.initial_speed = speed_units(work.units_in, start_speed(work.path.tangent_in));
     }
+    segment.rest_speed = std::min(speed_units(work.units_in, start_speed(work.path.tangent_in)),
+                                  speed_units(work.units_out, start_speed(work.path.tangent_out)));
     segment.block = work.block;
     segment.line = work.move.move.line;
     if (work.companion >= 0) {

@@ -37,6 +37,13 @@ Result<void> SingleAxis::set_up() {
     return driver_.SetCompM(mask(), static_cast<std::int64_t>(std::floor(limits.min_position * limits.pulses_per_unit + 0.5)));
 }
 
+Result<void> SingleAxis::go_on(std::int64_t pulses, std::int64_t counts, bool trusted) {
+    MOTIONRACK_CHECK(driver_.LPS(mask(), pulses));
+    MOTIONRACK_CHECK(driver_.EPS(mask(), counts));
+    trust(trusted);
+    return {};
+}
+
 // ---- what is refused -------------------------------------------------------------------------------------------------
 
 tl::unexpected<Error> SingleAxis::refuse(const char* what, const std::string& why) const {

@@ -31,6 +31,8 @@ class SingleAxis final : public control::Axis {
 
     /// Counters 0, software limits off: the position is not trusted.
     Result<void> set_up();
+    /// After set_up(): the counters go on from what they were before the chip was reset.
+    Result<void> go_on(std::int64_t pulses, std::int64_t counts, bool trusted);
 
     Result<void> move_to(double position, double speed) override;
     Result<void> move_by(double distance, double speed) override;
@@ -48,6 +50,7 @@ class SingleAxis final : public control::Axis {
     std::string_view home_state() const override { return home_.state(); }
     control::HomeOutcome home_outcome() const override;
 
+    int channel() const { return settings_.channel; }
     /// What an order becomes in registers. Errors: as home().
     Result<HomeSettings> home_settings(const control::HomeOrder& order) const;
 

@@ -1,0 +1,24 @@
+// Parts of moves: a long move as short ones, and what is left of a move where the machine stands on it.
+#pragma once
+
+#include <motionrack/control/geometry.hpp>
+#include <motionrack/control/move.hpp>
+
+namespace motionrack::control {
+
+/// The part of a move from `from` to `to` (lengths along its path, from < to), as a move that begins where the part begins. Ends of parts
+/// lie on the path; the last part ends where the move ends, exactly. In inverse time it takes its share of the move's time.
+Move part_of(const Move& move, const Geometry& path, double from, double to);
+
+/// The point of a path that is nearest to a place. An arc may turn by less than a whole turn.
+struct Nearest {
+    double length = 0;    ///< along the path
+    double distance = 0;  ///< greatest difference of X, Y, Z, mm; of A, B, C, degrees, where only these move
+};
+Nearest nearest_on(const Geometry& path, const Point& place);
+
+/// What is left of a move that was left off at `place`, a few pulses beside its path at most: from there to its end. Of an arc so little may
+/// be left that it is a straight line.
+Move rest_of(const Move& move, const Geometry& path, const Point& place);
+
+}  // namespace motionrack::control

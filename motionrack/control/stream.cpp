@@ -1,0 +1,287 @@
+// Entries go from the reader to the planner to the axes, and leave at the front when the machine has passed them.
+#include <motionrack/control/stream.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/control/pieces.hpp>
+#include <motionrack/control/planner_for.hpp>
+#include <utility>
+
+namespace motionrack::control {
+
+namespace {
+
+using gcode::Step;
+using gcode::StepKind;
+
+/// Pieces of an arc are short enough to tell from a place where on it the machine is.
+constexpr double most_sweep = 2 * pi / 3;
+/// And all pieces long enough that their ends on whole pulses do not matter.
+constexpr double least_pulses = 200;
+
+}  // namespace
+
+Stream::Stream(PathAxes& axes, Interrupt& host, const StreamSettings& settings)
+    : axes_(axes),
+      host_(host),
+      settings_(settings),
+      limits_(settings.gcode.limits),
+      interpreter_(settings.gcode),
+      planner_(planner_for(axes, settings.gcode.limits, settings.kept_back, settings.planner, settings.gcode.start)),
+      read_to_(settings.gcode.start) {}
+
+// ---- reading ------------------------------------------------------------------------------------------------------------------------
+
+gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number) {
+    text_ = text;
+    if (gcode::Outcome<void> read = interpreter_.line(text_, number); !read) return read;
+    unpulled_ = true;
+    pull_steps();
+    return {};
+}
+
+void Stream::pull_steps() {
+    while (entries_.size() < settings_.most_entries) {
+        if (cutting_) {
+            add_piece();
+            continue;
+        }
+        const Step* step = unpulled_ ? interpreter_.pull() : nullptr;
+        unpulled_ = step != nullptr;
+        if (step == nullptr) return;
+        if (step->kind == StepKind::move && step->move.kind != MoveKind::dwell) {
+            begin_cut(*step);
+        } else {
+            entries_.push_back({*step, std::string(step->text), read_to_});
+        }
+    }
+}
+
+void Stream::begin_cut(const Step& step) {
+    Cutting cut{step, geometry_of(step.move, read_to_)};
+    if (on_move_) on_move_(step.move, read_to_);
+    if (cut.path.shape == PathShape::nothing) return;
+    const double wanted = limits_.along(cut.path, step.move).speed * settings_.piece_seconds;
+    const Point worst = worst_components(cut.path);
+    double pulses = 0;  // of the fastest axis for a unit of length
+    for (std::size_t i = 0; i < worst.size(); ++i) pulses = std::max(pulses, worst[i] * settings_.gcode.limits[i].pulses_per_unit);
+    const double pieces = std::min(cut.path.length / wanted, cut.path.length * pulses / least_pulses);
+    cut.pieces = static_cast<int>(std::max(1.0, std::ceil(std::min(std::max(pieces, std::fabs(cut.path.sweep) / most_sweep), 1e9))));
+    cutting_ = cut;
+}
+
+void Stream::add_piece() {
+    const double each = cutting_->path.length / cutting_->pieces;
+    const double from = each * cutting_->done++;
+    const bool last = cutting_->done == cutting_->pieces;
+    Entry piece{cutting_->step, {}, read_to_};
+    Move& move = piece.step.move;
+    move = part_of(cutting_->step.move, cutting_->path, from, last ? cutting_->path.length : each * cutting_->done);
+    if (!last && move.path == PathControl::exact_stop) move.path = PathControl::exact_path;
+    read_to_ = move.end;
+    entries_.push_back(std::move(piece));
+    if (last) cutting_.reset();
+}
+
+// ---- wishes -------------------------------------------------------------------------------------------------------------------------
+
+void Stream::hold() {
+    if (wish_ == Wish::stop || !has_work() || state_ == StreamState::held || state_ == StreamState::paused) return;
+    wish_ = Wish::hold;
+    stop_flag_ = true;
+}
+
+void Stream::resume() {
+    if (state_ == StreamState::held || state_ == StreamState::paused) state_ = StreamState::driving;
+}
+
+void Stream::stop() {
+    wish_ = Wish::stop;
+    stop_flag_ = true;
+}
+
+void Stream::set_overrides(double feed, double rapid) {
+    feed_wanted_ = std::clamp(feed, 0.01, 2.0);
+    rapid_wanted_ = std::clamp(rapid, 0.01, 1.0);
+}
+
+// ---- driving ------------------------------------------------------------------------------------------------------------------------
+
+Result<StreamState> Stream::drive(bool more_may_come) {
+    if (wish_ != Wish::none) return path_begun_ ? finish_path() : stand();
+    if (state_ == StreamState::held || state_ == StreamState::paused) return state_;
+    pull_steps();
+    if (feed_ != feed_wanted_ || rapid_ != rapid_wanted_) {
+        feed_ = feed_wanted_;
+        rapid_ = rapid_wanted_;
+        planner_.reopen();
+        planned_ = handed_;
+    }
+    if (Result<void> filled = fill_planner(); !filled) {
+        forget();
+        return tl::unexpected<Error>(filled.error());
+    }
+    // A last move is kept back while there is time for the line after it: then it need not end at rest.
+    const bool rest_follows = !more_may_come || planned_ < entries_.size();
+    const bool keep_back = !rest_follows && (path_begun_ ? time_left() : planner_.size() > 0);
+    if (planner_.size() <= 1 && keep_back) return state_ = StreamState::waiting;
+    if (PlannedMove planned; planner_.pull_early(planned)) return hand_over(planned);
+    return path_begun_ ? finish_path() : stand();
+}
+
+Result<void> Stream::fill_planner() {
+    for (; planner_.has_room() && planned_ < entries_.size() && !stops_before(entries_[planned_]); ++planned_) {
+        const Entry& entry = entries_[planned_];
+        if (!entry.is_move()) continue;
+        Move move = entry.step.move;
+        move.feed *= feed_;
+        move.haste = rapid_;
+        MOTIONRACK_CHECK(planner_.push(move));
+    }
+    return {};
+}
+
+bool Stream::stops_before(const Entry& entry) const {
+    if (single_step_ && entry.step.line != entries_.front().step.line) return true;
+    return entry.step.kind == StepKind::tool_change || entry.step.kind == StepKind::pause || entry.step.kind == StepKind::end;
+}
+
+/// Whether what the axes have goes on for longer than the margin.
+bool Stream::time_left() {
+    if (block_began_ == never) return false;
+    double seconds = 0;
+    for (std::size_t i = 0; i < handed_; ++i) seconds += entries_[i].seconds;
+    return block_began_ + from_seconds(seconds) > host_.now() + settings_.margin;
+}
+
+Result<StreamState> Stream::hand_over(const PlannedMove& planned) {
+    if (!path_begun_) {
+        if (Result<void> begun = axes_.begin(); !begun) return interrupted(begun.error());
+        path_begun_ = true;
+        front_block_ = 0;
+        block_began_ = never;
+    }
+    while (!entries_[handed_].is_move()) ++handed_;
+    entries_[handed_++].seconds = seconds_of(planned);
+    state_ = StreamState::driving;
+    const Result<void> followed = axes_.follow(planned);
+    take_starts();
+    if (!followed) return interrupted(followed.error());
+    return state_;
+}
+
+Result<StreamState> Stream::finish_path() {
+    const Result<void> finished = axes_.finish();
+    take_starts();
+    if (!finished) return interrupted(finished.error());
+    path_begun_ = false;
+    while (handed_ > 0) pop();
+    if (single_step_ && has_work() && wish_ == Wish::none) return state_ = StreamState::paused;
+    return stand();
+}
+
+/// The axes stand where the path that they had ends.
+Result<StreamState> Stream::stand() {
+    const Wish wish = std::exchange(wish_, Wish::none);
+    stop_flag_ = false;
+    if (wish == Wish::stop) {
+        forget();
+        return state_;
+    }
+    if (wish == Wish::hold && has_work()) return state_ = StreamState::held;
+    while (!entries_.empty() && !entries_.front().is_move()) {
+        const bool pause = entries_.front().step.kind == StepKind::pause;
+        pop();
+        if (pause) return state_ = StreamState::paused;
+    }
+    return state_ = has_work() ? StreamState::driving : StreamState::rest;
+}
+
+Result<StreamState> Stream::interrupted(const Error& error) {
+    const bool held = error.trouble == Trouble::stopped && wish_ == Wish::hold;
+    wish_ = Wish::none;
+    stop_flag_ = false;
+    path_begun_ = false;
+    if (!held) {
+        forget();
+        if (error.trouble == Trouble::stopped) return state_;
+        return tl::unexpected<Error>(error);
+    }
+    keep_rest_of_path();
+    return state_ = StreamState::held;
+}
+
+/// The axes stand somewhere on the move that they began last, or already on the one that was queued behind it.
+void Stream::keep_rest_of_path() {
+    const Point place = axes_.commanded_position();
+    while (!entries_.empty() && !entries_.front().is_move()) pop();
+    const auto beside = [&](const Entry& entry) { return nearest_on(geometry_of(entry.step.move, entry.start), place); };
+    std::size_t next = 1;
+    while (next < handed_ && !entries_[next].is_move()) ++next;
+    if (next < handed_ && beside(entries_[next]).distance < beside(entries_.front()).distance)
+        for (; next > 0; --next) pop();
+    if (!entries_.empty() && handed_ > 0) {
+        Entry& entry = entries_.front();
+        entry.step.move = rest_of(entry.step.move, geometry_of(entry.step.move, entry.start), place);
+        entry.start = place;
+        if (entry.step.move.kind != MoveKind::dwell && geometry_of(entry.step.move, place).shape == PathShape::nothing) pop();
+    }
+    planned_ = handed_ = 0;
+    new_planner(place);
+}
+
+void Stream::forget() {
+    entries_.clear();
+    cutting_.reset();
+    unpulled_ = false;
+    planned_ = handed_ = 0;
+    state_ = StreamState::rest;
+    stand_here();
+}
+
+void Stream::stand_here() {
+    read_to_ = axes_.commanded_position();
+    interpreter_.stand_at(read_to_);
+    new_planner(read_to_);
+}
+
+void Stream::forget_modes() {
+    gcode::Settings settings = settings_.gcode;
+    settings.start = interpreter_.position();
+    settings.work_offsets = interpreter_.frame().work;
+    settings.g28 = interpreter_.frame().g28;
+    settings.g30 = interpreter_.frame().g30;
+    interpreter_ = gcode::Interpreter(settings);
+}
+
+void Stream::new_planner(const Point& place) {
+    planner_ = planner_for(axes_, settings_.gcode.limits, settings_.kept_back, settings_.planner, place);
+}
+
+// ---- what the machine has passed ----------------------------------------------------------------------------------------------------
+
+void Stream::take_starts() {
+    for (const BlockStart& start : axes_.take_starts()) {
+        if (start.block < 0) continue;
+        line_driven_ = start.line;
+        block_began_ = start.at;
+        while (!entries_.empty() && (!entries_.front().is_move() || front_block_ < start.block)) pop();
+    }
+}
+
+/// The first entry was passed.
+void Stream::pop() {
+    Entry& front = entries_.front();
+    if (front.is_move()) {
+        ++front_block_;
+    } else if (on_event_) {
+        front.step.text = front.text;
+        on_event_(front.step);
+    }
+    entries_.pop_front();
+    planned_ -= planned_ > 0;
+    handed_ -= handed_ > 0;
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,146 @@
+// Drives G-code that comes line by line, and can be held, slowed and stopped at any instant.
+//
+//   line ──Interpreter──► moves, in pieces ──► entries ──Planner──► PlannedMove ──► PathAxes
+//                                                ▲                       │
+//                  hold: the rest of the path ───┴── from where it stands ┘
+//
+//   driving ──hold()──► held ──resume()──► driving        M0, a step done: paused ──resume()──► driving        stop(), a fault: rest
+//
+// Long moves go to the axes in pieces of about 0.1 s, so that an override is felt soon. With each move that it hands over, the path that is
+// known ends at rest: a sender that falls silent leaves the machine standing at the end of its last line.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <motionrack/base/port.hpp>
+#include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/path.hpp>
+#include <motionrack/control/path_axes.hpp>
+#include <motionrack/control/path_limits.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace motionrack::control {
+
+struct StreamSettings {
+    gcode::Settings gcode;    ///< its start is where the axes stand
+    PlannerSettings planner;
+    double kept_back = 0;     ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
+    std::size_t most_entries = 1'500;  ///< moves and events that are known and not yet done; 16 or more
+    double piece_seconds = 0.1;        ///< of a long move at its speed
+    Duration margin = milliseconds(30);  ///< so long before the path that was handed over ends, more of it is handed over
+};
+
+enum class StreamState : std::uint8_t {
+    rest,     ///< all that is known is done
+    driving,  ///< something was handed over
+    waiting,  ///< there is time for more lines before the axes need the next move
+    held,     ///< stands on its path after hold()
+    paused    ///< stands after M0, M1 or a step; resume() goes on
+};
+
+class Stream {
+  public:
+    /// `host`: whose time passes. The axes' stop flag must be stop_flag().
+    Stream(PathAxes& axes, Interrupt& host, const StreamSettings& settings);
+
+    // ---- what may be called at any time, also while drive() runs, from a slice of the host's time -------------------------------------
+    /// Whether line() takes another one.
+    bool has_room() const { return entries_.size() < settings_.most_entries && !unpulled_ && wish_ != Wish::stop; }
+    /// Reads and checks a line and puts its moves behind the others. Needs has_room(). Errors: it had no effect.
+    gcode::Outcome<void> line(std::string_view text, std::int32_t number);
+    /// Decelerates along the path; drive() returns held. Nothing if nothing is driven.
+    void hold();
+    /// Goes on from a hold or a pause.
+    void resume();
+    /// Decelerates along the path and forgets everything that is not driven. In every state; drive() returns rest.
+    void stop();
+    /// Parts of the programmed feed and of the rapid speed: 0.01 .. 2 and 0.01 .. 1, else the nearest of these.
+    void set_overrides(double feed, double rapid);
+    /// Pauses after each line.
+    void set_single_step(bool on) { single_step_ = on; }
+    bool has_work() const { return !entries_.empty() || unpulled_; }
+    std::size_t entries() const { return entries_.size(); }
+    std::int32_t line_driven() const { return line_driven_; }
+    StreamState state() const { return state_; }
+    const gcode::Interpreter& interpreter() const { return interpreter_; }
+    const std::atomic<bool>* stop_flag() const { return &stop_flag_; }
+
+    // ---- between drives ---------------------------------------------------------------------------------------------------------------
+    /// Hands over the next move, or ends the path if there is none; blocks in the host's time until the axes have room for another.
+    /// `more_may_come`: lines may follow soon, so the last move is kept back while there is time. Errors: Trouble::machine, the motion was
+    /// stopped by the machine; everything was forgotten.
+    Result<StreamState> drive(bool more_may_come);
+    /// The machine was moved otherwise: programs go on from where the axes stand. Needs rest.
+    void stand_here();
+    /// A new program, or after a reset: modes as at the start, work offsets kept. Needs rest.
+    void forget_modes();
+
+    /// Called when the machine passes an event of the program (spindle, message, tool, end), in order.
+    void on_event(std::function<void(const gcode::Step&)> call) { on_event_ = std::move(call); }
+    /// Called with each move as it was read, before it is cut.
+    void on_move(std::function<void(const Move& move, const Point& start)> call) { on_move_ = std::move(call); }
+
+  private:
+    enum class Wish : std::uint8_t { none, hold, stop };
+    /// A piece of a move, or an event.
+    struct Entry {
+        gcode::Step step;
+        std::string text;
+        Point start = {};
+        double seconds = 0;  ///< of a move that was handed over
+        bool is_move() const { return step.kind == gcode::StepKind::move; }
+    };
+    /// A move that is being cut.
+    struct Cutting {
+        gcode::Step step;
+        Geometry path;
+        int pieces = 1, done = 0;
+    };
+
+    void pull_steps();
+    void begin_cut(const gcode::Step& step);
+    void add_piece();
+    Result<void> fill_planner();
+    bool stops_before(const Entry& entry) const;
+    bool time_left();
+    Result<StreamState> hand_over(const PlannedMove& planned);
+    Result<StreamState> finish_path();
+    Result<StreamState> stand();
+    Result<StreamState> interrupted(const Error& error);
+    void keep_rest_of_path();
+    void forget();
+    void take_starts();
+    void pop();
+    void new_planner(const Point& place);
+
+    PathAxes& axes_;
+    Interrupt& host_;
+    StreamSettings settings_;
+    PathLimits limits_;
+    gcode::Interpreter interpreter_;
+    Planner planner_;
+    std::deque<Entry> entries_;  ///< front: being driven
+    std::optional<Cutting> cutting_;
+    std::string text_;           ///< of the last line
+    Point read_to_ = {};         ///< where the last entry ends
+    std::size_t planned_ = 0;    ///< entries that the planner has had
+    std::size_t handed_ = 0;     ///< entries up to the last move that the axes have had
+    std::int64_t front_block_ = 0;  ///< of the first move in entries_, as the axes count
+    Instant block_began_ = never;   ///< of that move; never: it has not begun
+    std::int32_t line_driven_ = 0;
+    bool unpulled_ = false;      ///< of the last line not everything is in entries_
+    bool path_begun_ = false;    ///< the axes have moves that they were not told the end of
+    bool single_step_ = false;
+    double feed_ = 1, rapid_ = 1, feed_wanted_ = 1, rapid_wanted_ = 1;
+    Wish wish_ = Wish::none;
+    StreamState state_ = StreamState::rest;
+    std::atomic<bool> stop_flag_{false};
+    std::function<void(const gcode::Step&)> on_event_;
+    std::function<void(const Move&, const Point&)> on_move_;
+};
+
+}  // namespace motionrack::control

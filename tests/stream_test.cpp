@@ -1,0 +1,239 @@
+// A program that comes line by line, held, slowed and let go on at random instants: it ends where it would have ended, on its path, within
+// all limits. MOTIONRACK_SEED=N picks the first program, MOTIONRACK_PROGRAMS=N how many.
+#include <motionrack/control/stream.hpp>
+
+#include <cstdlib>
+#include <random>
+#include <vector>
+
+#include "journey.hpp"
+#include "random_program.hpp"
+
+namespace motionrack::rack {
+namespace {
+
+using control::Stream;
+using control::StreamState;
+
+/// A rack whose axes are driven by a Stream, watched all the time.
+struct Watched {
+    Rack rack;
+    Monitor monitor;
+    control::PathAxes* axes = nullptr;
+    std::unique_ptr<Stream> stream;
+    std::vector<control::Geometry> programmed;
+    std::function<void()> on_slice;
+
+    explicit Watched(const RackConfig& config) : rack(config), monitor(rack.kernel(), watched_axes(rack), milliseconds(1), 1'000'000) {
+        rack.start();
+        axes = *rack.path_axes();
+        control::StreamSettings settings;
+        settings.gcode = reader_settings(config);
+        settings.kept_back = rack.axes().front().card->kept_back();
+        stream = std::make_unique<Stream>(*axes, host(), settings);
+        stream->on_move([this](const control::Move& move, const control::Point& start) { programmed.push_back(control::geometry_of(move, start)); });
+        rack.set_stop_flag(stream->stop_flag());
+        rack.on_slice(milliseconds(1), [this] {
+            monitor.drain();
+            if (on_slice) on_slice();
+        });
+        monitor.begin();
+    }
+    Interrupt& host() { return rack.cards().front()->host(); }
+    double seconds() const { return to_seconds(rack.kernel().now()); }
+
+    double worst_deviation() const {
+        double worst = 0;
+        for (const Sample& sample : monitor.samples()) {
+            double nearest = 1e9;
+            for (const control::Geometry& path : programmed)
+                nearest = std::min(nearest, control::distance_to(path, sample.position[0], sample.position[1], sample.position[2]));
+            worst = std::max(worst, nearest);
+        }
+        return worst;
+    }
+    void expect_limits(double jump = 1.15) {
+        monitor.finish();
+        for (RunningAxis& axis : rack.axes()) {
+            const int i = axis.config.index();
+            const control::AxisLimits limits = rack.config().limits()[static_cast<std::size_t>(i)];
+            const AxisStatistics& top = monitor.statistics(i);
+            EXPECT_LE(top.top_speed, limits.max_speed * 1.001) << i;
+            EXPECT_LE(top.top_accel, limits.max_accel * 1.02) << i;
+            EXPECT_LE(top.top_jump, limits.start_speed * jump) << i;
+            EXPECT_EQ(axis.turned_by().count(rack.kernel().now()), axis.machine->rotor().count(rack.kernel().now())) << i;
+        }
+    }
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+    std::vector<std::string> out;
+    std::size_t begin = 0;
+    for (std::size_t end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) out.push_back(text.substr(begin, end - begin));
+    return out;
+}
+
+/// Feeds a program line by line until all of it is done.
+void drive_all(Watched& w, const std::string& program, const std::function<void()>& between = {}) {
+    const std::vector<std::string> lines = lines_of(program);
+    std::size_t next = 0;
+    while (next < lines.size() || w.stream->has_work()) {
+        while (next < lines.size() && w.stream->has_room()) {
+            const auto read = w.stream->line(lines[next], static_cast<std::int32_t>(next + 1));
+            ASSERT_TRUE(read) << read.error().text();
+            ++next;
+        }
+        const Result<StreamState> state = w.stream->drive(next < lines.size());
+        ASSERT_TRUE(state) << state.error().text();
+        if (*state == StreamState::waiting || *state == StreamState::held || *state == StreamState::paused) w.host().pass(milliseconds(1));
+        if (between) between();
+    }
+}
+
+TEST(AStream, DrivesAProgramAsAJobDoes) {
+    const test::RandomProgram program = test::ProgramMaker(7, test::ProgramSize::big).make();
+    Watched w(router());
+    drive_all(w, program.text);
+    w.expect_limits();
+    const Done job = drive(router(), program.text);
+    EXPECT_NEAR(w.seconds(), to_seconds(job.outcome.time), 0.03 * w.seconds());
+    for (std::size_t i = 0; i < w.rack.axes().size(); ++i)
+        EXPECT_EQ(w.rack.axes()[i].card->pulse_counter(w.rack.axes()[i].channel), job.outcome.axes[i].pulse_position);
+    EXPECT_LE(w.worst_deviation(), 3.0 / 640 + 0.0021);
+}
+
+void disturb(std::uint64_t seed, test::ProgramSize size) {
+    const test::RandomProgram program = test::ProgramMaker(seed, size).make();
+    const RackConfig config = router();
+    if (!control::gcode::check_program(program.text, reader_settings(config), 1).problems.empty()) return;
+    SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed) + "\n" + program.text);
+    Watched w(config);
+    std::mt19937_64 random(seed);
+    const auto chance = [&](int n) { return random() % static_cast<unsigned>(n) == 0; };
+    int holds = 0;
+    w.on_slice = [&] {
+        if (chance(150)) w.stream->set_overrides(static_cast<double>(1 + random() % 200) / 100, static_cast<double>(25 + random() % 76) / 100);
+        if (chance(200) && holds < 40) w.stream->hold(), ++holds;
+        if ((w.stream->state() == StreamState::held || w.stream->state() == StreamState::paused) && chance(20)) w.stream->resume();
+    };
+    drive_all(w, program.text);
+    w.expect_limits(size == test::ProgramSize::tiny ? 1000 : program.chords ? 1.6 : 1.15);
+    EXPECT_LE(w.worst_deviation(), 3.5 / 640 + (program.chords ? 0.0021 : 0));
+    for (std::size_t i = 0; i < program.end.size(); ++i) {
+        const RunningAxis& axis = w.rack.axes()[i];
+        EXPECT_NEAR(axis.machine->position(w.rack.kernel().now()), program.end[i], 0.51 / axis.config.pulses_per_unit()) << i;
+    }
+}
+
+std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
+    const char* text = std::getenv(variable);
+    return text ? std::strtoull(text, nullptr, 0) : otherwise;
+}
+
+void disturb_many(test::ProgramSize size) {
+    const std::uint64_t first = number_from("MOTIONRACK_SEED", 1), count = number_from("MOTIONRACK_PROGRAMS", 10);
+    for (std::uint64_t seed = first; seed < first + count && !testing::Test::HasFailure(); ++seed) disturb(seed, size);
+}
+
+TEST(AStreamDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInBigMoves) { disturb_many(test::ProgramSize::big); }
+TEST(AStreamDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInSmallMoves) { disturb_many(test::ProgramSize::small); }
+TEST(AStreamDisturbedAtRandom, EndsExactlyOnItsPathWithinTheLimitsInBigAndSmallMoves) { disturb_many(test::ProgramSize::mixed); }
+TEST(AStreamDisturbedAtRandom, EndsExactlyOnItsPathInTinyMoves) { disturb_many(test::ProgramSize::tiny); }
+
+TEST(AStream, HeldStandsStillOnItsPathAndGoesOnFromThere) {
+    Watched w(router());
+    bool asked = false;
+    double held_at = -1;
+    w.on_slice = [&] {
+        if (!asked && w.rack.axes()[0].machine->position(w.rack.kernel().now()) > 30) w.stream->hold(), asked = true;
+        if (w.stream->state() == StreamState::held) {
+            const double x = w.rack.axes()[0].machine->position(w.rack.kernel().now());
+            if (held_at < 0) held_at = x;
+            EXPECT_DOUBLE_EQ(x, held_at);
+        }
+    };
+    int waits = 0;
+    drive_all(w, "G21 G90\nG1 X100 F3000\nG1 Y20\n", [&] {
+        if (w.stream->state() == StreamState::held && ++waits == 100) w.stream->resume();
+    });
+    EXPECT_GT(held_at, 30);
+    EXPECT_LT(held_at, 45);
+    EXPECT_EQ(waits, 100);
+    EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), 100, 1e-9);
+    w.expect_limits();
+}
+
+TEST(AStream, StoppedForgetsTheRestAndTheNextLineBeginsWhereItStands) {
+    Watched w(router());
+    bool asked = false;
+    w.on_slice = [&] {
+        if (!asked && w.seconds() > 1) w.stream->stop(), asked = true;
+    };
+    drive_all(w, "G21 G90\nG1 X100 F3000\nG1 Y20\n");
+    const double x = w.rack.axes()[0].machine->position(w.rack.kernel().now());
+    EXPECT_GT(x, 40);
+    EXPECT_LT(x, 60);
+    drive_all(w, "G91 G1 X1 F3000\n");
+    EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), x + 1, 0.51 / 640);
+    EXPECT_DOUBLE_EQ(w.rack.axes()[1].machine->position(w.rack.kernel().now()), 0);
+    w.expect_limits();
+}
+
+TEST(AStream, FeelsAnOverrideWithinATenthOfASecondOrSo) {
+    Watched w(router());
+    double asked_at = -1, slow_at = -1;
+    w.on_slice = [&] {
+        if (asked_at < 0 && w.seconds() > 2) w.stream->set_overrides(0.5, 1), asked_at = w.seconds();
+        if (asked_at > 0 && slow_at < 0 && w.rack.axes()[0].machine->speed() < 5.2) slow_at = w.seconds();
+    };
+    drive_all(w, "G21 G90\nG1 X100 F600\n");
+    EXPECT_LT(slow_at - asked_at, 0.45);
+    EXPECT_NEAR(w.seconds(), 2 + 80 / 5.0, 1.0);
+}
+
+TEST(AStream, PausesAtM0UntilItIsToldToGoOn) {
+    Watched w(router());
+    std::vector<control::gcode::StepKind> seen;
+    w.stream->on_event([&](const control::gcode::Step& step) { seen.push_back(step.kind); });
+    int waits = 0;
+    drive_all(w, "G21 G90 F3000\nG1 X10 M3 S1000\nM0\nG1 X20\nM2\n", [&] {
+        if (w.stream->state() != StreamState::paused) return;
+        EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), 10, 1e-9);
+        if (++waits == 50) w.stream->resume();
+    });
+    EXPECT_EQ(waits, 50);
+    EXPECT_EQ(seen.back(), control::gcode::StepKind::end);
+    EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), 20, 1e-9);
+}
+
+TEST(AStream, InSingleStepPausesAfterEachLine) {
+    Watched w(router());
+    w.stream->set_single_step(true);
+    std::vector<double> stood;
+    drive_all(w, "G21 G90 F3000\nG1 X10\nG1 X20\nG1 X30\n", [&] {
+        if (w.stream->state() != StreamState::paused) return;
+        stood.push_back(w.rack.axes()[0].machine->position(w.rack.kernel().now()));
+        w.stream->resume();
+    });
+    EXPECT_EQ(stood, (std::vector<double>{10, 20}));
+    EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), 30, 1e-9);
+}
+
+TEST(AStream, WhoseSenderIsSlowStandsBetweenTheLinesAndLosesNothing) {
+    Watched w(router());
+    const std::vector<std::string> lines = lines_of("G21 G90 G64 P0.05 F3000\nG1 X10\nG1 X20 Y3\nG1 X30 Y0\n");
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        ASSERT_TRUE(w.stream->line(lines[i], static_cast<int>(i) + 1));
+        for (int k = 0; k < 1000; ++k) {
+            const Result<StreamState> state = w.stream->drive(k < 20);
+            ASSERT_TRUE(state);
+            if (*state == StreamState::rest || *state == StreamState::waiting) w.host().pass(milliseconds(1));
+        }
+        EXPECT_EQ(w.stream->state(), StreamState::rest);
+    }
+    EXPECT_NEAR(w.rack.axes()[0].machine->position(w.rack.kernel().now()), 30, 1e-9);
+    w.expect_limits();
+}
+
+}  // namespace
+}  // namespace motionrack::rack
