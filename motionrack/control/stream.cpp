@@ -23,7 +23,7 @@ constexpr double least_pulses = 200;
 }  // namespace
 
 Stream::Stream(PathAxes& axes, Interrupt& host, const StreamSettings& settings)
-    : axes_(axes),
+    : axes_(&axes),
       host_(host),
       settings_(settings),
       limits_(settings.gcode.limits),
@@ -97,6 +97,7 @@ void Stream::resume() {
 }
 
 void Stream::stop() {
+    if (!path_begun_ && !has_work()) return;
     wish_ = Wish::stop;
     stop_flag_ = true;
 }
@@ -157,7 +158,7 @@ bool Stream::time_left() {
 
 Result<StreamState> Stream::hand_over(const PlannedMove& planned) {
     if (!path_begun_) {
-        if (Result<void> begun = axes_.begin(); !begun) return interrupted(begun.error());
+        if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
         path_begun_ = true;
         front_block_ = 0;
         block_began_ = never;
@@ -165,14 +166,14 @@ Result<StreamState> Stream::hand_over(const PlannedMove& planned) {
     while (!entries_[handed_].is_move()) ++handed_;
     entries_[handed_++].seconds = seconds_of(planned);
     state_ = StreamState::driving;
-    const Result<void> followed = axes_.follow(planned);
+    const Result<void> followed = axes_->follow(planned);
     take_starts();
     if (!followed) return interrupted(followed.error());
     return state_;
 }
 
 Result<StreamState> Stream::finish_path() {
-    const Result<void> finished = axes_.finish();
+    const Result<void> finished = axes_->finish();
     take_starts();
     if (!finished) return interrupted(finished.error());
     path_begun_ = false;
@@ -214,7 +215,7 @@ Result<StreamState> Stream::interrupted(const Error& error) {
 
 /// The axes stand somewhere on the move that they began last, or already on the one that was queued behind it.
 void Stream::keep_rest_of_path() {
-    const Point place = axes_.commanded_position();
+    const Point place = axes_->commanded_position();
     while (!entries_.empty() && !entries_.front().is_move()) pop();
     const auto beside = [&](const Entry& entry) { return nearest_on(geometry_of(entry.step.move, entry.start), place); };
     std::size_t next = 1;
@@ -237,13 +238,18 @@ void Stream::forget() {
     unpulled_ = false;
     planned_ = handed_ = 0;
     state_ = StreamState::rest;
-    stand_here();
+    stand_here(*axes_);
 }
 
-void Stream::stand_here() {
-    read_to_ = axes_.commanded_position();
+void Stream::stand_here(PathAxes& axes) {
+    axes_ = &axes;
+    read_to_ = axes_->commanded_position();
     interpreter_.stand_at(read_to_);
     new_planner(read_to_);
+}
+
+void Stream::take_stop() {
+    if (wish_ == Wish::stop) static_cast<void>(stand());
 }
 
 void Stream::forget_modes() {
@@ -256,13 +262,13 @@ void Stream::forget_modes() {
 }
 
 void Stream::new_planner(const Point& place) {
-    planner_ = planner_for(axes_, settings_.gcode.limits, settings_.kept_back, settings_.planner, place);
+    planner_ = planner_for(*axes_, settings_.gcode.limits, settings_.kept_back, settings_.planner, place);
 }
 
 // ---- what the machine has passed ----------------------------------------------------------------------------------------------------
 
 void Stream::take_starts() {
-    for (const BlockStart& start : axes_.take_starts()) {
+    for (const BlockStart& start : axes_->take_starts()) {
         if (start.block < 0) continue;
         line_driven_ = start.line;
         block_began_ = start.at;

@@ -74,8 +74,10 @@ class Stream {
     /// `more_may_come`: lines may follow soon, so the last move is kept back while there is time. Errors: Trouble::machine, the motion was
     /// stopped by the machine; everything was forgotten.
     Result<StreamState> drive(bool more_may_come);
-    /// The machine was moved otherwise: programs go on from where the axes stand. Needs rest.
-    void stand_here();
+    /// The machine was moved otherwise, and these are its axes: programs go on from where they stand. Needs rest.
+    void stand_here(PathAxes& axes);
+    /// A stop that came while nothing was driven is done. Needs rest.
+    void take_stop();
     /// A new program, or after a reset: modes as at the start, work offsets kept. Needs rest.
     void forget_modes();
 
@@ -117,7 +119,7 @@ class Stream {
     void pop();
     void new_planner(const Point& place);
 
-    PathAxes& axes_;
+    PathAxes* axes_;
     Interrupt& host_;
     StreamSettings settings_;
     PathLimits limits_;

@@ -139,15 +139,16 @@ class Mcx314Card final : public MotionCard {
         std::array<bool, mcx314::channel_count> trusted = {};
     };
     Stand stand_now() {
-        Stand out;
-        if (!axes_ && !singles_ready_) return out;
-        for (std::size_t c = 0; c < out.pulses.size(); ++c) {
+        // Channels that nobody took by themselves since the group had the card stand where it left them.
+        Stand out = before_singles_;
+        const auto read = [&](std::size_t c, bool trusted) {
             out.pulses[c] = driver_.ReadLPS(static_cast<int>(c));
             out.counts[c] = driver_.ReadEPS(static_cast<int>(c));
-        }
-        if (axes_) out.trusted = group_trusted_;
+            out.trusted[c] = trusted;
+        };
+        for (std::size_t c = 0; axes_ && c < out.pulses.size(); ++c) read(c, group_trusted_[c]);
         for (const auto& one : single_)
-            if (one) out.trusted[static_cast<std::size_t>(one->channel())] = one->trusted();
+            if (one) read(static_cast<std::size_t>(one->channel()), one->trusted());
         return out;
     }
     control::Point position_of(const RackConfig& config, const Stand& stand) const {

@@ -1,0 +1,186 @@
+// Orders: what may be asked in which state.
+#include <motionrack/operate/machine.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/rack/job.hpp>
+#include <utility>
+
+namespace motionrack::operate {
+
+std::string_view name_of(MachineState state) {
+    switch (state) {
+        case MachineState::disabled: return "disabled";
+        case MachineState::standstill: return "standstill";
+        case MachineState::homing: return "homing";
+        case MachineState::moving: return "moving";
+        case MachineState::jogging: return "jogging";
+        case MachineState::hold: return "hold";
+        case MachineState::stopping: return "stopping";
+        case MachineState::error_stop: return "error stop";
+    }
+    return "";
+}
+
+Machine::Machine(const rack::RackConfig& config, MachineSettings settings) : settings_(std::move(settings)), rack_(config), desk_(rack_) {}
+
+Machine::~Machine() = default;
+
+Result<std::unique_ptr<Machine>> Machine::make(const rack::RackConfig& config, MachineSettings settings) {
+    std::unique_ptr<Machine> machine(new Machine(config, std::move(settings)));
+    MOTIONRACK_CHECK(machine->start());
+    return machine;
+}
+
+void Machine::post(std::function<void()> work) {
+    const std::lock_guard<std::mutex> alone(lock_);
+    inbox_.push_back(std::move(work));
+}
+
+void Machine::quit() {
+    post([this] {
+        stop();
+        quit_ = true;
+    });
+}
+
+// ---- what may be asked --------------------------------------------------------------------------------------------------------------
+
+/// Standing, enabled, and every axis knows where it is.
+Result<void> Machine::ready(const char* what) {
+    const auto refuse = [&](const std::string& why) { return fail(Trouble::refused, fmt::format("{}: {}. Nothing was moved.", what, why)); };
+    if (state_ == MachineState::disabled) return refuse("the machine is disabled; enable it first");
+    if (state_ == MachineState::error_stop) return refuse("the machine stopped on an error; see its alarm, mend the cause and reset it first");
+    if (state_ != MachineState::standstill) return refuse(fmt::format("the machine is in state '{}'; stop it, or wait until it stands", name_of(state_)));
+    return {};
+}
+
+Result<void> Machine::enable(bool on) {
+    if (!on) {
+        stop();
+        disable_wanted_ = true;
+        return {};
+    }
+    disable_wanted_ = false;
+    if (state_ == MachineState::disabled) enter(MachineState::standstill);
+    return {};
+}
+
+Result<void> Machine::begin_program(std::string text, std::string name) {
+    MOTIONRACK_CHECK(ready("The program was not begun"));
+    for (std::size_t i = 0; i < rack_.axes().size(); ++i)
+        if (!trusted_[static_cast<std::size_t>(rack_.axes()[i].config.index())])
+            return fail(Trouble::refused, fmt::format("The program was not begun: the position of axis {} is not trusted. Home it, or declare where it stands. "
+                                                      "Nothing was moved.", rack_.axes()[i].config.letter));
+    stream_->forget_modes();
+    control::gcode::Settings reader = rack::reader_settings(rack_.config());
+    reader.start = stream_->interpreter().position();
+    reader.work_offsets = stream_->interpreter().frame().work;
+    const control::gcode::Check check = control::gcode::check_program(text, reader, 1, name);
+    if (!check.problems.empty()) return tl::unexpected<Error>(check.problems.front());
+    program_ = std::move(text);
+    program_name_ = std::move(name);
+    lines_.emplace(program_);
+    line_count_ = static_cast<std::int32_t>(check.lines);
+    program_runs_ = true;
+    enter(MachineState::moving);
+    return {};
+}
+
+control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t number) {
+    const auto refuse = [&](std::string why) {
+        control::gcode::Problem problem;
+        problem.trouble = Trouble::refused;
+        problem.message = std::move(why);
+        problem.place.line = number;
+        return tl::unexpected<control::gcode::Problem>(std::move(problem));
+    };
+    if (program_runs_) return refuse("The line was not taken: a program runs. Stop it or wait for its end.");
+    if (!has_room()) return refuse("The line was not taken: there is no room for it until others are driven.");
+    if (state_ != MachineState::moving && state_ != MachineState::hold) {
+        if (Result<void> stands = ready("The line was not taken"); !stands) return refuse(stands.error().message);
+        for (const rack::RackAxis& axis : rack_.config().axes)
+            if (!trusted_[static_cast<std::size_t>(axis.index())])
+                return refuse(fmt::format("The line was not taken: the position of axis {} is not trusted. Home it, or declare where it stands.", axis.letter));
+    }
+    if (auto read = stream_->line(text, number); !read) return read;
+    last_line_ = now();
+    if (stream_->has_work() && state_ == MachineState::standstill) enter(MachineState::moving);
+    return {};
+}
+
+Result<void> Machine::hold() {
+    if (state_ != MachineState::moving)
+        return fail(Trouble::refused, fmt::format("There is nothing to hold: the machine is in state '{}'. Nothing was changed.", name_of(state_)));
+    stream_->hold();
+    return {};
+}
+
+Result<void> Machine::resume() {
+    if (state_ != MachineState::hold)
+        return fail(Trouble::refused, fmt::format("There is nothing to resume: the machine is in state '{}'. Nothing was moved.", name_of(state_)));
+    stream_->resume();
+    enter(MachineState::moving);
+    return {};
+}
+
+void Machine::stop() {
+    lines_.reset();
+    program_runs_ = false;
+    stream_->stop();
+    home_stop_ = true;
+    home_wanted_.reset();
+    jogs_.clear();
+    stop_wanted_ = true;
+    if (state_ == MachineState::moving || state_ == MachineState::homing || state_ == MachineState::jogging || state_ == MachineState::hold)
+        enter(MachineState::stopping);
+}
+
+void Machine::reset() {
+    stop();
+    reset_wanted_ = true;
+}
+
+Result<void> Machine::jog(char axis, double speed) {
+    if (state_ != MachineState::jogging) MOTIONRACK_CHECK(ready("Not jogged"));
+    if (rack_.config().axis(axis) == nullptr) return fail(Trouble::bad_input, fmt::format("Not jogged: the machine has no axis {}.", axis));
+    if (!std::isfinite(speed)) return fail(Trouble::bad_input, "Not jogged: the speed is not a number.");
+    jogs_.push_back({axis, speed, std::nullopt});
+    enter(MachineState::jogging);
+    return {};
+}
+
+Result<void> Machine::jog_by(char axis, double distance, double speed) {
+    MOTIONRACK_CHECK(ready("Not jogged"));
+    if (rack_.config().axis(axis) == nullptr) return fail(Trouble::bad_input, fmt::format("Not jogged: the machine has no axis {}.", axis));
+    if (!std::isfinite(distance) || !(speed > 0)) return fail(Trouble::bad_input, fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
+    jogs_.push_back({axis, speed, distance});
+    enter(MachineState::jogging);
+    return {};
+}
+
+Result<void> Machine::home(std::string axes) {
+    MOTIONRACK_CHECK(ready("Not homed"));
+    home_wanted_ = std::move(axes);
+    home_stop_ = false;
+    enter(MachineState::homing);
+    return {};
+}
+
+Result<void> Machine::declare_position(char axis, double position) {
+    MOTIONRACK_CHECK(ready("The position was not declared"));
+    if (rack_.config().axis(axis) == nullptr) return fail(Trouble::bad_input, fmt::format("The position was not declared: the machine has no axis {}.", axis));
+    if (!std::isfinite(position)) return fail(Trouble::bad_input, "The position was not declared: it is not a number.");
+    position_wanted_ = {axis, position};
+    return {};
+}
+
+bool Machine::acknowledge(std::int64_t alarm) {
+    for (Alarm& one : status_.alarms)
+        if (one.number == alarm) return one.acknowledged = true;
+    return false;
+}
+
+}  // namespace motionrack::operate

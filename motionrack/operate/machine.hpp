@@ -1,0 +1,152 @@
+// A rack that people operate while it runs.
+//
+//   any thread ──post──► [ inbox ] ──► motion thread: Machine::run ──► Stream, axes, homing ──► cards
+//                                            │ every 2 ms of virtual time: pace, inbox, picture ──► on_status
+//
+//   disabled ──enable──► standstill ──line, program──► moving ◄──hold, resume──► hold
+//                            │  ▲ ├──jog──► jogging      │ a limit, an alarm, the emergency stop
+//                            │  └─┴──home─► homing       ▼
+//                            └◄───────reset────────── error stop          stop() from every state, always accepted
+//
+// Only the motion thread touches the rack. What a front end posts runs there between two runs of the kernel, often in the middle of a
+// drive: so orders only note what is wanted, and the motion thread's loop does it.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <motionrack/control/gcode/reader.hpp>
+#include <motionrack/control/stream.hpp>
+#include <motionrack/operate/status.hpp>
+#include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/wire_desk.hpp>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::operate {
+
+struct MachineSettings {
+    /// Called every slice on the motion thread; returns when the world may run on. Empty: as fast as possible.
+    std::function<void(Instant now)> pace = {};
+    std::function<void(const Status&)> on_status = {};  ///< every slice, on the motion thread
+    std::function<void(const control::gcode::Step&)> on_event = {};  ///< the machine passes an event of a program
+    Duration slice = milliseconds(2);
+    Duration quiet = milliseconds(20);  ///< a sender that has said nothing for so long has said all for now
+    std::size_t most_alarms = 100;      ///< the oldest that are over go first
+};
+
+class Machine {
+  public:
+    /// Builds and starts the rack. Axes of a rack without any home switch stand where its file says; the others' positions are not
+    /// trusted. Errors: as Rack::path_axes.
+    static Result<std::unique_ptr<Machine>> make(const rack::RackConfig& config, MachineSettings settings);
+    ~Machine();
+
+    // ---- from any thread ---------------------------------------------------------------------------------------------------------------
+    /// Runs `work` on the motion thread, soon and in order.
+    void post(std::function<void()> work);
+    /// The loop ends after the present slice; motion that runs is stopped first.
+    void quit();
+
+    // ---- the motion thread -------------------------------------------------------------------------------------------------------------
+    /// Works until quit().
+    void run();
+
+    // ---- orders, posted; refused ones (Trouble::refused) change nothing ----------------------------------------------------------------
+    /// Disabling stops what moves.
+    Result<void> enable(bool on);
+    /// Checks a program whole, then begins it. Errors: bad_input, its first problem with line and column.
+    Result<void> begin_program(std::string text, std::string name);
+    /// One line, behind those that are there. Refused: a program runs, no room.
+    control::gcode::Outcome<void> line(std::string_view text, std::int32_t number);
+    bool has_room() const { return stream_->has_room() && !program_runs_; }
+    Result<void> hold();
+    Result<void> resume();
+    /// Decelerates whatever moves, and forgets programs and lines. Never refused.
+    void stop();
+    /// Ends an error stop and forgets programs and modes; work offsets and positions stay. Stops if something moves.
+    void reset();
+    /// Jogs at `speed` a second (sign: direction) for as long as it is called again within 250 ms.
+    Result<void> jog(char axis, double speed);
+    /// Jogs by a distance.
+    Result<void> jog_by(char axis, double distance, double speed);
+    /// Homes these axes; empty: all that have a home switch.
+    Result<void> home(std::string axes);
+    /// Declares where an axis stands; it is trusted then. Refused while something moves.
+    Result<void> declare_position(char axis, double position);
+    void set_overrides(double feed, double rapid) { stream_->set_overrides(feed_ = feed, rapid_ = rapid); }
+    void set_single_step(bool on) { stream_->set_single_step(single_step_ = on); }
+    /// False: there is no such alarm.
+    bool acknowledge(std::int64_t alarm);
+
+    // ---- looking, on the motion thread -------------------------------------------------------------------------------------------------
+    const Status& status() const { return status_; }
+    MachineState state() const { return state_; }
+    const control::Stream& stream() const { return *stream_; }
+    rack::Rack& rack() { return rack_; }
+    rack::WireDesk& wires() { return desk_; }
+    Instant now() const { return rack_.kernel().now(); }
+
+  private:
+    enum class Holder : std::uint8_t { nobody, group, singles };
+    /// What the loop is to do for one axis.
+    struct JogOrder {
+        char axis = 'X';
+        double speed = 0;
+        std::optional<double> distance;
+    };
+
+    Machine(const rack::RackConfig& config, MachineSettings settings);
+    Result<void> start();
+    Result<void> take_group();
+    Result<control::Axis*> take_axis(char letter);
+    void slice();
+    void step();
+    void drive();
+    void feed_program();
+    void jog_all();
+    void home_all();
+    void change_position();
+    void failed(const Error& error);
+    void raise(std::string text);
+    void come_to_rest();
+    void watch_button();
+    bool button_pressed() const;
+    Result<void> ready(const char* what);
+    void tell();
+    AxisStatus look_at(rack::RunningAxis& axis);
+    Interrupt& host() { return rack_.cards().front()->host(); }
+    void enter(MachineState state, std::string why = {});
+
+    MachineSettings settings_;
+    rack::Rack rack_;
+    rack::WireDesk desk_;
+    std::unique_ptr<control::Stream> stream_;
+    Holder holder_ = Holder::nobody;
+    std::array<bool, control::axis_count> trusted_ = {};
+    MachineState state_ = MachineState::disabled;
+    bool quit_ = false, stop_wanted_ = false, reset_wanted_ = false, disable_wanted_ = false;
+    // the program, or lines one by one
+    std::string program_, program_name_;
+    std::optional<control::gcode::Lines> lines_;
+    std::int32_t line_count_ = 0;
+    bool program_runs_ = false, single_step_ = false;
+    Instant last_line_{};
+    double feed_ = 1, rapid_ = 1;
+    // by hand
+    std::vector<JogOrder> jogs_;
+    std::vector<control::Axis*> jogging_;
+    std::optional<std::string> home_wanted_;
+    std::optional<std::pair<char, double>> position_wanted_;
+    std::atomic<bool> home_stop_{false};
+    // told
+    Status status_;
+    std::int64_t next_alarm_ = 1;
+    std::mutex lock_;
+    std::vector<std::function<void()>> inbox_;
+};
+
+}  // namespace motionrack::operate

@@ -1,0 +1,266 @@
+// The motion thread: one thing at a time, until it is done, with everybody heard every slice.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/operate/machine.hpp>
+#include <motionrack/rack/homing.hpp>
+#include <motionrack/rack/job.hpp>
+
+namespace motionrack::operate {
+
+namespace {
+
+bool can_home(const rack::RackAxis& axis) { return axis.switches.home || axis.switches.has_cam(); }
+
+}  // namespace
+
+// ---- who holds the card's axes ------------------------------------------------------------------------------------------------------
+
+Result<void> Machine::start() {
+    rack_.start();
+    const bool known = std::none_of(rack_.axes().begin(), rack_.axes().end(), [](const rack::RunningAxis& axis) { return can_home(axis.config); });
+    for (const rack::RunningAxis& axis : rack_.axes()) {
+        MOTIONRACK_TRY(control::Axis * one, axis.card->axis(rack_.config(), axis.config.letter));
+        if (!known) continue;
+        MOTIONRACK_CHECK(one->set_position(axis.config.start_position));
+        trusted_[static_cast<std::size_t>(axis.config.index())] = true;
+    }
+    MOTIONRACK_TRY(control::PathAxes * group, rack_.path_axes_here());
+    control::StreamSettings settings;
+    settings.gcode = rack::reader_settings(rack_.config());
+    settings.gcode.start = group->commanded_position();
+    settings.kept_back = rack_.axes().front().card->kept_back();
+    stream_ = std::make_unique<control::Stream>(*group, host(), settings);
+    stream_->on_event(settings_.on_event);
+    holder_ = Holder::group;
+    rack_.set_stop_flag(stream_->stop_flag());
+    rack_.on_slice(settings_.slice, [this] { slice(); });
+    tell();
+    return {};
+}
+
+Result<void> Machine::take_group() {
+    if (holder_ == Holder::group) return {};
+    MOTIONRACK_TRY(control::PathAxes * group, rack_.path_axes_here());
+    rack_.set_stop_flag(stream_->stop_flag());
+    stream_->stand_here(*group);
+    holder_ = Holder::group;
+    return {};
+}
+
+Result<control::Axis*> Machine::take_axis(char letter) {
+    for (rack::RunningAxis& axis : rack_.axes()) {
+        if (axis.config.letter != letter) continue;
+        holder_ = Holder::singles;
+        return axis.card->axis(rack_.config(), letter);
+    }
+    return fail(Trouble::bad_input, fmt::format("There is no axis {}.", letter));
+}
+
+// ---- the loop -----------------------------------------------------------------------------------------------------------------------
+
+void Machine::run() {
+    while (!quit_) step();
+    while (state_ == MachineState::stopping) step();
+}
+
+/// Between two runs of the kernel, perhaps in the middle of a drive.
+void Machine::slice() {
+    if (settings_.pace) settings_.pace(now());
+    std::vector<std::function<void()>> work;
+    {
+        const std::lock_guard<std::mutex> alone(lock_);
+        work.swap(inbox_);
+    }
+    for (const std::function<void()>& one : work) one();
+    tell();
+}
+
+void Machine::step() {
+    if (!jogs_.empty() || !jogging_.empty()) return jog_all();
+    if (home_wanted_) return home_all();
+    if (position_wanted_) return change_position();
+    if (lines_ || stream_->has_work() || stream_->state() == control::StreamState::driving) return drive();
+    if (stop_wanted_) return come_to_rest();
+    watch_button();
+    host().pass(settings_.slice);
+}
+
+bool Machine::button_pressed() const {
+    const Result<double> level = desk_.get("estop");
+    return level && *level == 0;  // its contact opens
+}
+
+/// At a standstill no drive ends by it.
+void Machine::watch_button() {
+    if (state_ == MachineState::error_stop || !button_pressed()) return;
+    raise("The emergency stop is pressed. Release it, then reset.");
+    enter(MachineState::error_stop, status_.alarms.back().text);
+}
+
+/// Nothing moves any more after a stop.
+void Machine::come_to_rest() {
+    stop_wanted_ = false;
+    home_stop_ = false;
+    stream_->take_stop();
+    if (reset_wanted_ && button_pressed()) status_.why = "Not reset: the emergency stop is still pressed. Release it, then reset.";
+    if (std::exchange(reset_wanted_, false) && !button_pressed()) {
+        stream_->forget_modes();
+        for (Alarm& alarm : status_.alarms) alarm.active = false;
+        if (state_ == MachineState::error_stop) enter(MachineState::standstill);
+    }
+    if (state_ == MachineState::stopping) enter(MachineState::standstill);
+    if (disable_wanted_ && state_ == MachineState::standstill) enter(MachineState::disabled);
+    disable_wanted_ = false;
+}
+
+// ---- lines and programs -------------------------------------------------------------------------------------------------------------
+
+void Machine::feed_program() {
+    std::string_view text;
+    while (lines_ && stream_->has_room()) {
+        if (stream_->interpreter().modes().ended || !lines_->next(text)) {
+            lines_.reset();
+            return;
+        }
+        const std::string_view mark = text.substr(0, text.find_last_not_of(" \t\r") + 1);
+        if (mark == "%") {
+            if (lines_->number() > 1) lines_.reset();
+            continue;
+        }
+        if (const auto read = stream_->line(text, lines_->number()); !read) return failed(read.error());
+    }
+}
+
+void Machine::drive() {
+    feed_program();
+    if (state_ == MachineState::error_stop) return;
+    const bool more = lines_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
+    const Result<control::StreamState> driven = stream_->drive(more);
+    if (!driven) return failed(driven.error());
+    switch (*driven) {
+        case control::StreamState::waiting: host().pass(milliseconds(1)); break;
+        case control::StreamState::held:
+        case control::StreamState::paused:
+            if (state_ == MachineState::moving)
+                enter(MachineState::hold, *driven == control::StreamState::held ? "held; resume goes on" : "the program waits; resume goes on");
+            host().pass(settings_.slice);
+            break;
+        case control::StreamState::rest:
+            if (lines_) break;
+            program_runs_ = false;
+            if (state_ == MachineState::moving) enter(MachineState::standstill);
+            break;
+        case control::StreamState::driving: break;
+    }
+}
+
+// ---- by hand ------------------------------------------------------------------------------------------------------------------------
+
+void Machine::jog_all() {
+    for (const JogOrder& order : std::exchange(jogs_, {})) {
+        const Result<control::Axis*> axis = take_axis(order.axis);
+        Result<void> begun;
+        if (!axis)
+            begun = tl::unexpected<Error>(axis.error());
+        else
+            begun = order.distance ? (*axis)->move_by(*order.distance, order.speed) : (*axis)->jog(order.speed, now());
+        if (!begun) {
+            status_.why = begun.error().message;
+            continue;
+        }
+        if (std::find(jogging_.begin(), jogging_.end(), *axis) == jogging_.end()) jogging_.push_back(*axis);
+    }
+    for (std::size_t i = 0; i < jogging_.size();) {
+        control::Axis& axis = *jogging_[i];
+        if (stop_wanted_) axis.stop();
+        axis.step(now());
+        const control::AxisState state = axis.state();
+        if (state == control::AxisState::standstill || state == control::AxisState::error) {
+            if (const Result<void> good = axis.wait(Duration{0}); !good && good.error().trouble == Trouble::machine) status_.why = good.error().message;
+            jogging_.erase(jogging_.begin() + static_cast<std::ptrdiff_t>(i));
+        } else {
+            ++i;
+        }
+    }
+    if (!jogging_.empty()) return host().pass(settings_.slice);
+    if (Result<void> taken = take_group(); !taken) return failed(taken.error());
+    if (state_ == MachineState::jogging) enter(MachineState::standstill, std::exchange(status_.why, {}));
+}
+
+void Machine::home_all() {
+    rack::HomingSettings settings;
+    settings.axes = *std::exchange(home_wanted_, std::nullopt);
+    settings.stop = &home_stop_;
+    holder_ = Holder::singles;
+    const rack::HomingOutcome homed = rack::home_axes(rack_, settings);
+    for (const rack::HomedAxis& axis : homed.axes)
+        if (axis.begun) trusted_[static_cast<std::size_t>(rack_.config().axis(axis.letter)->index())] = axis.outcome.homed;
+    if (Result<void> taken = take_group(); !taken) return failed(taken.error());
+    if (!homed.ended && homed.ended.error().trouble == Trouble::machine) return failed(homed.ended.error());
+    if (state_ == MachineState::homing) enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
+}
+
+void Machine::change_position() {
+    const auto [letter, position] = *std::exchange(position_wanted_, std::nullopt);
+    const Result<control::Axis*> axis = take_axis(letter);
+    Result<void> done = axis ? (*axis)->set_position(position) : tl::unexpected<Error>(axis.error());
+    if (done) trusted_[static_cast<std::size_t>(rack_.config().axis(letter)->index())] = true;
+    if (Result<void> taken = take_group(); done) done = taken;
+    if (!done) status_.why = done.error().message;
+}
+
+// ---- what is told -------------------------------------------------------------------------------------------------------------------
+
+void Machine::failed(const Error& error) {
+    lines_.reset();
+    program_runs_ = false;
+    const bool pressed = button_pressed();
+    if (pressed) trusted_.fill(false);  // it stopped without a ramp
+    raise(error.text() + (pressed ? " The emergency stop is pressed: the positions are not trusted any more." : ""));
+    enter(MachineState::error_stop, status_.alarms.back().text);
+}
+
+void Machine::raise(std::string text) {
+    std::vector<Alarm>& alarms = status_.alarms;
+    alarms.erase(std::remove_if(alarms.begin(), alarms.end(), [](const Alarm& alarm) { return !alarm.active && alarm.acknowledged; }), alarms.end());
+    if (alarms.size() >= settings_.most_alarms) alarms.erase(alarms.begin());
+    alarms.push_back({next_alarm_++, now(), std::move(text)});
+}
+
+void Machine::enter(MachineState state, std::string why) {
+    state_ = state;
+    status_.why = std::move(why);
+}
+
+AxisStatus Machine::look_at(rack::RunningAxis& axis) {
+    AxisStatus out;
+    out.letter = axis.config.letter;
+    out.rotary = axis.config.index() >= 3;
+    out.trusted = trusted_[static_cast<std::size_t>(axis.config.index())];
+    out.pulses = axis.card->pulse_counter(axis.channel);
+    out.counts = axis.card->encoder_counter(axis.channel);
+    out.commanded = static_cast<double>(out.pulses) / axis.config.pulses_per_unit();
+    const double counts = axis.config.counts_per_unit();
+    out.actual = counts > 0 ? static_cast<double>(out.counts) / counts : out.commanded;
+    out.speed = axis.speed(now());
+    return out;
+}
+
+void Machine::tell() {
+    status_.at = now();
+    ++status_.sequence;
+    status_.state = state_;
+    status_.axes.clear();
+    for (rack::RunningAxis& axis : rack_.axes()) status_.axes.push_back(look_at(axis));
+    status_.program = program_name_;
+    status_.line = stream_->line_driven();
+    status_.lines = line_count_;
+    status_.program_runs = program_runs_;
+    status_.single_step = single_step_;
+    status_.feed_override = feed_;
+    status_.rapid_override = rapid_;
+    if (settings_.on_status) settings_.on_status(status_);
+}
+
+}  // namespace motionrack::operate

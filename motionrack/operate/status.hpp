@@ -1,0 +1,60 @@
+// What people see of a machine that they operate: one picture of it at one instant.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <motionrack/base/time.hpp>
+#include <motionrack/control/move.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::operate {
+
+enum class MachineState : std::uint8_t {
+    disabled,    ///< takes no motion until it is enabled
+    standstill,
+    homing,
+    moving,      ///< drives lines of G-code
+    jogging,
+    hold,        ///< stands in a program, which goes on with resume
+    stopping,
+    error_stop   ///< stopped by the machine; reset ends it
+};
+/// "standstill", "error stop".
+std::string_view name_of(MachineState state);
+
+/// An alarm as ISA-18.2 has them: it is there until it was acknowledged and its cause is gone.
+struct Alarm {
+    std::int64_t number = 0;  ///< from 1
+    Instant at{};
+    std::string text;
+    bool active = true, acknowledged = false;
+};
+
+struct AxisStatus {
+    char letter = 'X';
+    bool rotary = false;        ///< degrees instead of mm
+    bool trusted = false;       ///< the positions mean places of the machine
+    double commanded = 0;       ///< what the card's pulses say
+    double actual = 0;          ///< what the encoder says; commanded without one
+    double speed = 0;           ///< a second, signed
+    std::int64_t pulses = 0;    ///< the card's counters
+    std::int64_t counts = 0;
+};
+
+struct Status {
+    Instant at{};
+    std::int64_t sequence = 0;  ///< of this picture, from 1
+    MachineState state = MachineState::disabled;
+    std::string why;            ///< the sentence that stopped it last, or why it holds
+    std::vector<AxisStatus> axes;
+    std::string program;        ///< name; empty: none was begun
+    std::int32_t line = 0;      ///< being driven
+    std::int32_t lines = 0;
+    bool program_runs = false, single_step = false;
+    double feed_override = 1, rapid_override = 1;
+    std::vector<Alarm> alarms;  ///< oldest first
+};
+
+}  // namespace motionrack::operate

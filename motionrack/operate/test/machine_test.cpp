@@ -1,0 +1,317 @@
+// A machine as people operate it: programs, hold, stop, jog, home, alarms; orders come at given instants of virtual time.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <deque>
+#include <motionrack/operate/machine.hpp>
+#include <motionrack/rack/template.hpp>
+#include <thread>
+
+namespace motionrack::operate {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Two axes that stand where the file says; `more` for the file.
+rack::RackConfig two_axes(const std::string& more = "") {
+    const rack::RackReading reading = rack::read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n"
+                                                           "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n" + more);
+    EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].text());
+    return *reading.config;
+}
+
+rack::RackConfig router() { return *rack::read_rack_text(*rack::rack_template("router")).config; }
+
+/// A machine, and orders that are given when their time has come.
+class Operated {
+  public:
+    explicit Operated(const rack::RackConfig& config) {
+        MachineSettings settings;
+        settings.pace = [this](Instant now) { give(to_seconds(now)); };
+        settings.on_status = [this](const Status& status) { look(status); };
+        settings.on_event = [this](const control::gcode::Step& step) { events.push_back(step.kind); };
+        auto made = Machine::make(config, std::move(settings));
+        EXPECT_TRUE(made) << made.error().message;
+        machine = std::move(*made);
+        EXPECT_TRUE(machine->enable(true));
+    }
+    void at(double seconds, std::function<void(Machine&)> order) { orders_.push_back({seconds, std::move(order)}); }
+    /// Until `seconds`.
+    void run(double seconds) {
+        at(seconds, [](Machine& m) { m.quit(); });
+        machine->run();
+    }
+    double x() const { return machine->status().axes[0].commanded; }
+    double y() const { return machine->status().axes[1].commanded; }
+
+    std::unique_ptr<Machine> machine;
+    std::vector<std::string> states;  ///< as they followed each other
+    std::vector<control::gcode::StepKind> events;
+    double top_speed = 0, stood_since = 0;
+
+  private:
+    struct Order {
+        double seconds;
+        std::function<void(Machine&)> give;
+    };
+    void give(double now) {
+        while (machine && !orders_.empty() && now >= orders_.front().seconds) {
+            const Order order = orders_.front();
+            orders_.pop_front();
+            order.give(*machine);
+        }
+    }
+    void look(const Status& status) {
+        if (states.empty() || states.back() != name_of(status.state)) states.emplace_back(name_of(status.state));
+        for (const AxisStatus& axis : status.axes) {
+            top_speed = std::max(top_speed, std::fabs(axis.speed));
+            if (axis.speed != 0) stood_since = to_seconds(status.at);
+        }
+    }
+    std::deque<Order> orders_;
+};
+
+TEST(AMachine, IsDisabledAtFirstAndTakesNoMotion) {
+    auto machine = *Machine::make(two_axes(), {});
+    EXPECT_EQ(machine->state(), MachineState::disabled);
+    EXPECT_THAT(machine->jog('X', 5).error().message, HasSubstr("enable it first"));
+    EXPECT_THAT(machine->line("G1 X20 F600", 1).error().message, HasSubstr("enable it first"));
+    EXPECT_THAT(machine->begin_program("G0 X1\n", "p").error().message, HasSubstr("disabled"));
+}
+
+TEST(AMachine, DrivesAProgramToItsEnd) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("%\nG21 G90 F1200\nG1 X30\nG2 X40 Y10 I10\nM2\nG1 X0\n", "p.ngc")); });
+    o.run(10);
+    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "moving", "standstill"));
+    EXPECT_NEAR(o.x(), 40, 0.5 / 640);
+    EXPECT_NEAR(o.y(), 10, 0.5 / 640);
+    EXPECT_NEAR(o.machine->status().axes[0].actual, 40, 1.0 / 640);
+    EXPECT_EQ(o.machine->status().line, 4);
+    EXPECT_THAT(o.events, testing::Contains(control::gcode::StepKind::end));
+}
+
+TEST(AMachine, RefusesAProgramWithItsFirstProblemAndMovesNothing) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        const Result<void> begun = m.begin_program("G21 G90 F1200\nG1 X30\nG1 X9999\n", "p.ngc");
+        ASSERT_FALSE(begun);
+        EXPECT_EQ(begun.error().place.line, 3);
+    });
+    o.run(1);
+    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill"));
+    EXPECT_DOUBLE_EQ(o.x(), 10);
+}
+
+TEST(AMachine, HoldsAProgramOnItsPathAndResumesIt) {
+    Operated o(two_axes());
+    double held_x = 0;
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X50\nG1 Y20\n", "p")); });
+    o.at(1, [](Machine& m) { EXPECT_TRUE(m.hold()); });
+    o.at(3, [&](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::hold);
+        held_x = m.status().axes[0].commanded;
+        EXPECT_FALSE(m.begin_program("G0 X0\n", "q"));
+        EXPECT_TRUE(m.resume());
+    });
+    o.run(10);
+    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "moving", "hold", "moving", "standstill"));
+    EXPECT_GT(held_x, 20);
+    EXPECT_LT(held_x, 40);
+    EXPECT_NEAR(o.x(), 50, 0.5 / 640);
+    EXPECT_NEAR(o.y(), 20, 0.5 / 640);
+}
+
+TEST(AMachine, StoppedStandsAndTheNextLineBeginsThere) {
+    Operated o(two_axes());
+    double stopped_x = 0;
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X50\nG1 Y20\n", "p")); });
+    o.at(1, [](Machine& m) { m.stop(); });
+    o.at(2, [&](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::standstill);
+        stopped_x = m.status().axes[0].commanded;
+        EXPECT_TRUE(m.line("G91 G1 X-2 F600", 1));
+    });
+    o.run(4);
+    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "moving", "stopping", "standstill", "moving", "standstill"));
+    EXPECT_NEAR(o.x(), stopped_x - 2, 0.6 / 640);
+    EXPECT_DOUBLE_EQ(o.y(), 0);
+}
+
+TEST(AMachine, StopsFromAHoldAndIsNeverRefusedAStop) {
+    Operated o(two_axes());
+    o.machine->stop();
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X50\n", "p")); });
+    o.at(1, [](Machine& m) { EXPECT_TRUE(m.hold()); });
+    o.at(2, [](Machine& m) { m.stop(); });
+    o.at(2.5, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::standstill);
+        m.stop();
+        EXPECT_TRUE(m.line("G1 X12 F600", 1));
+    });
+    o.run(5);
+    EXPECT_NEAR(o.x(), 12, 0.5 / 640);
+}
+
+TEST(AMachine, JogsWhileItIsRenewedAndStopsByItself) {
+    Operated o(two_axes());
+    for (double t = 0.1; t < 1.05; t += 0.1) o.at(t, [](Machine& m) { EXPECT_TRUE(m.jog('X', 10)); });
+    o.run(3);
+    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "jogging", "standstill"));
+    EXPECT_GT(o.x(), 20);
+    EXPECT_LT(o.x(), 23);
+    EXPECT_LT(o.stood_since, 1.35);
+}
+
+TEST(AMachine, AfterAJogDrivesLinesFromWhereItStands) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_by('X', 3, 10)); });
+    o.at(2, [](Machine& m) { EXPECT_TRUE(m.line("G91 G1 X1 Y1 F600", 1)); });
+    o.at(4, [](Machine& m) { EXPECT_TRUE(m.jog_by('Y', 2.5, 10)); });
+    o.run(6);
+    EXPECT_NEAR(o.x(), 14, 1.0 / 640);
+    EXPECT_NEAR(o.y(), 3.5, 1.0 / 640);
+    EXPECT_NEAR(o.machine->status().axes[0].actual, 14, 1.5 / 640);
+}
+
+TEST(AMachine, OverridesAndSingleStepsAProgram) {
+    Operated o(two_axes());
+    int holds = 0;
+    o.at(0.1, [](Machine& m) {
+        m.set_single_step(true);
+        m.set_overrides(0.5, 1);
+        EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X20\nG1 X30\n", "p"));
+    });
+    for (double t = 0.5; t < 8; t += 0.5)
+        o.at(t, [&](Machine& m) {
+            if (m.state() != MachineState::hold) return;
+            EXPECT_TRUE(m.resume());
+            ++holds;
+        });
+    o.run(8);
+    EXPECT_EQ(holds, 1);
+    EXPECT_NEAR(o.x(), 30, 0.5 / 640);
+    EXPECT_LT(o.top_speed, 10.1);
+}
+
+TEST(AMachine, WithHomeSwitchesTrustsNoPositionUntilItIsHomed) {
+    Operated o(router());
+    o.at(0.1, [](Machine& m) {
+        EXPECT_THAT(m.begin_program("G0 X1\n", "p").error().message, HasSubstr("axis X is not trusted"));
+        EXPECT_THAT(m.line("G0 X1", 1).error().message, HasSubstr("not trusted"));
+        EXPECT_TRUE(m.home(""));
+    });
+    o.at(60, [](Machine& m) {
+        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(axis.trusted) << axis.letter;
+        EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X12 Y7\n", "p"));
+    });
+    o.run(70);
+    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "homing", "standstill", "moving", "standstill"));
+    EXPECT_NEAR(o.x(), 12, 0.5 / 640);
+    const rack::RunningAxis& x = o.machine->rack().axes()[0];
+    EXPECT_NEAR(x.machine->position(o.machine->now()), 12, 1.0 / 640);
+}
+
+TEST(AMachine, StopsItsHoming) {
+    Operated o(router());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.home("X")); });
+    o.at(0.4, [](Machine& m) { m.stop(); });
+    o.run(2);
+    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "homing", "stopping", "standstill"));
+    EXPECT_LT(o.stood_since, 1);
+    EXPECT_FALSE(o.machine->status().axes[0].trusted);
+}
+
+TEST(AMachine, TrustsADeclaredPosition) {
+    Operated o(router());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.declare_position('Y', 33)); });
+    o.run(1);
+    EXPECT_TRUE(o.machine->status().axes[1].trusted);
+    EXPECT_FALSE(o.machine->status().axes[0].trusted);
+    EXPECT_NEAR(o.y(), 33, 1e-9);
+}
+
+TEST(AMachine, PressedToAnEmergencyStopTrustsNothingAndWantsAReset) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F3000\nG1 X90\n", "p")); });
+    o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
+    o.at(2, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop);
+        EXPECT_FALSE(m.status().axes[0].trusted);
+        ASSERT_EQ(m.status().alarms.size(), 1u);
+        EXPECT_THAT(m.status().alarms[0].text, HasSubstr("emergency"));
+        EXPECT_FALSE(m.line("G1 X1 F600", 1));
+        m.reset();
+    });
+    o.at(3, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::error_stop) << "it is still pressed";
+        EXPECT_THAT(m.status().why, HasSubstr("still pressed"));
+        EXPECT_TRUE(m.wires().set("estop", 1));
+        m.reset();
+    });
+    o.at(4, [](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::standstill);
+        EXPECT_FALSE(m.status().alarms[0].active);
+        EXPECT_TRUE(m.acknowledge(1));
+        EXPECT_FALSE(m.acknowledge(7));
+        EXPECT_THAT(m.line("G1 X1 F600", 1).error().message, HasSubstr("not trusted"));
+    });
+    o.run(5);
+}
+
+TEST(AMachine, SaysWhenTheEmergencyStopIsPressedAtAStandstill) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
+    o.run(1);
+    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "error stop"));
+    EXPECT_EQ(o.machine->status().alarms.size(), 1u);
+    EXPECT_TRUE(o.machine->status().axes[0].trusted) << "nothing moved";
+}
+
+TEST(AMachine, RunIntoALimitSwitchStopsWithAnAlarmAndKeepsItsPosition) {
+    Operated o(two_axes("[axis.X.switches]\nlimit_plus_mm = 40\n"));
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X80\n", "p")); });
+    o.run(6);
+    EXPECT_EQ(o.states.back(), "error stop");
+    EXPECT_THAT(o.machine->status().alarms[0].text, HasSubstr("limit"));
+    EXPECT_TRUE(o.machine->status().axes[0].trusted);
+    EXPECT_LT(o.x(), 42);
+}
+
+TEST(AMachine, DisabledWhileItMovesStopsFirst) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F3000\nG1 X90\n", "p")); });
+    o.at(1, [](Machine& m) { EXPECT_TRUE(m.enable(false)); });
+    o.run(2);
+    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "moving", "stopping", "disabled"));
+    EXPECT_LT(o.stood_since, 1.5);
+}
+
+TEST(AMachine, HearsManyThreadsAtOnce) {
+    MachineSettings settings;
+    auto machine = *Machine::make(two_axes(), settings);
+    std::atomic<int> heard{0};
+    machine->post([&] {
+        EXPECT_TRUE(machine->enable(true));
+        EXPECT_TRUE(machine->begin_program("G21 G90 F6000\nG1 X90\nG1 X10\n", "p"));
+    });
+    std::vector<std::thread> front_ends;
+    for (int i = 0; i < 4; ++i)
+        front_ends.emplace_back([&] {
+            for (int k = 0; k < 200; ++k)
+                machine->post([&] {
+                    if (machine->state() == MachineState::moving) static_cast<void>(machine->hold());
+                    if (machine->state() == MachineState::hold) static_cast<void>(machine->resume());
+                    if (++heard == 800) machine->quit();
+                });
+        });
+    machine->run();
+    for (std::thread& one : front_ends) one.join();
+    EXPECT_EQ(heard, 800);
+    EXPECT_FALSE(machine->state() == MachineState::error_stop);
+}
+
+}  // namespace
+}  // namespace motionrack::operate
