@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <motionrack/mark/drawing.hpp>
+#include <motionrack/rack/optics_fields.hpp>
 #include <motionrack/sim/parts/marking_station.hpp>
 #include <motionrack/sim/parts/position_sender.hpp>
 #include <optional>
@@ -29,12 +30,6 @@ struct Optics {
     double bits_per_mm = 8656;       ///< K, without lens and ct5
     std::optional<std::string> ct5;  ///< file of the card's table
     bool correction = true;          ///< false: the card has no table, though there is a lens
-};
-
-struct LensData {
-    double f1_mm = 163.064, f2_mm = -1.259, f3_mm = -21.465, f4_mm = -26.664;
-    double calibration_deg = 11.7, bits_per_mm = 8656;
-    sim::ScanLens lens() const { return {{f1_mm, f2_mm, f3_mm, f4_mm}, calibration_deg, bits_per_mm}; }
 };
 
 /// Settings of the card's list.
@@ -92,7 +87,7 @@ struct Job {
     std::string file;
     std::vector<DrawingSource> drawings;
     Optics optics;
-    std::optional<LensData> lens;
+    std::optional<rack::RackLens> lens;
     parts::GalvoSettings galvo;
     parts::LaserSettings laser;
     Pace pace;

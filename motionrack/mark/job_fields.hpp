@@ -35,26 +35,6 @@ inline constexpr std::array<Field, 3> optics_fields = {
     absent_means(field<&Optics::ct5>("ct5", 1, 1000, "", "correction file of the card"), "made from the lens"),
     field<&Optics::correction>("correction", 0, 1, "", "false: no table in the card"),
 };
-inline constexpr std::array<Field, 6> lens_fields = {
-    field<&LensData::f1_mm>("f1_mm", 1, 10'000, "mm", "image height for the angle"),
-    field<&LensData::f2_mm>("f2_mm", -1e5, 1e5, "mm", "its square"),
-    field<&LensData::f3_mm>("f3_mm", -1e5, 1e5, "mm", "its cube"),
-    field<&LensData::f4_mm>("f4_mm", -1e5, 1e5, "mm", "its fourth power"),
-    field<&LensData::calibration_deg>("calibration_deg", 1, 22, "deg", "mechanical deflection at 96 % of the range"),
-    field<&LensData::bits_per_mm>("bits_per_mm", 1, 1e6, "bits/mm", "K"),
-};
-inline constexpr std::array<Field, 5> galvo_fields = {
-    field<&parts::GalvoSettings::ideal>("ideal", 0, 1, "", "mirrors without lag"),
-    field<&parts::GalvoSettings::dead_us>("dead_us", 0, 10'000, "us", "dead time, rounded down to 10 us"),
-    field<&parts::GalvoSettings::natural_hz>("natural_hz", 10, 20'000, "Hz", "natural frequency"),
-    field<&parts::GalvoSettings::damping>("damping", 0.1, 10, "", "1: no overshoot"),
-    field<&parts::GalvoSettings::greatest_speed>("greatest_speed", 1, 1e9, "bits/ms", "speed limit"),
-};
-inline constexpr std::array<Field, 3> laser_fields = {
-    field<&parts::LaserSettings::power_w>("power_w", 0, 1e5, "W", "mean power while on"),
-    field<&parts::LaserSettings::on_delay_us>("on_delay_us", 0, 1e5, "us", "from the gate to the light"),
-    field<&parts::LaserSettings::off_delay_us>("off_delay_us", 0, 1e5, "us", "from the gate to the dark"),
-};
 inline constexpr std::array<Field, 7> pace_fields = {
     field<&Pace::mark_mm_s>("mark_mm_s", 1e-6, 1e6, "mm/s", "speed of marks"),
     field<&Pace::jump_mm_s>("jump_mm_s", 1e-6, 1e6, "mm/s", "speed of jumps"),
@@ -118,9 +98,9 @@ inline constexpr ArrayKey at_key{"at_{u}", "{u}", "1 .. 10000 rising numbers fro
 inline constexpr std::array<SectionInfo, 11> sections = {
     SectionInfo{"drawing", drawing_fields, "One of `svg`, `gcode` and `text`. `[[drawing]]`, as often as wanted, marks several one after the other."},
     SectionInfo{"optics", optics_fields, ""},
-    SectionInfo{"lens", lens_fields, "An f-theta lens. The card's table is made from it, or is the ct5 file."},
-    SectionInfo{"galvo", galvo_fields, "Without `ideal` they have dead time, lag and a speed limit."},
-    SectionInfo{"laser", laser_fields, ""},
+    SectionInfo{"lens", rack::lens_keys, "An f-theta lens. The card's table is made from it, or is the ct5 file."},
+    SectionInfo{"galvo", rack::galvo_keys, "Without `ideal` they have dead time, lag and a speed limit."},
+    SectionInfo{"laser", rack::laser_keys, ""},
     SectionInfo{"pace", pace_fields, "Delays of the mirrors are in steps of 10 us, those of the laser in steps of 0.5 us."},
     SectionInfo{"belt", belt_fields, "What carries the parts.", profile_key},
     SectionInfo{"table", table_fields, "A rotary table instead of a belt.", profile_key},

@@ -9,7 +9,7 @@ namespace motionrack::mark {
 namespace {
 
 /// A section's defaults.
-const void* defaults_of(const Job& job, const DrawingSource& drawing, const LensData& lens, const PartsSettings& parts, std::string_view section) {
+const void* defaults_of(const Job& job, const DrawingSource& drawing, const rack::RackLens& lens, const PartsSettings& parts, std::string_view section) {
     if (section == "drawing") return &drawing;
     if (section == "optics") return &job.optics;
     if (section == "lens") return &lens;
@@ -37,7 +37,7 @@ std::string array_row(const fields::ArrayKey& key, std::string_view section) {
 std::string job_file_reference() {
     const Job job;
     const DrawingSource drawing;
-    const LensData lens;
+    const rack::RackLens lens;
     const PartsSettings parts;
     std::string out = "# The marking job\nTOML, for `motionrack mark`. Every section but `[drawing]` may be left out; its files are looked for beside it. Unknown keys, wrong types, values out of range and "
                       "keys that do not go together are errors; all are told at once, with line and column. "

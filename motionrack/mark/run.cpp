@@ -60,6 +60,9 @@ Result<Quick> run_quick(const Job& job, const Prepared& prepared, double factor,
     return out;
 }
 
+/// Part of a job's progress when both parts are marked; the rest is the search.
+constexpr double marked_at = 0.9;
+
 /// The greatest factor of the speed at which everything fits.
 class FitSearch {
   public:
@@ -98,12 +101,16 @@ class FitSearch {
     Result<bool> fits(double factor, Outcome& out) {
         MOTIONRACK_TRY(const Quick quick, run_quick(job_, prepared_, factor, watch_));
         if (!quick.fits()) out.starts_limit = quick.beyond_mm <= 0;
+        // Some twenty runs, less when it is near at once.
+        ++tried_;
+        if (watch_.progress) watch_.progress(marked_at + (1 - marked_at) * tried_ / (tried_ + 10));
         return quick.fits();
     }
 
     const Job& job_;
     const Prepared& prepared_;
     const Watch& watch_;
+    double tried_ = 0;
 };
 
 Result<Marked> mark_once(const Job& job, const Prepared& prepared, const Following& following, double expected_ticks, const std::function<void(double)>& progress,
@@ -181,9 +188,9 @@ Result<Outcome> run_job(const Job& job, const Prepared& prepared, const Watch& w
         return [&watch, begin, share](double part) { watch.progress(begin + share * std::min(part, 1.0)); };
     };
     const double ticks = quick.ticks + 1;
-    MOTIONRACK_TRY(out.on, mark_once(job, prepared, with, ticks, progress(0, follows ? 0.45 : 1), watch));
+    MOTIONRACK_TRY(out.on, mark_once(job, prepared, with, ticks, progress(0, follows ? marked_at / 2 : 1), watch));
     if (!follows) return out;
-    MOTIONRACK_TRY(out.off, mark_once(job, prepared, without, ticks, progress(0.45, 0.45), watch));
+    MOTIONRACK_TRY(out.off, mark_once(job, prepared, without, ticks, progress(marked_at / 2, marked_at / 2), watch));
     MOTIONRACK_CHECK(search.find(quick, out));
     return out;
 }

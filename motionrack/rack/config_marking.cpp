@@ -47,29 +47,6 @@ constexpr std::array<Field, 5> scanner_table = {
     field<&RackScanner::greatest_points>("greatest_points", 16, 4'000'000, "", "points of marks that are kept; more are counted only"),
 };
 
-constexpr std::array<Field, 6> lens_table = {
-    field<&RackLens::f1_mm>("f1_mm", 1, 10'000, "mm", "image height for the angle"),
-    field<&RackLens::f2_mm>("f2_mm", -1e5, 1e5, "mm", "for its square"),
-    field<&RackLens::f3_mm>("f3_mm", -1e5, 1e5, "mm", "for its cube"),
-    field<&RackLens::f4_mm>("f4_mm", -1e5, 1e5, "mm", "for its fourth power"),
-    field<&RackLens::calibration_deg>("calibration_deg", 1, 22, "deg", "mechanical deflection at 96 % of the range"),
-    field<&RackLens::bits_per_mm>("bits_per_mm", 1, 1e6, "", "of a corrected field, K"),
-};
-
-constexpr std::array<Field, 5> galvo_table = {
-    field<&parts::GalvoSettings::ideal>("ideal", 0, 1, "", "mirrors without lag"),
-    field<&parts::GalvoSettings::dead_us>("dead_us", 0, parts::greatest_dead_us, "us", "dead time, rounded down to 10 us"),
-    field<&parts::GalvoSettings::natural_hz>("natural_hz", 10, 20'000, "Hz", "natural frequency"),
-    field<&parts::GalvoSettings::damping>("damping", 0.1, 10, "", "1: no overshoot"),
-    field<&parts::GalvoSettings::greatest_speed>("greatest_speed", 1, 1e9, "bits/ms", "speed limit"),
-};
-
-constexpr std::array<Field, 3> laser_table = {
-    field<&parts::LaserSettings::power_w>("power_w", 0, 1e5, "W", "mean power while on"),
-    field<&parts::LaserSettings::on_delay_us>("on_delay_us", 0, 1e5, "us", "from the gate to the light"),
-    field<&parts::LaserSettings::off_delay_us>("off_delay_us", 0, 1e5, "us", "from the gate to the dark"),
-};
-
 bool has_encoder(const RackTrack& track) { return track.has_encoder(); }
 bool has_sender(const RackTrack& track) { return track.sender.has_value(); }
 bool has_parts(const RackTrack& track) { return track.passing.has_value(); }
@@ -111,9 +88,9 @@ class MarkingReader {
         RackScanner scanner;
         scanner.name = node.key;
         bool sound = read_fields(node, scanner_fields(), &scanner, {what_, "", "", scanner_tables}, problems_).empty();
-        if (const TomlNode* lens = node.find("lens")) sound = read_sub(*lens, lens_fields(), &scanner.lens.emplace()) && sound;
-        if (const TomlNode* galvo = node.find("galvo")) sound = read_sub(*galvo, galvo_fields(), &scanner.galvo) && sound;
-        if (const TomlNode* laser = node.find("laser")) sound = read_sub(*laser, laser_fields(), &scanner.laser) && sound;
+        if (const TomlNode* lens = node.find("lens")) sound = read_sub(*lens, lens_keys, &scanner.lens.emplace()) && sound;
+        if (const TomlNode* galvo = node.find("galvo")) sound = read_sub(*galvo, galvo_keys, &scanner.galvo) && sound;
+        if (const TomlNode* laser = node.find("laser")) sound = read_sub(*laser, laser_keys, &scanner.laser) && sound;
         if (sound) check(scanner);
         config_.scanners.push_back(std::move(scanner));
     }
@@ -236,9 +213,6 @@ std::span<const Field> track_fields() { return track_table; }
 std::span<const Field> sender_fields() { return sender_table; }
 std::span<const Field> passing_fields() { return passing_table; }
 std::span<const Field> scanner_fields() { return scanner_table; }
-std::span<const Field> lens_fields() { return lens_table; }
-std::span<const Field> galvo_fields() { return galvo_table; }
-std::span<const Field> laser_fields() { return laser_table; }
 std::span<const TrackEnd> track_ends() { return ends; }
 
 void read_marking(const TomlNode* belts, const TomlNode* tables, const TomlNode* scanners, RackConfig& config, Problems& problems) {

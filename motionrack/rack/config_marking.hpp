@@ -1,6 +1,7 @@
 // What a rack file says of marking machines: belts, rotary tables, scan heads.
 #pragma once
 
+#include <motionrack/rack/optics_fields.hpp>
 #include <motionrack/sim/parts/marking_station.hpp>
 #include <motionrack/sim/parts/position_sender.hpp>
 #include <optional>
@@ -43,12 +44,6 @@ struct RackTrack {
 
 /// What the encoder of a track can show, counts a second; what can pass a sensor, parts a second.
 inline constexpr double greatest_track_counts = 1e7, greatest_parts = 1e5;
-
-struct RackLens {
-    double f1_mm = 163.064, f2_mm = -1.259, f3_mm = -21.465, f4_mm = -26.664;
-    double calibration_deg = 11.7, bits_per_mm = 8656;
-    sim::ScanLens lens() const { return {{f1_mm, f2_mm, f3_mm, f4_mm}, calibration_deg, bits_per_mm}; }
-};
 
 /// A scan head with its laser over a part; see parts::StationSettings.
 struct RackScanner {

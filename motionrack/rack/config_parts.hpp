@@ -29,9 +29,6 @@ std::span<const Field> track_fields();       ///< [belt.NAME], [table.NAME] into
 std::span<const Field> sender_fields();      ///< [belt.NAME.sender] into parts::SenderSettings
 std::span<const Field> passing_fields();     ///< [belt.NAME.parts] into RackParts
 std::span<const Field> scanner_fields();     ///< [scanner.NAME] into RackScanner
-std::span<const Field> lens_fields();        ///< [scanner.NAME.lens] into RackLens
-std::span<const Field> galvo_fields();       ///< [scanner.NAME.galvo] into parts::GalvoSettings
-std::span<const Field> laser_fields();       ///< [scanner.NAME.laser] into parts::LaserSettings
 std::span<const Field> controller_fields();  ///< [controller] into RackController
 
 /// An end of a wire at an axis' parts.

@@ -118,9 +118,9 @@ std::string rack_file_reference() {
     out += "## [scanner.NAME]\nMirrors, lens and laser over a part, which keeps what was marked; driven by a card of type rtc5.\n\n" +
            fields_table(scanner_fields(), &scanner, &scanner);
     out += "## [scanner.NAME.lens]\nWith the section, even an empty one, the field is that of two mirrors and an f-theta lens.\n\n" +
-           fields_table(lens_fields(), &lens, &lens);
-    out += "## [scanner.NAME.galvo]\n" + fields_table(galvo_fields(), &scanner.galvo, &scanner.galvo);
-    out += "## [scanner.NAME.laser]\n" + fields_table(laser_fields(), &scanner.laser, &scanner.laser);
+           fields_table(lens_keys, &lens, &lens);
+    out += "## [scanner.NAME.galvo]\n" + fields_table(galvo_keys, &scanner.galvo, &scanner.galvo);
+    out += "## [scanner.NAME.laser]\n" + fields_table(laser_keys, &scanner.laser, &scanner.laser);
     out += "## [controller]\n" + fields_table(controller_fields(), &rack.controller, &rack.controller);
     out += wires_text();
     out += "## Card types\n\n";

@@ -196,11 +196,11 @@ std::string marking() {
     out.section("scanner.head", "mirrors and laser over the belt, and the part, which keeps what was marked");
     out.fields(scanner_fields(), &head, &head_defaults, "", {"bits_per_mm"});
     out.section("scanner.head.lens", "the field's optics; leave it out and the field is straight");
-    out.fields(lens_fields(), &lens, &lens, "");
+    out.fields(lens_keys, &lens, &lens, "");
     out.section("scanner.head.galvo", "the mirrors");
-    out.fields(galvo_fields(), &head.galvo, &head_defaults.galvo, "");
+    out.fields(galvo_keys, &head.galvo, &head_defaults.galvo, "");
     out.section("scanner.head.laser", "the laser behind its gate");
-    out.fields(laser_fields(), &head.laser, &head_defaults.laser, "");
+    out.fields(laser_keys, &head.laser, &head_defaults.laser, "");
     out.section("wires", "only what differs from the default rule: input = output that drives it, or \"open\"");
     out.line("# \"scan.enc0_a\" = \"line.enc_b\"          # the encoder's lines crossed over: it counts backwards");
     out.line("# \"scan.enc0_b\" = \"line.enc_a\"");

@@ -57,9 +57,9 @@ std::vector<FieldCase> all_fields() {
         add(passing_fields(), fmt::format("{}.parts", header), 'X', unit, "rtc5");
     }
     add(scanner_fields(), "scanner.head", 'X', "", "rtc5");
-    add(lens_fields(), "scanner.head.lens", 'X', "", "rtc5");
-    add(galvo_fields(), "scanner.head.galvo", 'X', "", "rtc5");
-    add(laser_fields(), "scanner.head.laser", 'X', "", "rtc5");
+    add(lens_keys, "scanner.head.lens", 'X', "", "rtc5");
+    add(galvo_keys, "scanner.head.galvo", 'X', "", "rtc5");
+    add(laser_keys, "scanner.head.laser", 'X', "", "rtc5");
     return out;
 }
 

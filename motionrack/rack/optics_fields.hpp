@@ -1,0 +1,42 @@
+// Lens, mirrors and laser as files say them: rack files and marking jobs have the same keys.
+#pragma once
+
+#include <array>
+#include <motionrack/rack/toml_reader.hpp>
+#include <motionrack/sim/blocks/scan_lens.hpp>
+#include <motionrack/sim/parts/galvo.hpp>
+#include <motionrack/sim/parts/laser_gate.hpp>
+
+namespace motionrack::rack {
+
+/// A section lens; see sim::ScanLens.
+struct RackLens {
+    double f1_mm = 163.064, f2_mm = -1.259, f3_mm = -21.465, f4_mm = -26.664;
+    double calibration_deg = 11.7, bits_per_mm = 8656;
+    sim::ScanLens lens() const { return {{f1_mm, f2_mm, f3_mm, f4_mm}, calibration_deg, bits_per_mm}; }
+};
+
+inline constexpr std::array<Field, 6> lens_keys = {
+    field<&RackLens::f1_mm>("f1_mm", 1, 10'000, "mm", "image height for the angle"),
+    field<&RackLens::f2_mm>("f2_mm", -1e5, 1e5, "mm", "for its square"),
+    field<&RackLens::f3_mm>("f3_mm", -1e5, 1e5, "mm", "for its cube"),
+    field<&RackLens::f4_mm>("f4_mm", -1e5, 1e5, "mm", "for its fourth power"),
+    field<&RackLens::calibration_deg>("calibration_deg", 1, 22, "deg", "mechanical deflection at 96 % of the range"),
+    field<&RackLens::bits_per_mm>("bits_per_mm", 1, 1e6, "bits/mm", "K, of a corrected field"),
+};
+
+inline constexpr std::array<Field, 5> galvo_keys = {
+    field<&parts::GalvoSettings::ideal>("ideal", 0, 1, "", "mirrors without lag"),
+    field<&parts::GalvoSettings::dead_us>("dead_us", 0, parts::greatest_dead_us, "us", "dead time, rounded down to 10 us"),
+    field<&parts::GalvoSettings::natural_hz>("natural_hz", 10, 20'000, "Hz", "natural frequency"),
+    field<&parts::GalvoSettings::damping>("damping", 0.1, 10, "", "1: no overshoot"),
+    field<&parts::GalvoSettings::greatest_speed>("greatest_speed", 1, 1e9, "bits/ms", "speed limit"),
+};
+
+inline constexpr std::array<Field, 3> laser_keys = {
+    field<&parts::LaserSettings::power_w>("power_w", 0, 1e5, "W", "mean power while on"),
+    field<&parts::LaserSettings::on_delay_us>("on_delay_us", 0, 1e5, "us", "from the gate to the light"),
+    field<&parts::LaserSettings::off_delay_us>("off_delay_us", 0, 1e5, "us", "from the gate to the dark"),
+};
+
+}  // namespace motionrack::rack
