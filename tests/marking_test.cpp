@@ -169,6 +169,24 @@ TEST_F(MarkCommand, SaysBeforeTheRunThatAFileCannotBeWritten) {
     EXPECT_THAT(kind.out, HasSubstr("p.gif is neither .svg nor .png"));
 }
 
+TEST_F(MarkCommand, OverwritesNeitherWhatItReadsNorAnotherOutput) {
+    write("mark.svg", "<svg width='10mm' height='10mm' viewBox='0 0 10 10'><path d='M0 0L9 9'/></svg>");
+    write("job.toml", "[drawing]\nsvg = 'mark.svg'\n");
+    for (const char* outputs : {"", "--picture mark.svg", "--picture ''  --report job.toml", "--picture a.svg --report a.svg", "--picture a.svg --picture ./a.svg"}) {
+        const Ran ran = motionrack(std::string("mark job.toml -q ") + outputs);
+        EXPECT_EQ(ran.code, 2) << outputs;
+        EXPECT_THAT(ran.out, HasSubstr("it would be overwritten")) << outputs;
+    }
+    EXPECT_THAT(text_of(folder / "job.toml"), HasSubstr("mark.svg"));
+    EXPECT_EQ(motionrack("mark job.toml -q --picture other.svg").code, 0);
+}
+
+TEST_F(MarkCommand, SearchesTheSpeedThatFitsNoFartherThanAPartCanGo) {
+    write("job.toml", "[drawing]\ntext = '.'\nheight_mm = 0.01\n[belt]\nspeed_mm_s = 60000\ncounts_per_mm = 100\n[fly]\nmode = 'encoder'\n");
+    const Ran ran = motionrack("mark job.toml -q --picture ''");
+    EXPECT_THAT(ran.out, testing::Not(HasSubstr("speed profile"))) << ran.out;
+}
+
 TEST_F(MarkCommand, ShowsItsProgressAndWritesNothingWhenStopped) {
     write("long.toml", "[drawing]\ntext = 'AAAAAAAAAAAAAAAAAAAAAAAA'\n[pace]\nmark_mm_s = 2\n[belt]\nspeed_mm_s = 0.1\n[fly]\nmode = 'encoder'\n[galvo]\nideal = false\n");
     // A terminal of its own, so that there is somebody to show progress to.

@@ -69,7 +69,7 @@ class FitSearch {
     FitSearch(const Job& job, const Prepared& prepared, const Watch& watch) : job_(job), prepared_(prepared), watch_(watch) {}
 
     Result<void> find(const Quick& now, Outcome& out) {
-        constexpr double greatest = 1000;
+        const double greatest = std::min(1000.0, parts::greatest_track_speed / top_speed());
         const double least = std::max(1e-3, now.ticks * 1e-5 / greatest_seconds);
         double low = 1, high = 1;
         out.starts_limit = now.beyond_mm <= 0;
@@ -98,6 +98,11 @@ class FitSearch {
     }
 
   private:
+    double top_speed() const {
+        double top = 0;
+        for (const parts::SpeedPoint& point : following_of(job_).track.profile) top = std::max(top, std::fabs(point.speed));
+        return top;
+    }
     Result<bool> fits(double factor, Outcome& out) {
         MOTIONRACK_TRY(const Quick quick, run_quick(job_, prepared_, factor, watch_));
         if (!quick.fits()) out.starts_limit = quick.beyond_mm <= 0;

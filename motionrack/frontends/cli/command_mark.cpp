@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
@@ -78,6 +79,24 @@ Result<void> write_files(const MarkOptions& options, const mark::Job& job, const
     return {};
 }
 
+/// An output must be neither something that was read nor another output.
+Result<void> check_outputs(const std::vector<std::string>& outputs, std::vector<std::string> taken) {
+    const auto place = [](const std::string& path) {
+        std::error_code none;
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path, none), none);
+    };
+    for (const std::string& path : outputs) {
+        if (path == "-") continue;
+        for (const std::string& other : taken)
+            if (place(path) == place(other))
+                return fail(Trouble::bad_input, fmt::format("{} is already the name of the job, of a file that it reads, or of another output; it would be overwritten. "
+                                                            "Nothing was marked; give --picture or --report another name.", path));
+        taken.push_back(path);
+        MOTIONRACK_CHECK(check_writable(path));
+    }
+    return {};
+}
+
 int run_mark(const MarkOptions& options) {
     const Result<std::string> text = read_text(options.job);
     if (!text) return report(text.error());
@@ -86,19 +105,23 @@ int run_mark(const MarkOptions& options) {
     if (!read.job) return exit_bad_input;
     const std::size_t slash = options.job.rfind('/');
     const std::string folder = slash == std::string::npos ? "" : options.job.substr(0, slash + 1);
-    const auto load = [&](const std::string& path) { return read_text(!path.empty() && path[0] == '/' ? path : folder + path); };
+    std::vector<std::string> inputs = {options.job};
+    const auto load = [&](const std::string& path) {
+        inputs.push_back(!path.empty() && path[0] == '/' ? path : folder + path);
+        return read_text(inputs.back());
+    };
     const Result<mark::Prepared> prepared = mark::prepare(*read.job, load);
     if (!prepared) return report(prepared.error());
     std::vector<std::string> files = options.pictures;
     if (!options.report.empty()) files.push_back(options.report);
-    for (const std::string& path : files)
-        if (const Result<void> good = check_writable(path); !good) return report(good.error());
+    if (const Result<void> good = check_outputs(files, inputs); !good) return report(good.error());
     stop_on_signals();
     ProgressLine progress(options.quiet || options.json);
     const mark::Watch watch{[&](double part) { progress.show(part, "marking"); }, [] { return stop_asked.load(); }};
     const Result<mark::Outcome> outcome = mark::run_job(*read.job, *prepared, watch);
     progress.clear();
     if (!outcome) return report(outcome.error());
+    if (stop_asked) return report(Error{Trouble::stopped, "Stopped; nothing was written."});
     fmt::print("{}", options.json ? json_text(*outcome) + "\n" : mark::outcome_text(*read.job, *outcome));
     if (!options.json)
         for (const std::string& warning : mark::warnings_of(*outcome)) print_warning(warning);
