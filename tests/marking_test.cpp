@@ -181,6 +181,15 @@ TEST_F(MarkCommand, OverwritesNeitherWhatItReadsNorAnotherOutput) {
     EXPECT_EQ(motionrack("mark job.toml -q --picture other.svg").code, 0);
 }
 
+TEST_F(MarkCommand, SaysThatADrawingIsOutsideTheField) {
+    write("job.toml", square + "[fly]\nmode = 'off'\n");
+    EXPECT_EQ(motionrack("mark job.toml -q --picture ''").code, 0);
+    write("job.toml", "[drawing]\ntext = 'I'\nx_mm = 200\n");
+    const Ran ran = motionrack("mark job.toml -q --picture ''");
+    EXPECT_EQ(ran.code, 4);
+    EXPECT_THAT(ran.out, HasSubstr("outside the field"));
+}
+
 TEST_F(MarkCommand, SearchesTheSpeedThatFitsNoFartherThanAPartCanGo) {
     write("job.toml", "[drawing]\ntext = '.'\nheight_mm = 0.01\n[belt]\nspeed_mm_s = 60000\ncounts_per_mm = 100\n[fly]\nmode = 'encoder'\n");
     const Ran ran = motionrack("mark job.toml -q --picture ''");

@@ -62,6 +62,7 @@ std::vector<std::string> warnings_of(const Outcome& out) {
     if (!out.waits && room.mm >= 0 && room.mm < wanted)
         warnings.push_back(fmt::format("only {:.3f} mm are left at the {} edge of the field, less than {:.3g} mm ({:g} % of its width): a little more speed or a start a "
                                        "little later and the correction overflows", room.mm, room.edge, wanted, least_room_part * 100));
+    if (!out.in_field()) warnings.push_back("some of the drawing is outside the field, and was marked on its edge; move the drawing or make it smaller");
     return warnings;
 }
 

@@ -81,6 +81,8 @@ struct Outcome {
     Box field;              ///< mm
     bool waits = false;     ///< marks keep the job's own margin from the field's edge
     std::vector<std::string> notes;
+    /// A part that is not followed has to lie in the field as it is.
+    bool in_field() const { return off || drawing_in_field; }
 };
 
 /// Errors: as Line; refused: waits on a belt that is too fast for them.

@@ -127,7 +127,7 @@ int run_mark(const MarkOptions& options) {
         for (const std::string& warning : mark::warnings_of(*outcome)) print_warning(warning);
     if (const Result<void> done = write_files(options, *read.job, *prepared, *outcome, *text); !done) return report(done.error());
     if (!options.json && !options.quiet && !files.empty()) fmt::print("written: {}\n", fmt::join(files, ", "));
-    return outcome->on.good() ? exit_done : exit_machine;
+    return outcome->on.good() && outcome->in_field() ? exit_done : exit_machine;
 }
 
 }  // namespace
@@ -146,7 +146,7 @@ void add_mark(CLI::App& app, Action& chosen) {
     command->add_flag("-q,--quiet", options->quiet, "no progress");
     command->footer("Example: motionrack mark square.toml --picture square.png --report square.html\n"
                     "Nothing is written if the job is refused or stopped.\n"
-                    "Exit code 4: the correction left the field, or the start of a part was lost, so that not all was marked where it should be.");
+                    "Exit code 4: the drawing or the correction left the field, or the start of a part was lost, so that not all was marked where it should be.");
     command->callback([options, &chosen] {
         std::erase(options->pictures, std::string());
         chosen = [options] { return run_mark(*options); };
