@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
 #include <string>
@@ -10,6 +12,12 @@
 namespace motionrack::rack {
 
 inline RackConfig router() { return *read_rack_text(*rack_template("router")).config; }
+
+/// Of the environment: what picks random programs.
+inline std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
+    const char* text = std::getenv(variable);
+    return text ? std::strtoull(text, nullptr, 0) : otherwise;
+}
 
 struct Done {
     JobOutcome outcome;

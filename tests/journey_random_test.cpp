@@ -9,11 +9,6 @@
 namespace motionrack::rack {
 namespace {
 
-std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
-    const char* text = std::getenv(variable);
-    return text ? std::strtoull(text, nullptr, 0) : otherwise;
-}
-
 /// Drives them one after the other; returns how many the reader took (an arc may bulge beyond the travel).
 int drive_random(test::ProgramSize size) {
     const std::uint64_t first = number_from("MOTIONRACK_SEED", 1), count = number_from("MOTIONRACK_PROGRAMS", 40);

@@ -125,11 +125,6 @@ void disturb(std::uint64_t seed, test::ProgramSize size) {
     }
 }
 
-std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
-    const char* text = std::getenv(variable);
-    return text ? std::strtoull(text, nullptr, 0) : otherwise;
-}
-
 void disturb_many(test::ProgramSize size) {
     const std::uint64_t first = number_from("MOTIONRACK_SEED", 1), count = number_from("MOTIONRACK_PROGRAMS", 10);
     for (std::uint64_t seed = first; seed < first + count && !testing::Test::HasFailure(); ++seed) disturb(seed, size);

@@ -248,17 +248,17 @@ void Stream::stand_here(PathAxes& axes) {
     new_planner(read_to_);
 }
 
-void Stream::take_stop() {
-    if (wish_ == Wish::stop) static_cast<void>(stand());
-}
-
-void Stream::forget_modes() {
+gcode::Settings Stream::fresh_settings() const {
     gcode::Settings settings = settings_.gcode;
     settings.start = interpreter_.position();
     settings.work_offsets = interpreter_.frame().work;
     settings.g28 = interpreter_.frame().g28;
     settings.g30 = interpreter_.frame().g30;
-    interpreter_ = gcode::Interpreter(settings);
+    return settings;
+}
+
+void Stream::forget_modes() {
+    interpreter_ = gcode::Interpreter(fresh_settings());
 }
 
 void Stream::new_planner(const Point& place) {

@@ -76,10 +76,10 @@ class Stream {
     Result<StreamState> drive(bool more_may_come);
     /// The machine was moved otherwise, and these are its axes: programs go on from where they stand. Needs rest.
     void stand_here(PathAxes& axes);
-    /// A stop that came while nothing was driven is done. Needs rest.
-    void take_stop();
     /// A new program, or after a reset: modes as at the start, work offsets kept. Needs rest.
     void forget_modes();
+    /// What forget_modes() leaves: how a program that begins here is read.
+    gcode::Settings fresh_settings() const;
 
     /// Called when the machine passes an event of the program (spindle, message, tool, end), in order.
     void on_event(std::function<void(const gcode::Step&)> call) { on_event_ = std::move(call); }

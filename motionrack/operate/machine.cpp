@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <motionrack/rack/job.hpp>
 #include <utility>
 
 namespace motionrack::operate {
@@ -48,12 +47,21 @@ void Machine::quit() {
 
 // ---- what may be asked --------------------------------------------------------------------------------------------------------------
 
-/// Standing, enabled, and every axis knows where it is.
+/// Standing and enabled.
 Result<void> Machine::ready(const char* what) {
     const auto refuse = [&](const std::string& why) { return fail(Trouble::refused, fmt::format("{}: {}. Nothing was moved.", what, why)); };
     if (state_ == MachineState::disabled) return refuse("the machine is disabled; enable it first");
     if (state_ == MachineState::error_stop) return refuse("the machine stopped on an error; see its alarm, mend the cause and reset it first");
     if (state_ != MachineState::standstill) return refuse(fmt::format("the machine is in state '{}'; stop it, or wait until it stands", name_of(state_)));
+    return {};
+}
+
+/// And every axis knows where it is.
+Result<void> Machine::ready_for_lines(const char* what) {
+    MOTIONRACK_CHECK(ready(what));
+    for (const rack::RackAxis& axis : rack_.config().axes)
+        if (!trusted_[static_cast<std::size_t>(axis.index())])
+            return fail(Trouble::refused, fmt::format("{}: the position of axis {} is not trusted. Home it, or declare where it stands. Nothing was moved.", what, axis.letter));
     return {};
 }
 
@@ -69,20 +77,14 @@ Result<void> Machine::enable(bool on) {
 }
 
 Result<void> Machine::begin_program(std::string text, std::string name) {
-    MOTIONRACK_CHECK(ready("The program was not begun"));
-    for (std::size_t i = 0; i < rack_.axes().size(); ++i)
-        if (!trusted_[static_cast<std::size_t>(rack_.axes()[i].config.index())])
-            return fail(Trouble::refused, fmt::format("The program was not begun: the position of axis {} is not trusted. Home it, or declare where it stands. "
-                                                      "Nothing was moved.", rack_.axes()[i].config.letter));
+    MOTIONRACK_CHECK(ready_for_lines("The program was not begun"));
     stream_->forget_modes();
-    control::gcode::Settings reader = rack::reader_settings(rack_.config());
-    reader.start = stream_->interpreter().position();
-    reader.work_offsets = stream_->interpreter().frame().work;
-    const control::gcode::Check check = control::gcode::check_program(text, reader, 1, name);
+    const control::gcode::Check check = control::gcode::check_program(text, stream_->fresh_settings(), 1, name);
     if (!check.problems.empty()) return tl::unexpected<Error>(check.problems.front());
     program_ = std::move(text);
     program_name_ = std::move(name);
     lines_.emplace(program_);
+    end_ = {};
     line_count_ = static_cast<std::int32_t>(check.lines);
     program_runs_ = true;
     enter(MachineState::moving);
@@ -99,12 +101,8 @@ control::gcode::Outcome<void> Machine::line(std::string_view text, std::int32_t 
     };
     if (program_runs_) return refuse("The line was not taken: a program runs. Stop it or wait for its end.");
     if (!has_room()) return refuse("The line was not taken: there is no room for it until others are driven.");
-    if (state_ != MachineState::moving && state_ != MachineState::hold) {
-        if (Result<void> stands = ready("The line was not taken"); !stands) return refuse(stands.error().message);
-        for (const rack::RackAxis& axis : rack_.config().axes)
-            if (!trusted_[static_cast<std::size_t>(axis.index())])
-                return refuse(fmt::format("The line was not taken: the position of axis {} is not trusted. Home it, or declare where it stands.", axis.letter));
-    }
+    if (state_ != MachineState::moving && state_ != MachineState::hold)
+        if (Result<void> can = ready_for_lines("The line was not taken"); !can) return refuse(can.error().message);
     if (auto read = stream_->line(text, number); !read) return read;
     last_line_ = now();
     if (stream_->has_work() && state_ == MachineState::standstill) enter(MachineState::moving);

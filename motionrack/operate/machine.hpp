@@ -91,7 +91,6 @@ class Machine {
     Instant now() const { return rack_.kernel().now(); }
 
   private:
-    enum class Holder : std::uint8_t { nobody, group, singles };
     /// What the loop is to do for one axis.
     struct JogOrder {
         char axis = 'X';
@@ -116,6 +115,7 @@ class Machine {
     void watch_button();
     bool button_pressed() const;
     Result<void> ready(const char* what);
+    Result<void> ready_for_lines(const char* what);
     void tell();
     AxisStatus look_at(rack::RunningAxis& axis);
     Interrupt& host() { return rack_.cards().front()->host(); }
@@ -125,13 +125,14 @@ class Machine {
     rack::Rack rack_;
     rack::WireDesk desk_;
     std::unique_ptr<control::Stream> stream_;
-    Holder holder_ = Holder::nobody;
+    bool group_holds_ = false;  ///< the card's axes; else each by itself
     std::array<bool, control::axis_count> trusted_ = {};
     MachineState state_ = MachineState::disabled;
     bool quit_ = false, stop_wanted_ = false, reset_wanted_ = false, disable_wanted_ = false;
     // the program, or lines one by one
     std::string program_, program_name_;
     std::optional<control::gcode::Lines> lines_;
+    control::gcode::ProgramEnd end_;
     std::int32_t line_count_ = 0;
     bool program_runs_ = false, single_step_ = false;
     Instant last_line_{};

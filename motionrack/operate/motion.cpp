@@ -32,7 +32,7 @@ Result<void> Machine::start() {
     settings.kept_back = rack_.axes().front().card->kept_back();
     stream_ = std::make_unique<control::Stream>(*group, host(), settings);
     stream_->on_event(settings_.on_event);
-    holder_ = Holder::group;
+    group_holds_ = true;
     rack_.set_stop_flag(stream_->stop_flag());
     rack_.on_slice(settings_.slice, [this] { slice(); });
     tell();
@@ -40,18 +40,18 @@ Result<void> Machine::start() {
 }
 
 Result<void> Machine::take_group() {
-    if (holder_ == Holder::group) return {};
+    if (group_holds_) return {};
     MOTIONRACK_TRY(control::PathAxes * group, rack_.path_axes_here());
     rack_.set_stop_flag(stream_->stop_flag());
     stream_->stand_here(*group);
-    holder_ = Holder::group;
+    group_holds_ = true;
     return {};
 }
 
 Result<control::Axis*> Machine::take_axis(char letter) {
     for (rack::RunningAxis& axis : rack_.axes()) {
         if (axis.config.letter != letter) continue;
-        holder_ = Holder::singles;
+        group_holds_ = false;
         return axis.card->axis(rack_.config(), letter);
     }
     return fail(Trouble::bad_input, fmt::format("There is no axis {}.", letter));
@@ -102,7 +102,6 @@ void Machine::watch_button() {
 void Machine::come_to_rest() {
     stop_wanted_ = false;
     home_stop_ = false;
-    stream_->take_stop();
     if (reset_wanted_ && button_pressed()) status_.why = "Not reset: the emergency stop is still pressed. Release it, then reset.";
     if (std::exchange(reset_wanted_, false) && !button_pressed()) {
         stream_->forget_modes();
@@ -119,16 +118,12 @@ void Machine::come_to_rest() {
 void Machine::feed_program() {
     std::string_view text;
     while (lines_ && stream_->has_room()) {
-        if (stream_->interpreter().modes().ended || !lines_->next(text)) {
+        if (!lines_->next(text)) {
             lines_.reset();
             return;
         }
-        const std::string_view mark = text.substr(0, text.find_last_not_of(" \t\r") + 1);
-        if (mark == "%") {
-            if (lines_->number() > 1) lines_.reset();
-            continue;
-        }
         if (const auto read = stream_->line(text, lines_->number()); !read) return failed(read.error());
+        if (end_.at(stream_->interpreter().block())) lines_.reset();
     }
 }
 
@@ -192,7 +187,7 @@ void Machine::home_all() {
     rack::HomingSettings settings;
     settings.axes = *std::exchange(home_wanted_, std::nullopt);
     settings.stop = &home_stop_;
-    holder_ = Holder::singles;
+    group_holds_ = false;
     const rack::HomingOutcome homed = rack::home_axes(rack_, settings);
     for (const rack::HomedAxis& axis : homed.axes)
         if (axis.begun) trusted_[static_cast<std::size_t>(rack_.config().axis(axis.letter)->index())] = axis.outcome.homed;

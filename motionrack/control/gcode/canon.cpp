@@ -211,17 +211,16 @@ Outcome<void> print_canon(std::string_view text, const Settings& settings, Canon
     CanonPrinter printer(options, put);
     printer.begin(interpreter);
     std::string_view line;
-    bool begun = false;
+    ProgramEnd end;
     while (lines.next(line)) {
         if (auto done = interpreter.line(line, lines.number()); !done) {
             done.error().file = file;
             return done;
         }
-        const Block& block = interpreter.block();
-        if (block.percent && begun) break;
-        begun = begun || block.percent || (block.words | block.g_groups | block.m_groups) != 0;
+        const bool over = end.at(interpreter.block());
+        if (over && interpreter.block().percent) break;
         printer.line(interpreter);
-        if (interpreter.modes().ended) break;
+        if (over) break;
     }
     return {};
 }

@@ -60,6 +60,13 @@ bool Lines::next(std::string_view& line) {
     return true;
 }
 
+bool ProgramEnd::at(const Block& block) {
+    const bool stops = block.has_m(m_stop) && block.m[m_stop] >= 2;
+    const bool closes = block.percent && begun_;
+    begun_ = begun_ || block.percent || (block.words | block.g_groups | block.m_groups) != 0;
+    return stops || closes;
+}
+
 Reader::Reader(std::string_view text, const Settings& settings, std::string file)
     : lines_(text), interpreter_(settings), file_(std::move(file)) {}
 
@@ -74,10 +81,7 @@ Outcome<const Step*> Reader::next_from_lines() {
             }
             return tl::unexpected<Problem>(std::move(done.error()));
         }
-        const Block& block = interpreter_.block();
-        if (block.percent) over_ = begun_;
-        if (block.has_m(m_stop) && block.m[m_stop] >= 2) over_ = true;
-        begun_ = begun_ || block.percent || (block.words | block.g_groups | block.m_groups) != 0;
+        over_ = end_.at(interpreter_.block());
         if (const Step* step = interpreter_.pull()) return step;
     }
     over_ = true;

@@ -27,6 +27,16 @@ class Lines {
     bool skip_ = false;
 };
 
+/// Where a program is over: after M2 or M30, or at a lone '%' that is not its first line with anything on it.
+class ProgramEnd {
+  public:
+    /// For each line that was read, in order: whether it was the last one.
+    bool at(const Block& block);
+
+  private:
+    bool begun_ = false;
+};
+
 /// Pulls the steps of a program one by one:
 ///
 ///     Reader reader(text, settings, "part.ngc");
@@ -59,7 +69,7 @@ class Reader {
     Lines lines_;
     Interpreter interpreter_;
     std::string file_;
-    bool begun_ = false;
+    ProgramEnd end_;
     bool over_ = false;
 };
 

@@ -93,6 +93,13 @@ TEST(AMachine, DrivesAProgramToItsEnd) {
     EXPECT_THAT(o.events, testing::Contains(control::gcode::StepKind::end));
 }
 
+TEST(AMachine, TakesALonePercentSignAfterBlankLinesForTheBegin) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("\n\n%\nG21 G90 F1200\nG1 X30\n%\nG1 X5\n", "p.ngc")); });
+    o.run(5);
+    EXPECT_NEAR(o.x(), 30, 0.5 / 640);
+}
+
 TEST(AMachine, RefusesAProgramWithItsFirstProblemAndMovesNothing) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
