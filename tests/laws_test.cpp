@@ -77,7 +77,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
               "databoard4002/map", "databoard4002/model", "databoard4002/axes", "ioflex02/map", "ioflex02/model",
               "grating_bus/map", "grating_bus/model", "grating_bus/processor", "rtc5/map", "rtc5/model"}},
     {"mark", {"base", "sim", "parts", "control", "trace", "rack", "rtc5/map", "rtc5/model"}},
-    {"operate", {"base", "control", "rack"}},
+    {"operate", {"base", "control", "rack", "live"}},
     {"calls", {"base"}},
     {"frontends", {"base", "calls", "mark", "live", "control", "decode", "trace", "rack", "dds", "grating_bus/map", "grating_bus/model", "c.h"}},
     {"flex2pos", {"base", "calls", "rack", "frontends", "flex2pos.h", "ioflex02/map", "ioflex02/driver"}},

@@ -29,8 +29,9 @@
 namespace motionrack::operate {
 
 struct MachineSettings {
-    /// Called every slice on the motion thread; returns when the world may run on. Empty: as fast as possible.
-    std::function<void(Instant now)> pace = {};
+    /// Called every slice on the motion thread, which hears what was posted and asks again until it is true: the world may run on.
+    /// It waits a few ms at most. Empty: as fast as possible.
+    std::function<bool(Instant now)> pace = {};
     std::function<void(const Status&)> on_status = {};  ///< every slice, on the motion thread
     std::function<void(const control::gcode::Step&)> on_event = {};  ///< the machine passes an event of a program
     Duration slice = milliseconds(2);
@@ -103,6 +104,7 @@ class Machine {
     Result<void> take_group();
     Result<control::Axis*> take_axis(char letter);
     void slice();
+    void hear();
     void step();
     void drive();
     void feed_program();

@@ -66,14 +66,21 @@ void Machine::run() {
 
 /// Between two runs of the kernel, perhaps in the middle of a drive.
 void Machine::slice() {
-    if (settings_.pace) settings_.pace(now());
+    bool on = false;
+    while (!on) {
+        on = !settings_.pace || settings_.pace(now()) || quit_;
+        hear();
+        tell();
+    }
+}
+
+void Machine::hear() {
     std::vector<std::function<void()>> work;
     {
         const std::lock_guard<std::mutex> alone(lock_);
         work.swap(inbox_);
     }
     for (const std::function<void()>& one : work) one();
-    tell();
 }
 
 void Machine::step() {
