@@ -1,0 +1,107 @@
+// The journal of a rack: what happened, in order, safe on disk before anybody is told that it is.
+//
+//   any thread ──write──► [ queue ] ──► writing thread: one transaction for all that wait ──fsync──► done(number)
+//              ──keep───►  newest of each key ──┘
+//
+//   run 7   17:02:11  job       part.ngc began, 118 lines
+//           17:02:40  alarm     limit plus of X
+//           17:02:40  position  X 12.5, Y 3
+//   (killed)                                        ◄── the next run finds no end of this one: LastRun::clean is false
+//
+// A file of SQLite with a write-ahead log; one program at a time writes it.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <motionrack/base/result.hpp>
+#include <motionrack/base/time.hpp>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace motionrack::journal {
+
+class Database;
+class FileLock;
+
+struct Entry {
+    std::int64_t number = 0;  ///< from 1, over all runs
+    std::int64_t run = 0;     ///< from 1: the program's runs with this file
+    std::int64_t utc_ms = 0;  ///< since 1970
+    Instant at{};             ///< the rack's time
+    std::string kind;         ///< "run", "job", "order", "state", "alarm", "position", "setting", "audit"
+    std::string text;         ///< a sentence
+    std::string data;         ///< JSON; may be empty
+};
+
+/// How the run before this one left the file.
+struct LastRun {
+    std::int64_t run = 0;
+    bool clean = false;        ///< it ended by itself; else it was killed, or the computer stopped
+    std::int64_t last_ms = 0;  ///< utc of the last that it wrote
+    std::map<std::string, std::string> kept;
+};
+
+struct Question {
+    std::int64_t after = 0;   ///< entries with greater numbers
+    std::string kind = {};    ///< empty: all
+    int limit = 100;          ///< 1 .. 10000; the newest ones
+};
+
+class Journal {
+  public:
+    /// Called on the writing thread.
+    using Done = std::function<void(const Result<std::int64_t>& number)>;
+
+    /// Begins a run. Errors: io (the file cannot be made, is no journal, or belongs to a program that runs; it is left as it is).
+    static Result<std::unique_ptr<Journal>> open(const std::string& path);
+    /// Ends without a word, as a crash does, unless it was closed; what waits is written.
+    ~Journal();
+
+    /// Any thread, never waits. `done` hears the entry's number when it is on disk, or why it is not (io).
+    void write(Instant at, std::string kind, std::string text, std::string data = {}, Done done = {});
+    /// Any thread: `value` in place of the one that was kept under this key.
+    void keep(std::string key, std::string value);
+    /// Writes what waits and ends the run clean. Errors: io.
+    Result<void> close();
+
+    /// Any thread: the newest entries that fit, oldest first. Errors: io, bad_input (limit).
+    Result<std::vector<Entry>> read(const Question& question) const;
+    /// Nothing: this is the first run.
+    const std::optional<LastRun>& before() const { return before_; }
+    std::int64_t run() const { return run_; }
+
+    /// Older entries than these go when a run begins.
+    static constexpr std::int64_t most_entries = 1'000'000;
+    /// More than these waiting are refused: the disk does not follow.
+    static constexpr std::size_t most_waiting = 100'000;
+
+  private:
+    struct Waiting {
+        Entry entry;
+        Done done;
+    };
+    Journal(std::unique_ptr<FileLock> lock, std::unique_ptr<Database> writer, std::unique_ptr<Database> reader);
+    Result<void> begin();
+    void work();
+    Result<void> store(std::vector<Waiting>& entries, const std::map<std::string, std::string>& kept);
+
+    std::unique_ptr<FileLock> lock_;
+    std::unique_ptr<Database> writer_, reader_;
+    std::int64_t run_ = 0;
+    std::optional<LastRun> before_;
+    mutable std::mutex reading_;
+    std::mutex alone_;
+    std::condition_variable news_;
+    std::vector<Waiting> waiting_;
+    std::map<std::string, std::string> keeping_;
+    bool quit_ = false;
+    std::thread thread_;
+};
+
+}  // namespace motionrack::journal

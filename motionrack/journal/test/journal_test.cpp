@@ -1,0 +1,214 @@
+// What a journal promises: in order, on disk when it says so, whole after any end of the program.
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <motionrack/journal/journal.hpp>
+#include <random>
+#include <thread>
+
+namespace motionrack::journal {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AJournal : public testing::Test {
+  protected:
+    AJournal() : path_((fs::path(testing::TempDir()) / ("journal_" + std::to_string(::getpid()) + ".db")).string()) { remove(); }
+    ~AJournal() override { remove(); }
+    void remove() const {
+        for (const char* end : {"", "-wal", "-shm", ".lock"}) fs::remove(path_ + end);
+    }
+    std::unique_ptr<Journal> open() const {
+        Result<std::unique_ptr<Journal>> journal = Journal::open(path_);
+        EXPECT_TRUE(journal) << journal.error().message;
+        return journal ? std::move(*journal) : nullptr;
+    }
+    /// Waits until it is on disk.
+    static std::int64_t write(Journal& journal, std::string kind, std::string text) {
+        std::promise<std::int64_t> number;
+        journal.write(Instant{7}, std::move(kind), std::move(text), "{}", [&](const Result<std::int64_t>& done) { number.set_value(done ? *done : -1); });
+        return number.get_future().get();
+    }
+
+    /// As another program sees the file.
+    std::map<std::int64_t, std::string> all_entries() const {
+        std::map<std::int64_t, std::string> out;
+        sqlite3* file = nullptr;
+        EXPECT_EQ(sqlite3_open(path_.c_str(), &file), SQLITE_OK);
+        const auto take = [](void* into, int, char** values, char**) {
+            (*static_cast<std::map<std::int64_t, std::string>*>(into))[std::stoll(values[0])] = values[1];
+            return 0;
+        };
+        EXPECT_EQ(sqlite3_exec(file, "SELECT number, text FROM entry", take, &out, nullptr), SQLITE_OK);
+        sqlite3_close(file);
+        return out;
+    }
+
+    std::string path_;
+};
+
+TEST_F(AJournal, KeepsEntriesInOrderAndGivesTheNewest) {
+    auto journal = open();
+    for (int i = 1; i <= 50; ++i) journal->write(Instant{i}, i % 2 == 0 ? "order" : "state", "entry " + std::to_string(i));
+    EXPECT_EQ(write(*journal, "job", "the last"), 51);
+    const auto newest = journal->read({0, "", 3});
+    ASSERT_TRUE(newest);
+    ASSERT_EQ(newest->size(), 3u);
+    EXPECT_EQ((*newest)[0].text, "entry 49");
+    EXPECT_EQ((*newest)[2].text, "the last");
+    EXPECT_EQ((*newest)[2].at, Instant{7});
+    EXPECT_EQ((*newest)[2].run, 1);
+    EXPECT_EQ(journal->read({0, "order", 100})->size(), 25u);
+    EXPECT_EQ(journal->read({48, "", 100})->front().number, 49);
+    EXPECT_FALSE(journal->read({0, "", 0}));
+    EXPECT_FALSE(journal->read({0, "", 10001}));
+}
+
+TEST_F(AJournal, KnowsWhetherTheRunBeforeEndedByItself) {
+    {
+        auto journal = open();
+        EXPECT_FALSE(journal->before());
+        journal->keep("positions", "1");
+        journal->keep("positions", "2");
+        journal->keep("job", "part.ngc");
+        ASSERT_TRUE(journal->close());
+    }
+    {
+        auto journal = open();
+        ASSERT_TRUE(journal->before());
+        EXPECT_TRUE(journal->before()->clean);
+        EXPECT_EQ(journal->before()->run, 1);
+        EXPECT_EQ(journal->before()->kept, (std::map<std::string, std::string>{{"positions", "2"}, {"job", "part.ngc"}}));
+        EXPECT_EQ(journal->run(), 2);
+        write(*journal, "state", "moving");
+    }
+    auto journal = open();
+    EXPECT_FALSE(journal->before()->clean);
+    EXPECT_GT(journal->before()->last_ms, 1'700'000'000'000);
+    EXPECT_EQ(journal->read({})->front().run, 2);
+}
+
+TEST_F(AJournal, BelongsToOneProgramAtATime) {
+    auto journal = open();
+    const auto second = Journal::open(path_);
+    ASSERT_FALSE(second);
+    EXPECT_NE(second.error().message.find("belongs to another program"), std::string::npos) << second.error().message;
+    write(*journal, "state", "still mine");
+}
+
+TEST_F(AJournal, LeavesFilesThatAreNoJournalAsTheyAre) {
+    std::ofstream(path_) << "these are my notes, not a database, and they are long enough to be seen as a damaged one................";
+    const auto refused = Journal::open(path_);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("left as it is"), std::string::npos) << refused.error().message;
+    std::ifstream file(path_);
+    std::string line;
+    std::getline(file, line);
+    EXPECT_EQ(line.substr(0, 18), "these are my notes");
+    fs::remove(path_);
+
+    sqlite3* other = nullptr;
+    ASSERT_EQ(sqlite3_open(path_.c_str(), &other), SQLITE_OK);
+    sqlite3_exec(other, "CREATE TABLE customer (name TEXT)", nullptr, nullptr, nullptr);
+    sqlite3_close(other);
+    EXPECT_NE(Journal::open(path_).error().message.find("no journal"), std::string::npos);
+    EXPECT_NE(Journal::open("/proc/nowhere/journal.db").error().message.find("cannot be made"), std::string::npos);
+}
+
+TEST_F(AJournal, RefusesAVersionThatItDoesNotKnow) {
+    open()->close();
+    sqlite3* file = nullptr;
+    ASSERT_EQ(sqlite3_open(path_.c_str(), &file), SQLITE_OK);
+    sqlite3_exec(file, "PRAGMA user_version = 9", nullptr, nullptr, nullptr);
+    sqlite3_close(file);
+    const auto refused = Journal::open(path_);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("version 9"), std::string::npos) << refused.error().message;
+}
+
+TEST_F(AJournal, SaysWhenTheDiskDoesNotTakeIt) {
+    auto journal = open();
+    EXPECT_EQ(write(*journal, "state", "fits"), 1);
+    sqlite3* other = nullptr;
+    ASSERT_EQ(sqlite3_open(path_.c_str(), &other), SQLITE_OK);
+    sqlite3_exec(other, "DROP TABLE entry", nullptr, nullptr, nullptr);
+    sqlite3_close(other);
+    EXPECT_EQ(write(*journal, "state", "does not"), -1);
+    EXPECT_FALSE(journal->read({}));
+}
+
+TEST_F(AJournal, TakesEntriesOfManyThreads) {
+    auto journal = open();
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; ++t)
+        threads.emplace_back([&journal, t] {
+            for (int i = 0; i < 200; ++i) {
+                if (i % 20 == 0)
+                    EXPECT_GT(write(*journal, "order", std::to_string(t) + "/" + std::to_string(i)), 0);
+                else
+                    journal->write(Instant{i}, "order", std::to_string(t) + "/" + std::to_string(i));
+                if (i % 10 == 0) {
+                    EXPECT_TRUE(journal->read({0, "order", 5}));
+                }
+            }
+        });
+    for (std::thread& one : threads) one.join();
+    write(*journal, "state", "end");
+    EXPECT_EQ(journal->read({0, "order", 1000})->size(), 800u);
+}
+
+/// Writes as fast as it can and tells each number through the pipe once it is acknowledged.
+[[noreturn]] void write_until_killed(const std::string& path, int pipe_in) {
+    auto journal = Journal::open(path);
+    if (!journal) ::_exit(1);
+    for (int i = 0;; ++i) {
+        (*journal)->write(Instant{i}, "order", "order " + std::to_string(i), {}, [pipe_in, i](const Result<std::int64_t>& number) {
+            const std::int64_t told[2] = {number ? *number : -1, i};
+            if (::write(pipe_in, told, sizeof told) != sizeof told) ::_exit(2);
+        });
+        (*journal)->keep("line", std::to_string(i));
+        if (i % 16 == 15) std::this_thread::yield();
+        if (i % 4096 == 4095) ::usleep(1000);  // lets the queue empty
+    }
+}
+
+TEST_F(AJournal, LosesNothingThatWasAcknowledgedInAHundredKills) {
+    const std::uint32_t seed = std::random_device{}();
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random(seed);
+    std::vector<std::pair<std::int64_t, std::int64_t>> told;
+    for (int kill_count = 0; kill_count < 100; ++kill_count) {
+        int ends[2];
+        ASSERT_EQ(::pipe(ends), 0);
+        const pid_t child = ::fork();
+        if (child == 0) write_until_killed(path_, ends[1]);
+        ::close(ends[1]);
+        const auto wanted = std::uniform_int_distribution<int>(0, 400)(random);
+        std::int64_t one[2];
+        for (int i = 0; i < wanted && ::read(ends[0], one, sizeof one) == sizeof one; ++i) told.emplace_back(one[0], one[1]);
+        ::kill(child, SIGKILL);
+        while (::read(ends[0], one, sizeof one) == sizeof one) told.emplace_back(one[0], one[1]);
+        ::close(ends[0]);
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        ASSERT_TRUE(WIFSIGNALED(status)) << "the child ended by itself with " << WEXITSTATUS(status);
+    }
+    auto journal = open();
+    ASSERT_TRUE(journal->before());
+    EXPECT_FALSE(journal->before()->clean);
+    const std::map<std::int64_t, std::string> kept = all_entries();
+    EXPECT_GT(told.size(), 1000u);
+    for (const auto& [number, order] : told) {
+        ASSERT_TRUE(kept.count(number) == 1) << "entry " << number << " was acknowledged";
+        ASSERT_EQ(kept.at(number), "order " + std::to_string(order));
+    }
+}
+
+}  // namespace
+}  // namespace motionrack::journal
