@@ -6,7 +6,7 @@ set(motionrack_public_packages "fmt 9" "tl-expected 1.0" "tomlplusplus 3.3" "ZLI
 # Those of them that are libraries, as a linker calls them.
 set(motionrack_linked_libraries fmt tomlplusplus z)
 # Headers that only our own sources include.
-set(motionrack_private_packages "nlohmann_json 3.11" "CLI11 2.1" "CycloneDDS 0.10" "pugixml 1.13" "SQLite3 3.40")
+set(motionrack_private_packages "nlohmann_json 3.11" "CLI11 2.1" "CycloneDDS 0.10" "pugixml 1.13" "SQLite3 3.40" "OpenSSL 3.0" "Boost 1.81")
 
 # Those of them that have no CMake package, by their pkg-config names: pictures as PNG.
 set(motionrack_private_modules "librsvg-2.0>=2.54" "cairo-png>=1.16")
