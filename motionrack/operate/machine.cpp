@@ -23,13 +23,25 @@ std::string_view name_of(MachineState state) {
     return "";
 }
 
-Machine::Machine(const rack::RackConfig& config, MachineSettings settings) : settings_(std::move(settings)), rack_(config), desk_(rack_) {}
+namespace {
+
+rack::RackConfig placed(rack::RackConfig config, const std::vector<Standing>& standing) {
+    for (const Standing& one : standing)
+        for (rack::RackAxis& axis : config.axes)
+            if (axis.letter == one.letter) axis.start_position = one.place;
+    return config;
+}
+
+}  // namespace
+
+Machine::Machine(const rack::RackConfig& config, MachineSettings settings)
+    : settings_(std::move(settings)), rack_(placed(config, settings_.standing)), desk_(rack_) {}
 
 Machine::~Machine() = default;
 
 Result<std::unique_ptr<Machine>> Machine::make(const rack::RackConfig& config, MachineSettings settings) {
     std::unique_ptr<Machine> machine(new Machine(config, std::move(settings)));
-    MOTIONRACK_CHECK(machine->start());
+    MOTIONRACK_CHECK(machine->start(config));
     return machine;
 }
 

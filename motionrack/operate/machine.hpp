@@ -34,6 +34,8 @@ struct MachineSettings {
     std::function<bool(Instant now)> pace = {};
     std::function<void(const Status&)> on_status = {};  ///< every slice, on the motion thread
     std::function<void(const control::gcode::Step&)> on_event = {};  ///< the machine passes an event of a program
+    std::vector<Standing> standing = {};  ///< axes that do not begin where the rack's file says
+    std::string alarm = {};               ///< the machine begins with it, if there is one
     Duration slice = milliseconds(2);
     Duration quiet = milliseconds(20);  ///< a sender that has said nothing for so long has said all for now
     std::size_t most_alarms = 100;      ///< the oldest that are over go first
@@ -42,7 +44,7 @@ struct MachineSettings {
 class Machine {
   public:
     /// Builds and starts the rack. Axes of a rack without any home switch stand where its file says; the others' positions are not
-    /// trusted. Errors: as Rack::path_axes.
+    /// trusted; but see `standing`. Errors: as Rack::path_axes.
     static Result<std::unique_ptr<Machine>> make(const rack::RackConfig& config, MachineSettings settings);
     ~Machine();
 
@@ -100,7 +102,8 @@ class Machine {
     };
 
     Machine(const rack::RackConfig& config, MachineSettings settings);
-    Result<void> start();
+    Result<void> start(const rack::RackConfig& config);
+    Result<void> stand(rack::RunningAxis& axis, bool known);
     Result<void> take_group();
     Result<control::Axis*> take_axis(char letter);
     void slice();

@@ -16,18 +16,23 @@ bool can_home(const rack::RackAxis& axis) { return axis.switches.home || axis.sw
 
 // ---- who holds the card's axes ------------------------------------------------------------------------------------------------------
 
-Result<void> Machine::start() {
+/// `known`: nobody could find out by homing.
+Result<void> Machine::stand(rack::RunningAxis& axis, bool known) {
+    MOTIONRACK_TRY(control::Axis * one, axis.card->axis(rack_.config(), axis.config.letter));
+    Standing here{axis.config.letter, axis.config.start_position, axis.config.start_position, known};
+    for (const Standing& told : settings_.standing)
+        if (told.letter == here.letter) here = told;
+    trusted_[static_cast<std::size_t>(axis.config.index())] = here.trusted;
+    return here.trusted ? one->set_position(here.commanded) : Result<void>();
+}
+
+Result<void> Machine::start(const rack::RackConfig& config) {
     rack_.start();
     const bool known = std::none_of(rack_.axes().begin(), rack_.axes().end(), [](const rack::RunningAxis& axis) { return can_home(axis.config); });
-    for (const rack::RunningAxis& axis : rack_.axes()) {
-        MOTIONRACK_TRY(control::Axis * one, axis.card->axis(rack_.config(), axis.config.letter));
-        if (!known) continue;
-        MOTIONRACK_CHECK(one->set_position(axis.config.start_position));
-        trusted_[static_cast<std::size_t>(axis.config.index())] = true;
-    }
+    for (rack::RunningAxis& axis : rack_.axes()) MOTIONRACK_CHECK(stand(axis, known));
     MOTIONRACK_TRY(control::PathAxes * group, rack_.path_axes_here());
     control::StreamSettings settings;
-    settings.gcode = rack::reader_settings(rack_.config());
+    settings.gcode = rack::reader_settings(config);
     settings.gcode.start = group->commanded_position();
     settings.kept_back = rack_.axes().front().card->kept_back();
     stream_ = std::make_unique<control::Stream>(*group, host(), settings);
@@ -35,6 +40,7 @@ Result<void> Machine::start() {
     group_holds_ = true;
     rack_.set_stop_flag(stream_->stop_flag());
     rack_.on_slice(settings_.slice, [this] { slice(); });
+    if (!settings_.alarm.empty()) raise(settings_.alarm);
     tell();
     return {};
 }
@@ -245,6 +251,7 @@ AxisStatus Machine::look_at(rack::RunningAxis& axis) {
     out.commanded = static_cast<double>(out.pulses) / axis.config.pulses_per_unit();
     const double counts = axis.config.counts_per_unit();
     out.actual = counts > 0 ? static_cast<double>(out.counts) / counts : out.commanded;
+    out.place = axis.machine->position(now());
     out.speed = axis.speed(now());
     return out;
 }

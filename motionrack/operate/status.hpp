@@ -38,9 +38,18 @@ struct AxisStatus {
     bool trusted = false;       ///< the positions mean places of the machine
     double commanded = 0;       ///< what the card's pulses say
     double actual = 0;          ///< what the encoder says; commanded without one
+    double place = 0;           ///< where the table really is, whatever any counter says
     double speed = 0;           ///< a second, signed
     std::int64_t pulses = 0;    ///< the card's counters
     std::int64_t counts = 0;
+};
+
+/// Where an axis stands when a machine is made.
+struct Standing {
+    char letter = 'X';
+    double place = 0;      ///< of the table
+    double commanded = 0;  ///< as the card's counter has it
+    bool trusted = false;
 };
 
 struct Status {

@@ -1,0 +1,159 @@
+#include <motionrack/operate/logbook.hpp>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace motionrack::operate {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kept_key = "machine";
+constexpr Duration keep_every = milliseconds(100);
+
+bool stands(MachineState state) {
+    return state == MachineState::disabled || state == MachineState::standstill || state == MachineState::hold || state == MachineState::error_stop;
+}
+
+std::string places(const std::vector<AxisStatus>& axes) {
+    std::string out;
+    for (const AxisStatus& axis : axes)
+        out += fmt::format("{}{} {:.4f} {}{}", out.empty() ? "" : ", ", axis.letter, axis.commanded, axis.rotary ? "deg" : "mm", axis.trusted ? "" : " (not trusted)");
+    return out;
+}
+
+json axes_json(const std::vector<AxisStatus>& axes) {
+    json out = json::array();
+    for (const AxisStatus& axis : axes)
+        out.push_back({{"letter", std::string(1, axis.letter)}, {"place", axis.place}, {"commanded", axis.commanded}, {"trusted", axis.trusted}});
+    return out;
+}
+
+std::string sentence(std::string text) {
+    if (!text.empty() && text.back() != '.') text += '.';
+    return text;
+}
+
+}  // namespace
+
+void Logbook::see(const Status& status) {
+    if (std::exchange(first_, false)) {
+        state_ = status.state;
+        feed_ = status.feed_override;
+        rapid_ = status.rapid_override;
+        for (const AxisStatus& axis : status.axes) trusted_.push_back(axis.trusted);
+        keep(status);
+    }
+    see_alarms(status);
+    see_job(status);
+    see_settings(status);
+    see_positions(status);
+    see_state(status);
+    if (!stands(status.state) && status.at - kept_ >= keep_every) keep(status);
+}
+
+void Logbook::see_state(const Status& status) {
+    const MachineState before = std::exchange(state_, status.state);
+    if (before == state_) return;
+    journal_.write(status.at, "state", sentence(fmt::format("{}{}{}", name_of(state_), status.why.empty() ? "" : ": ", status.why)),
+                   json{{"state", name_of(state_)}, {"before", name_of(before)}}.dump());
+    if (stands(state_) && !stands(before))
+        journal_.write(status.at, "position", fmt::format("Stands at {}.", places(status.axes)), json{{"axes", axes_json(status.axes)}}.dump());
+    keep(status);
+}
+
+void Logbook::see_job(const Status& status) {
+    const bool ran = std::exchange(program_runs_, status.program_runs);
+    if (ran == program_runs_) return;
+    const char* event = "began";
+    std::string text = fmt::format("{} began: {} lines.", status.program, status.lines);
+    if (!program_runs_ && status.state == MachineState::error_stop) {
+        event = "broken off";
+        text = sentence(fmt::format("{} broke off at line {} of {}: {}", status.program, status.line, status.lines, status.why));
+    } else if (!program_runs_ && status.state == MachineState::stopping) {
+        event = "stopped";
+        text = fmt::format("{} was stopped at line {} of {}.", status.program, status.line, status.lines);
+    } else if (!program_runs_) {
+        event = "ended";
+        text = fmt::format("{} ended.", status.program);
+    }
+    journal_.write(status.at, "job", text, json{{"name", status.program}, {"event", event}, {"line", status.line}, {"lines", status.lines}}.dump());
+    keep(status);
+}
+
+void Logbook::see_alarms(const Status& status) {
+    const auto tell = [&](const Alarm& alarm, const char* event, const std::string& text) {
+        journal_.write(status.at, "alarm", text, json{{"number", alarm.number}, {"event", event}}.dump());
+    };
+    for (const Alarm& alarm : status.alarms) {
+        if (alarm.number > last_alarm_) {
+            last_alarm_ = alarm.number;
+            active_.insert(alarm.number);
+            open_.insert(alarm.number);
+            tell(alarm, "raised", alarm.text);
+        }
+        if (!alarm.active && active_.erase(alarm.number) == 1) tell(alarm, "returned", fmt::format("Over: {}", alarm.text));
+        if (alarm.acknowledged && open_.erase(alarm.number) == 1) tell(alarm, "acknowledged", fmt::format("Acknowledged: {}", alarm.text));
+    }
+}
+
+void Logbook::see_settings(const Status& status) {
+    const auto percent = [&](const char* what, double& before, double value) {
+        if (std::exchange(before, value) == value) return;
+        journal_.write(status.at, "setting", fmt::format("{} override {:g} %.", what, value * 100), json{{"name", what}, {"value", value}}.dump());
+    };
+    percent("Feed", feed_, status.feed_override);
+    percent("Rapid", rapid_, status.rapid_override);
+    if (std::exchange(single_step_, status.single_step) != status.single_step)
+        journal_.write(status.at, "setting", fmt::format("Single step {}.", single_step_ ? "on" : "off"), json{{"name", "single step"}, {"value", single_step_}}.dump());
+}
+
+void Logbook::see_positions(const Status& status) {
+    for (std::size_t i = 0; i < status.axes.size() && i < trusted_.size(); ++i) {
+        const AxisStatus& axis = status.axes[i];
+        if (axis.trusted == trusted_[i]) continue;
+        trusted_[i] = axis.trusted;
+        journal_.write(status.at, "position", fmt::format("Axis {}: its position, {:.4f} {}, is {}.", axis.letter, axis.commanded, axis.rotary ? "deg" : "mm", axis.trusted ? "trusted" : "not trusted any more"),
+                       json{{"axes", axes_json({axis})}}.dump());
+        keep(status);
+    }
+}
+
+void Logbook::keep(const Status& status) {
+    kept_ = status.at;
+    journal_.keep(kept_key, json{{"state", name_of(status.state)}, {"program", status.program_runs ? status.program : ""}, {"line", status.line}, {"axes", axes_json(status.axes)}}.dump());
+}
+
+LastStanding read_last(const journal::LastRun& last, const rack::RackConfig& config) {
+    LastStanding out;
+    const auto found = last.kept.find(kept_key);
+    const json kept = json::parse(found == last.kept.end() ? "{}" : found->second, nullptr, false);
+    const auto text = [&](const char* key) { return kept.is_object() && kept.contains(key) && kept[key].is_string() ? kept[key].get<std::string>() : std::string(); };
+    std::string where;
+    if (kept.is_object() && kept.contains("axes") && kept["axes"].is_array()) {
+        for (const json& one : kept["axes"]) {
+            if (!one.is_object() || one.value("letter", json()).type() != json::value_t::string) continue;
+            const std::string letter = one["letter"];
+            const rack::RackAxis* axis = letter.size() == 1 ? config.axis(letter[0]) : nullptr;
+            const json place = one.value("place", json()), commanded = one.value("commanded", json());
+            if (axis == nullptr || !place.is_number() || !commanded.is_number()) continue;
+            const Standing standing{letter[0], place, commanded, last.clean && one.value("trusted", json()) == true};
+            where += fmt::format("{}{} {:.3f}", where.empty() ? "" : ", ", letter, standing.commanded);
+            out.axes.push_back(standing);
+        }
+    }
+    if (last.clean) return out;
+    const std::string program = text("program"), state = text("state");
+    const double line = kept.is_object() && kept.contains("line") && kept["line"].is_number() ? kept["line"].get<double>() : 0;
+    out.sentence = fmt::format("The run before this one was cut off ({:%Y-%m-%d %H:%M:%S} UTC at the latest){}{}{}. No position is trusted: home the machine, or declare where it stands.",
+                               fmt::gmtime(static_cast<std::time_t>(last.last_ms / 1000)), state.empty() ? "" : fmt::format("; the machine's state was '{}'", state),
+                               program.empty() ? "" : fmt::format(", '{}' ran and was at line {}", program, line), where.empty() ? "" : fmt::format(", near {}", where));
+    return out;
+}
+
+}  // namespace motionrack::operate

@@ -1,0 +1,50 @@
+// What a machine does, written into the journal; and what the next run makes of it.
+//
+//   Status, every slice ──see──► state, job, alarm, setting, position entries; "machine" is kept: where the axes are, what runs
+//   LastRun ──read_last──► where the axes stood, a sentence about how it ended     (killed: nothing is trusted)
+#pragma once
+
+#include <motionrack/journal/journal.hpp>
+#include <motionrack/operate/status.hpp>
+#include <motionrack/rack/config.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace motionrack::operate {
+
+/// Only the motion thread uses it; the journal must outlive it.
+class Logbook {
+  public:
+    explicit Logbook(journal::Journal& journal) : journal_(journal) {}
+    /// Of every picture; writes what is another than in the one before.
+    void see(const Status& status);
+
+  private:
+    void see_state(const Status& status);
+    void see_job(const Status& status);
+    void see_alarms(const Status& status);
+    void see_settings(const Status& status);
+    void see_positions(const Status& status);
+    void keep(const Status& status);
+
+    journal::Journal& journal_;
+    bool first_ = true;
+    MachineState state_ = MachineState::disabled;
+    bool program_runs_ = false, single_step_ = false;
+    double feed_ = 1, rapid_ = 1;
+    std::vector<bool> trusted_;
+    std::int64_t last_alarm_ = 0;
+    std::set<std::int64_t> active_, open_;  ///< alarms whose cause is there; that nobody has acknowledged
+    Instant kept_{};
+};
+
+struct LastStanding {
+    std::vector<Standing> axes;  ///< those that this rack has and that stood where they may
+    std::string sentence;        ///< how it ended, if it was cut off; empty: it ended by itself
+};
+/// Nothing is trusted after a run that was cut off. What the journal has no record of is left out.
+LastStanding read_last(const journal::LastRun& last, const rack::RackConfig& config);
+
+}  // namespace motionrack::operate

@@ -1,0 +1,170 @@
+// What the journal holds of a machine, and what the next run makes of it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <motionrack/operate/logbook.hpp>
+#include <motionrack/operate/machine.hpp>
+#include <motionrack/rack/template.hpp>
+
+namespace motionrack::operate {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+rack::RackConfig table() {
+    return *rack::read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n").config;
+}
+
+/// A machine whose pictures go into a journal.
+class ALogbook : public testing::Test {
+  protected:
+    ALogbook() : path_((fs::path(testing::TempDir()) / ("logbook_" + std::to_string(::getpid()) + ".db")).string()) { remove(); }
+    ~ALogbook() override {
+        journal_.reset();
+        remove();
+    }
+    void remove() const {
+        for (const char* end : {"", "-wal", "-shm", ".lock"}) fs::remove(path_ + end);
+    }
+    void open() {
+        journal_ = std::move(*journal::Journal::open(path_));
+        book_.emplace(*journal_);
+    }
+    /// Runs a machine; `order` is called once, when `when` is true of a picture.
+    void run(MachineSettings settings, std::function<bool(const Status&)> when, std::function<void(Machine&)> order, std::function<void(Machine&)> begin) {
+        Machine* machine = nullptr;
+        bool done = false;
+        settings.on_status = [&](const Status& status) {
+            book_->see(status);
+            if (machine != nullptr && quit_on_ && status.state == *quit_on_) machine->quit();
+            if (machine == nullptr || done || !when(status)) return;
+            done = true;
+            machine->post([&machine, order] { order(*machine); });
+        };
+        auto made = Machine::make(table(), std::move(settings));
+        ASSERT_TRUE(made) << made.error().message;
+        machine = made->get();
+        ASSERT_TRUE(machine->enable(true));
+        begin(*machine);
+        machine->run();
+        last_ = machine->status();
+    }
+    void quit_on(MachineState state) { quit_on_ = state; }
+    std::vector<std::string> texts(const char* kind) {
+        std::vector<std::string> out;
+        const auto entries = journal_->read({0, kind, 1000});
+        for (const journal::Entry& entry : *entries) out.push_back(entry.text);
+        return out;
+    }
+    /// As a run that ends by itself does, or as one that is killed.
+    void end(bool clean) {
+        if (clean) {
+            ASSERT_TRUE(journal_->close());
+        }
+        journal_.reset();
+    }
+
+    std::string path_;
+    std::unique_ptr<journal::Journal> journal_;
+    std::optional<Logbook> book_;
+    std::optional<MachineState> quit_on_;
+    Status last_;
+};
+
+TEST_F(ALogbook, TellsWhatRanAndWhereTheMachineStopped) {
+    open();
+    run({}, [](const Status& s) { return s.program == "part.ngc" && !s.program_runs && s.state == MachineState::standstill; }, [](Machine& m) { m.quit(); },
+        [](Machine& m) { ASSERT_TRUE(m.begin_program("G0 X12\nG1 Y3 F600\nM30\n", "part.ngc")); });
+    end(true);
+    open();
+    EXPECT_THAT(texts("job"), ElementsAre("part.ngc began: 3 lines.", "part.ngc ended."));
+    EXPECT_THAT(texts("state"), ElementsAre("moving.", "standstill."));
+    EXPECT_THAT(texts("position"), ElementsAre("Stands at X 12.0000 mm, Y 3.0000 mm."));
+    ASSERT_TRUE(journal_->before());
+    const LastStanding last = read_last(*journal_->before(), table());
+    EXPECT_EQ(last.sentence, "");
+    ASSERT_EQ(last.axes.size(), 2u);
+    EXPECT_NEAR(last.axes[0].place, 12, 1e-9);
+    EXPECT_NEAR(last.axes[0].commanded, 12, 1e-9);
+    EXPECT_TRUE(last.axes[0].trusted);
+}
+
+TEST_F(ALogbook, TheNextRunGoesOnWhereTheMachineStood) {
+    open();
+    run({}, [](const Status& s) { return s.axes[0].commanded == 12 && s.state == MachineState::standstill; }, [](Machine& m) { m.quit(); },
+        [](Machine& m) { ASSERT_TRUE(m.line("G0 X12", 1)); });
+    end(true);
+    open();
+    MachineSettings settings;
+    settings.standing = read_last(*journal_->before(), table()).axes;
+    run(std::move(settings), [](const Status& s) { return s.axes[0].commanded == 15 && s.state == MachineState::standstill; }, [](Machine& m) { m.quit(); },
+        [](Machine& m) {
+            EXPECT_EQ(m.status().axes[0].commanded, 12);
+            EXPECT_TRUE(m.status().axes[0].trusted);
+            ASSERT_TRUE(m.line("G91 G0 X3", 1));
+        });
+    EXPECT_NEAR(last_.axes[0].place, 15, 1e-9);
+}
+
+TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
+    open();
+    // Nothing that the program says as it ends comes into the journal: as if it had been killed in the move.
+    run({}, [](const Status& s) { return s.axes[0].commanded > 50; },
+        [this](Machine& m) {
+            journal_.reset();
+            open();
+            EXPECT_FALSE(journal_->before()->clean);
+            const LastStanding last = read_last(*journal_->before(), table());
+            EXPECT_THAT(last.sentence, HasSubstr("was cut off"));
+            EXPECT_THAT(last.sentence, HasSubstr("'part.ngc' ran and was at line 2"));
+            EXPECT_THAT(last.sentence, HasSubstr("No position is trusted"));
+            EXPECT_NEAR(last.axes[0].place, 50, 12);  // at most 0.1 s ago
+            EXPECT_FALSE(last.axes[0].trusted);
+            m.quit();
+        },
+        [](Machine& m) { ASSERT_TRUE(m.begin_program("(a long way)\nG1 X200 F6000\nM30\n", "part.ngc")); });
+    MachineSettings settings;
+    settings.standing = read_last(*journal_->before(), table()).axes;
+    settings.alarm = read_last(*journal_->before(), table()).sentence;
+    const auto machine = std::move(*Machine::make(table(), std::move(settings)));
+    EXPECT_NEAR(machine->status().axes[0].place, 50, 12);
+    EXPECT_FALSE(machine->status().axes[0].trusted);
+    ASSERT_EQ(machine->status().alarms.size(), 1u);
+    EXPECT_THAT(machine->status().alarms[0].text, HasSubstr("cut off"));
+    ASSERT_TRUE(machine->enable(true));
+    EXPECT_FALSE(machine->begin_program("G0 X1\nM30\n", "again.ngc"));
+}
+
+TEST_F(ALogbook, TellsAlarmsSettingsAndLostTrust) {
+    open();
+    run({}, [](const Status& s) { return s.axes[0].commanded > 50; },
+        [this](Machine& m) {
+            m.set_overrides(0.5, 1);
+            m.set_single_step(true);
+            ASSERT_TRUE(m.wires().set("estop", 0));
+            quit_on(MachineState::error_stop);
+        },
+        [](Machine& m) { ASSERT_TRUE(m.begin_program("G1 X200 F6000\nM30\n", "part.ngc")); });
+    end(true);
+    open();
+    EXPECT_THAT(texts("setting"), ElementsAre("Feed override 50 %.", "Single step on."));
+    EXPECT_THAT(texts("alarm"), Contains(HasSubstr("emergency stop")));
+    EXPECT_THAT(texts("position"), Contains(HasSubstr("not trusted any more")));
+    EXPECT_THAT(texts("job"), Contains(HasSubstr("broke off at line 1")));
+}
+
+TEST_F(ALogbook, MakesNothingOfWhatItCannotRead) {
+    for (const char* kept : {"", "[]", "7", "{\"axes\": 3}", "{\"axes\": [1, {\"letter\": 5}, {\"letter\": \"X\"}, {\"letter\": \"XY\", \"place\": 1, \"commanded\": 1}, {\"letter\": \"Q\", \"place\": 1, \"commanded\": 1}]}", "{\"line\": \"x\", \"state\": 4"}) {
+        const LastStanding last = read_last({1, false, 0, {{"machine", kept}}}, table());
+        EXPECT_TRUE(last.axes.empty()) << kept;
+        EXPECT_THAT(last.sentence, HasSubstr("cut off")) << kept;
+    }
+}
+
+}  // namespace
+}  // namespace motionrack::operate
