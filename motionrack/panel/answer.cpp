@@ -1,0 +1,38 @@
+// Answers as JSON.
+#include <motionrack/panel/answer.hpp>
+
+namespace motionrack::panel {
+
+using nlohmann::json;
+
+Answer done(json fields) {
+    fields["done"] = true;
+    return {200, std::move(fields)};
+}
+
+Answer refused_answer(int status, std::string_view trouble, std::string message) {
+    return {status, {{"error", {{"trouble", trouble}, {"message", std::move(message)}}}}};
+}
+
+Answer error_answer(const Error& error) {
+    const auto make = [&](int status, std::string_view trouble) { return refused_answer(status, trouble, error.message); };
+    Answer answer;
+    switch (error.trouble) {
+        case Trouble::bad_input: answer = make(400, "bad_input"); break;
+        case Trouble::refused:
+        case Trouble::stopped: answer = make(409, "refused"); break;
+        case Trouble::machine: answer = make(500, "machine"); break;
+        case Trouble::io: answer = make(500, "io"); break;
+    }
+    if (error.place.line > 0) answer.body["error"]["line"] = error.place.line;
+    if (error.place.column > 0) answer.body["error"]["column"] = error.place.column;
+    return answer;
+}
+
+json to_json(const Event& event) {
+    return {{"number", event.number}, {"at", to_seconds(event.at)}, {"kind", event.kind}, {"text", event.text}, {"data", event.data}};
+}
+
+std::string text_of(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+}  // namespace motionrack::panel

@@ -1,0 +1,44 @@
+// Who asks, and what is answered: the words between the panel and whoever carries them over a network.
+#pragma once
+
+#include <motionrack/authority/role.hpp>
+#include <motionrack/base/result.hpp>
+#include <motionrack/base/time.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace motionrack::panel {
+
+struct Caller {
+    std::string user;
+    authority::Role role = authority::Role::nobody;
+    std::string session;  ///< one connection or token: what holds the control lease
+};
+
+/// `status` as in HTTP: 200, 400 bad_input, 401 no token, 403 denied, 404 no such name, 409 refused, 500 machine, 503 gone.
+struct Answer {
+    int status = 200;
+    nlohmann::json body;  ///< {"done":true, ...} or {"error":{"trouble","message","line","column"}}
+};
+
+/// {"done":true} and the members of `fields`.
+Answer done(nlohmann::json fields = nlohmann::json::object());
+/// `trouble`: bad_input, refused, denied, machine, io, limit.
+Answer refused_answer(int status, std::string_view trouble, std::string message);
+Answer error_answer(const Error& error);
+
+/// Something that happened, for everybody who looks.
+struct Event {
+    std::int64_t number = 0;  ///< from 1
+    Instant at{};
+    std::string kind;  ///< alarm, state, job, order, setting
+    std::string text;
+    nlohmann::json data;
+};
+nlohmann::json to_json(const Event& event);
+
+/// As JSON text; what is no UTF-8 is replaced.
+std::string text_of(const nlohmann::json& value);
+
+}  // namespace motionrack::panel

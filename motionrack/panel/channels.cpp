@@ -1,0 +1,131 @@
+// The list of channels, and reading those that somebody looks at.
+#include <motionrack/panel/channels.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <motionrack/rack/quantities.hpp>
+#include <motionrack/rack/toml_reader.hpp>
+
+namespace motionrack::panel {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// "position_mm" -> "mm", "speed_deg_s" -> "deg/s"; from the end of a quantity's name.
+std::string_view unit_of(std::string_view name) {
+    static constexpr std::pair<std::string_view, std::string_view> endings[] = {
+        {"_mm_s", "mm/s"}, {"_deg_s", "deg/s"}, {"_mm", "mm"}, {"_deg", "deg"}, {"_nm", "nm"}, {"_us", "us"}, {"_v", "V"}, {"_hz", "Hz"}, {"_j", "J"}};
+    for (const auto& [ending, unit] : endings)
+        if (name.size() > ending.size() && name.substr(name.size() - ending.size()) == ending) return unit;
+    return "";
+}
+
+}  // namespace
+
+ChannelBook::ChannelBook(operate::Machine& machine) {
+    add_axes(machine);
+    add_quantities(machine.rack());
+    add_wires(machine);
+    add_cards(machine.rack());
+}
+
+void ChannelBook::add(std::string name, std::string_view unit, std::string_view text, std::function<double()> read) {
+    std::string key = name;
+    channels_.try_emplace(std::move(key), Channel{std::move(name), std::string(unit), std::string(text), std::move(read)});
+}
+
+void ChannelBook::add_axes(operate::Machine& machine) {
+    using operate::AxisStatus;
+    struct Shown {
+        std::string_view name, unit, text;
+        double (*get)(const AxisStatus&);
+    };
+    static constexpr Shown shown[] = {
+        {"commanded", "{u}", "what the card's pulses say", [](const AxisStatus& axis) { return axis.commanded; }},
+        {"actual", "{u}", "what the encoder says; commanded without one", [](const AxisStatus& axis) { return axis.actual; }},
+        {"error", "{u}", "commanded - actual", [](const AxisStatus& axis) { return axis.commanded - axis.actual; }},
+        {"speed", "{u}/s", "of the rotor, signed", [](const AxisStatus& axis) { return axis.speed; }},
+    };
+    const auto& axes = machine.rack().axes();
+    for (std::size_t i = 0; i < axes.size(); ++i)
+        for (const Shown& one : shown)
+            add(fmt::format("{}.{}", axes[i].config.letter, one.name), rack::with_unit(one.unit, axes[i].config.unit()), one.text,
+                [&machine, i, get = one.get] { return i < machine.status().axes.size() ? get(machine.status().axes[i]) : unknown; });
+}
+
+void ChannelBook::add_quantities(rack::Rack& rack) {
+    const auto put = [&](const std::string& part, const std::string& name, std::string_view text) {
+        const std::string full = part + "." + name;
+        add(full, unit_of(name), text, [&rack, full] { return rack::get_quantity(rack, full).value_or(unknown); });
+    };
+    for (const rack::RunningAxis& axis : rack.axes())
+        for (const rack::Quantity& one : rack::quantities())
+            if (one.present(axis)) put(std::string(1, axis.config.letter), rack::with_unit(one.name, axis.config.unit()), one.doc);
+    for (const rack::RunningStage& stage : rack.stages())
+        for (const rack::StageQuantity& one : rack::stage_quantities())
+            if (!one.of_loop || stage.config.servo) put(stage.config.name, std::string(one.name), one.doc);
+    for (const rack::RunningTrack& track : rack.tracks())
+        for (const rack::TrackQuantity& one : rack::track_quantities())
+            if (one.present(track)) put(track.config.name, rack::with_unit(one.name, track.config.unit()), one.doc);
+    for (const rack::RunningScanner& scanner : rack.scanners())
+        for (const rack::ScannerQuantity& one : rack::scanner_quantities()) put(scanner.config.name, std::string(one.name), one.doc);
+}
+
+void ChannelBook::add_wires(operate::Machine& machine) {
+    rack::WireDesk& wires = machine.wires();
+    for (const rack::WireDesk::Named& wire : wires.names())
+        add(std::string(wire.name), wire.volts ? "V" : "", wire.volts ? "voltage of a wire" : "level of a wire", [&wires, name = std::string(wire.name)] { return wires.get(name).value_or(unknown); });
+}
+
+void ChannelBook::add_cards(rack::Rack& rack) {
+    for (const auto& card : rack.cards()) {
+        for (const std::string_view name : card->quantity_names())
+            add(fmt::format("{}.{}", card->name(), name), unit_of(name), "a number of the card",
+                [&one = *card, name] { return one.quantity(name).value_or(unknown); });
+    }
+}
+
+const Channel* ChannelBook::find(std::string_view name) const {
+    const auto found = channels_.find(name);
+    return found == channels_.end() ? nullptr : &found->second;
+}
+
+Result<std::shared_ptr<ChannelSet>> ChannelBook::set_of(const std::vector<std::string>& names) {
+    if (names.size() > Panel::most_channels)
+        return fail(Trouble::bad_input, fmt::format("{} channels were asked for; {} are the most at once. Nothing was changed.", names.size(), Panel::most_channels));
+    Held held;
+    for (const std::string& name : names) {
+        const Channel* channel = find(name);
+        if (channel == nullptr)
+            return fail(Trouble::bad_input, fmt::format("There is no channel {}; the query channels lists those that there are. Nothing was changed.", rack::in_quotes(name)));
+        held.channels.push_back(channel);
+    }
+    Held& known = sets_[names];
+    if (auto set = known.set.lock()) return set;
+    auto set = std::make_shared<ChannelSet>(names);
+    held.set = set;
+    known = std::move(held);
+    return set;
+}
+
+void ChannelBook::show(std::int64_t sequence, Instant at) {
+    for (auto it = sets_.begin(); it != sets_.end();) {
+        const auto set = it->second.set.lock();
+        if (!set) {
+            it = sets_.erase(it);
+            continue;
+        }
+        auto values = std::make_shared<Values>();
+        values->sequence = sequence;
+        values->at = at;
+        values->numbers.reserve(it->second.channels.size());
+        for (const Channel* channel : it->second.channels) values->numbers.push_back(channel->read());
+        set->show(std::move(values));
+        ++it;
+    }
+}
+
+}  // namespace motionrack::panel

@@ -1,0 +1,53 @@
+// Numbers that people can look at while the machine runs, by name.
+//
+//   "X.commanded"  "X.position_mm"  "c1.xlmtp"  "estop"  "c1.x.LP"  "c1.fout_hz"
+//    status         quantity         wire                 inspect     card's quantity
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <motionrack/operate/machine.hpp>
+#include <motionrack/panel/panel.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::panel {
+
+struct Channel {
+    std::string name;
+    std::string unit;
+    std::string text;  ///< one sentence
+    std::function<double()> read;  ///< on the motion thread, between runs; without effects
+};
+
+class ChannelBook {
+  public:
+    explicit ChannelBook(operate::Machine& machine);
+
+    /// All channels by name.
+    const std::map<std::string, Channel, std::less<>>& all() const { return channels_; }
+    /// nullptr if there is none.
+    const Channel* find(std::string_view name) const;
+    /// Errors: bad_input with the name that there is not, more than Panel::most_channels.
+    Result<std::shared_ptr<ChannelSet>> set_of(const std::vector<std::string>& names);
+    /// Reads the sets that somebody holds, and forgets the others.
+    void show(std::int64_t sequence, Instant at);
+
+  private:
+    void add(std::string name, std::string_view unit, std::string_view text, std::function<double()> read);
+    void add_axes(operate::Machine& machine);
+    void add_quantities(rack::Rack& rack);
+    void add_wires(operate::Machine& machine);
+    void add_cards(rack::Rack& rack);
+
+    struct Held {
+        std::weak_ptr<ChannelSet> set;
+        std::vector<const Channel*> channels;
+    };
+    std::map<std::string, Channel, std::less<>> channels_;
+    std::map<std::vector<std::string>, Held> sets_;
+};
+
+}  // namespace motionrack::panel

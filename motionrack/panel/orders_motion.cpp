@@ -1,0 +1,67 @@
+// Orders that move the machine by hand, stop it, and take control of it.
+#include <fmt/format.h>
+
+#include <array>
+#include <motionrack/panel/desk.hpp>
+
+namespace motionrack::panel {
+
+using nlohmann::json;
+
+namespace {
+
+/// An order that answers nothing but that it was taken.
+Result<json> taken(const Result<void>& result) {
+    if (!result) return tl::unexpected<Error>(result.error());
+    return json::object();
+}
+
+bool stands(operate::MachineState state) {
+    return state == operate::MachineState::disabled || state == operate::MachineState::standstill || state == operate::MachineState::error_stop;
+}
+
+constexpr std::array control = {
+    Doer{"take_control", [](Desk& desk, const Caller& caller, const json& fields) {
+        return taken(desk.lease.take(caller.user, caller.session, fields.value("force", false), stands(desk.machine.state())));
+    }},
+    Doer{"release_control", [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.release(caller.session)); }},
+    Doer{"keep_control", [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.keep(caller.session)); }},
+    Doer{"stop", [](Desk&, const Caller&, const json&) -> Result<json> { return json::object(); }},  // Panel::ask has posted it
+    Doer{"press_estop", [](Desk& desk, const Caller&, const json& fields) { return taken(desk.machine.wires().set("estop", fields.at("pressed").get<bool>() ? 0 : 1)); }},
+};
+
+constexpr std::array motion = {
+    Doer{"enable", [](Desk& desk, const Caller&, const json& fields) { return taken(desk.machine.enable(fields.at("on").get<bool>())); }},
+    Doer{"home", [](Desk& desk, const Caller&, const json& fields) { return taken(desk.machine.home(fields.value("axes", ""))); }},
+    Doer{"jog", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
+        MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
+        const bool again = desk.machine.state() == operate::MachineState::jogging;
+        MOTIONRACK_CHECK(desk.machine.jog(letter, fields.at("speed").get<double>()));
+        return json{{"again", again}};
+    }},
+    Doer{"jog_by", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
+        MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
+        return taken(desk.machine.jog_by(letter, fields.at("distance").get<double>(), fields.at("speed").get<double>()));
+    }},
+    Doer{"declare_position", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
+        MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
+        return taken(desk.machine.declare_position(letter, fields.at("position").get<double>()));
+    }},
+};
+
+}  // namespace
+
+Result<char> axis_of(Desk& desk, const json& fields) {
+    const auto& text = fields.at("axis").get_ref<const std::string&>();
+    std::string known;
+    for (const rack::RackAxis& axis : desk.machine.rack().config().axes) {
+        if (text.size() == 1 && text[0] == axis.letter) return axis.letter;
+        known += axis.letter;
+    }
+    return fail(Trouble::bad_input, fmt::format("There is no axis {}; the machine has: {}. Nothing was moved.", text_of(fields.at("axis")), known));
+}
+
+std::span<const Doer> control_doers() { return control; }
+std::span<const Doer> motion_doers() { return motion; }
+
+}  // namespace motionrack::panel

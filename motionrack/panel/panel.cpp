@@ -1,0 +1,138 @@
+// Asking: checked in the caller's thread, done on the motion thread.
+#include <motionrack/panel/panel.hpp>
+
+#include <fmt/format.h>
+
+#include <motionrack/panel/desk.hpp>
+#include <motionrack/panel/status_text.hpp>
+
+namespace motionrack::panel {
+
+using nlohmann::json;
+
+const std::string& Picture::status_text() const {
+    std::call_once(written_, [this] { text_ = write_(status_); });
+    return text_;
+}
+
+std::string session_mark(std::string_view session) {
+    std::uint64_t hash = 14695981039346656037u;  // FNV-1a
+    for (const char c : session) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+    return fmt::format("{:016x}", hash);
+}
+
+Reply::Call::~Call() {
+    if (call) call(refused_answer(503, "machine", "The machine was shut down before the order was carried out."));
+}
+
+const Event& EventBook::add(Event event) {
+    event.number = next_++;
+    if (events_.size() >= most) events_.pop_front();
+    events_.push_back(std::move(event));
+    for (const auto& call : listeners_) call(events_.back());
+    return events_.back();
+}
+
+/// The motion thread's side.
+class Panel::Inside {
+  public:
+    Inside(Panel& panel, operate::Machine& machine, authority::ControlLease& lease, PanelSettings settings)
+        : panel_(panel), desk_{machine, lease, std::move(settings), {}, ChannelBook(machine)}, writer_(machine) {
+        for (const std::span<const Doer> table : {control_doers(), motion_doers(), program_doers(), looking_doers()})
+            for (const Doer& doer : table) doers_[doer.name] = &doer;
+        for (const std::span<const AskRow> table : {orders(), queries()})
+            for (const AskRow& row : table) MOTIONRACK_ASSERT(row.elsewhere || doers_.count(row.name) == 1);
+        machine.listen([this](const operate::Status& status) { look(status); });
+        show(machine.status());
+    }
+
+    /// Every slice: what changed is told; now and then a picture.
+    void look(const operate::Status& status) {
+        const auto real = std::chrono::steady_clock::now();
+        if (real - shown_ < desk_.settings.picture_every) return;
+        shown_ = real;
+        show(status);
+    }
+
+    void carry_out(const AskRow& row, const Caller& caller, const json& fields, const Reply& reply) {
+        if (row.lease)
+            if (const Result<void> held = desk_.lease.check(caller.session); !held) return reply(error_answer(held.error()));
+        const Doer& doer = *doers_.at(row.name);
+        const auto ready = [this, &row, caller, fields, reply](Result<json> result) { finish(row, caller, fields, reply, std::move(result)); };
+        if (doer.later != nullptr) return doer.later(desk_, caller, fields, ready);
+        ready(doer.now(desk_, caller, fields));
+    }
+
+    Desk& desk() { return desk_; }
+
+  private:
+    void show(const operate::Status& status) {
+        std::atomic_store(&panel_.picture_, std::make_shared<const Picture>(status, writer_.writer(desk_)));
+        desk_.channels.show(status.sequence, status.at);
+    }
+
+    /// Orders that were done are events; the answer waits for the journal.
+    void finish(const AskRow& row, const Caller& caller, const json& fields, const Reply& reply, Result<json> result) {
+        if (!result) return reply(error_answer(result.error()));
+        Answer answer = done(std::move(*result));
+        const bool told = row.role != authority::Role::observe && !row.passing && !answer.body.value("again", false);
+        answer.body.erase("again");
+        if (!told) return reply(std::move(answer));
+        const Event& event = desk_.book.add({0, desk_.machine.now(), "order", sentence(row, caller, fields), {{"order", row.name}, {"user", caller.user}}});
+        if (!desk_.settings.journal) return reply(std::move(answer));
+        desk_.settings.journal(event, caller, [reply, answer = std::move(answer)] { reply(answer); });
+    }
+
+    static std::string sentence(const AskRow& row, const Caller& caller, const json& fields) {
+        std::string out = fmt::format("{}: {}", caller.user.empty() ? "somebody" : caller.user, row.name);
+        for (const auto& [name, value] : fields.items()) {
+            std::string shown = text_of(value);
+            if (shown.size() > 60) shown = fmt::format("({} characters)", shown.size());
+            out += fmt::format(" {}={}", name, shown);
+        }
+        return out;
+    }
+
+    Panel& panel_;
+    Desk desk_;
+    StatusWriter writer_;
+    std::map<std::string_view, const Doer*> doers_;
+    std::chrono::steady_clock::time_point shown_{};
+};
+
+Panel::Panel(operate::Machine& machine, authority::ControlLease& lease, PanelSettings settings) : inside_(std::make_unique<Inside>(*this, machine, lease, std::move(settings))) {}
+
+Panel::~Panel() = default;
+
+void Panel::ask(const Caller& caller, std::string_view name, const json& fields, std::function<void(Answer)> reply) {
+    const AskRow* row = find_row(name);
+    if (row == nullptr) return reply(refused_answer(404, "bad_input", fmt::format("There is no order and no query {}.", text_of(json(name)))));
+    if (caller.role < row->role)
+        return reply(refused_answer(caller.role == authority::Role::nobody ? 401 : 403, "denied",
+                                    fmt::format("{} needs the role {}; {} has the role {}. Nothing was done.", row->name, authority::name_of(row->role),
+                                                caller.user.empty() ? "the caller" : caller.user, authority::name_of(caller.role))));
+    if (const Result<void> good = check_fields(*row, fields); !good) return reply(error_answer(good.error()));
+    if (row->elsewhere) {
+        const auto& handlers = inside_->desk().settings.elsewhere;
+        const auto found = handlers.find(row->name);
+        if (found == handlers.end()) return reply(refused_answer(409, "refused", fmt::format("{} is not possible here.", row->name)));
+        return reply(found->second(caller, fields));
+    }
+    if (name == "stop") stop(caller);
+    inside_->desk().machine.post([this, row, caller, fields, answer = Reply(std::move(reply))] { inside_->carry_out(*row, caller, fields, answer); });
+}
+
+void Panel::stop(const Caller&) {
+    operate::Machine& machine = inside_->desk().machine;
+    machine.post([&machine] { machine.stop(); });
+}
+
+void Panel::subscribe(std::vector<std::string> channels, std::function<void(Result<std::shared_ptr<ChannelSet>>)> ready) {
+    inside_->desk().machine.post([this, channels = std::move(channels), ready = std::move(ready)] { ready(inside_->desk().channels.set_of(channels)); });
+}
+
+void Panel::on_event(std::function<void(const Event&)> call) { inside_->desk().book.listen(std::move(call)); }
+
+const json& Panel::openapi() { return panel::openapi(); }
+
+}  // namespace motionrack::panel

@@ -1,0 +1,41 @@
+// What the motion thread shows: pictures of the machine and values of channels. Made between two runs of the kernel, shared, never changed.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <motionrack/base/time.hpp>
+#include <motionrack/operate/status.hpp>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::panel {
+
+/// The machine at one instant.
+class Picture {
+  public:
+    /// `write` makes the JSON text; it must not look at anything that changes.
+    Picture(operate::Status status, std::function<std::string(const operate::Status&)> write) : status_(std::move(status)), write_(std::move(write)) {}
+
+    std::int64_t sequence() const { return status_.sequence; }
+    Instant at() const { return status_.at; }
+    const operate::Status& status() const { return status_; }
+    /// JSON text; encoded once, by the first who asks, in his thread.
+    const std::string& status_text() const;
+
+  private:
+    operate::Status status_;
+    std::function<std::string(const operate::Status&)> write_;
+    mutable std::once_flag written_;
+    mutable std::string text_;
+};
+
+/// The numbers of a list of channels at one instant, in the list's order. NaN: it cannot be said at present.
+struct Values {
+    std::int64_t sequence = 0;  ///< of the picture that they belong to
+    Instant at{};
+    std::vector<double> numbers;
+};
+
+}  // namespace motionrack::panel

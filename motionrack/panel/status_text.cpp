@@ -1,0 +1,94 @@
+// What the page shows always.
+#include <motionrack/panel/status_text.hpp>
+
+#include <motionrack/panel/desk.hpp>
+#include <utility>
+
+namespace motionrack::panel {
+
+using nlohmann::json;
+
+namespace {
+
+/// A wire of an axis that is low while its switch acts.
+struct Led {
+    std::string_view name, end;
+};
+constexpr Led leds_of_axes[] = {{"hard_minus", "limit_minus"}, {"hard_plus", "limit_plus"}, {"home", "home"}, {"cam", "cam"}};
+
+/// What the motion thread noted for one picture.
+struct Noted {
+    std::vector<std::vector<std::pair<std::string_view, bool>>> leds;  // by axis
+    bool estop_pressed = false;
+    std::optional<authority::ControlLease::Holder> holder;
+    json link, clock;
+};
+
+}  // namespace
+
+/// What does not change.
+struct StatusWriter::Facts {
+    struct Axis {
+        std::string unit;
+        bool can_home = false;
+        double least = 0, greatest = 0, max_speed = 0;
+        std::vector<std::pair<std::string_view, std::string>> leds;  // name, wire
+    };
+    std::vector<Axis> axes;
+};
+
+StatusWriter::StatusWriter(operate::Machine& machine) {
+    auto facts = std::make_shared<Facts>();
+    for (const rack::RackAxis& axis : machine.rack().config().axes) {
+        Facts::Axis one{std::string(axis.unit()), axis.switches.home || axis.switches.has_cam(), axis.min_position, axis.max_position, axis.max_speed, {}};
+        for (const Led& led : leds_of_axes) {
+            const std::string wire = std::string(1, axis.letter) + "." + std::string(led.end);
+            if (machine.wires().knows(wire)) one.leds.emplace_back(led.name, wire);
+        }
+        facts->axes.push_back(std::move(one));
+    }
+    facts_ = std::move(facts);
+}
+
+std::function<std::string(const operate::Status&)> StatusWriter::writer(Desk& desk) const {
+    auto noted = std::make_shared<Noted>();
+    for (const Facts::Axis& axis : facts_->axes) {
+        auto& leds = noted->leds.emplace_back();
+        for (const auto& [name, wire] : axis.leds) leds.emplace_back(name, desk.machine.wires().get(wire).value_or(1) == 0);
+    }
+    noted->estop_pressed = desk.machine.wires().get("estop").value_or(1) == 0;
+    noted->holder = desk.lease.holder();
+    if (desk.settings.link) noted->link = desk.settings.link();
+    return [facts = facts_, noted](const operate::Status& status) {
+        json axes = json::array();
+        for (std::size_t i = 0; i < status.axes.size(); ++i) {
+            const operate::AxisStatus& axis = status.axes[i];
+            const Facts::Axis& fact = facts->axes[i];
+            json leds = json::object();
+            if (axis.trusted) {
+                leds["soft_minus"] = axis.commanded <= fact.least;
+                leds["soft_plus"] = axis.commanded >= fact.greatest;
+            }
+            for (const auto& [name, on] : noted->leds[i]) leds[std::string(name)] = on;
+            axes.push_back({{"letter", std::string(1, axis.letter)}, {"unit", fact.unit}, {"trusted", axis.trusted}, {"can_home", fact.can_home},
+                            {"commanded", axis.commanded}, {"actual", axis.actual}, {"error", axis.commanded - axis.actual}, {"speed", axis.speed},
+                            {"pulses", axis.pulses}, {"counts", axis.counts}, {"min", fact.least}, {"max", fact.greatest}, {"max_speed", fact.max_speed},
+                            {"leds", std::move(leds)}});
+        }
+        json alarms = json::array();
+        for (const operate::Alarm& alarm : status.alarms)
+            alarms.push_back({{"number", alarm.number}, {"at", to_seconds(alarm.at)}, {"text", alarm.text}, {"active", alarm.active}, {"acknowledged", alarm.acknowledged}});
+        json out = {{"at", to_seconds(status.at)}, {"sequence", status.sequence}, {"state", operate::name_of(status.state)}, {"why", status.why}, {"simulation", true},
+                    {"estop", {{"wired", true}, {"pressed", noted->estop_pressed}}},
+                    {"axes", std::move(axes)},
+                    {"program", {{"name", status.program}, {"runs", status.program_runs}, {"line", status.line}, {"lines", status.lines}, {"single_step", status.single_step}}},
+                    {"overrides", {{"feed", status.feed_override}, {"rapid", status.rapid_override}}},
+                    {"alarms", std::move(alarms)}, {"link", noted->link}, {"clock", noted->clock}};
+        json& control = out["control"] = {{"holder", nullptr}};
+        if (noted->holder)
+            control = {{"holder", noted->holder->user}, {"since", noted->holder->since}, {"holder_session", session_mark(noted->holder->session)}};
+        return text_of(out);
+    };
+}
+
+}  // namespace motionrack::panel
