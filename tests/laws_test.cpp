@@ -80,6 +80,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"journal", {"base"}},
     {"operate", {"base", "control", "rack", "live", "journal"}},
     {"authority", {"base"}},
+    {"panel", {"base", "control", "rack", "operate", "authority"}},
     {"calls", {"base"}},
     {"frontends", {"base", "calls", "mark", "live", "control", "decode", "trace", "rack", "dds", "grating_bus/map", "grating_bus/model", "c.h"}},
     {"flex2pos", {"base", "calls", "rack", "frontends", "flex2pos.h", "ioflex02/map", "ioflex02/driver"}},

@@ -57,6 +57,8 @@ class Machine {
     // ---- the motion thread -------------------------------------------------------------------------------------------------------------
     /// Works until quit().
     void run();
+    /// Somebody else who is to see every slice's status, on the motion thread. Before run().
+    void listen(std::function<void(const Status&)> call) { listeners_.push_back(std::move(call)); }
 
     // ---- orders, posted; refused ones (Trouble::refused) change nothing ----------------------------------------------------------------
     /// Disabling stops what moves.
@@ -150,6 +152,7 @@ class Machine {
     std::atomic<bool> home_stop_{false};
     // told
     Status status_;
+    std::vector<std::function<void(const Status&)>> listeners_;
     std::int64_t next_alarm_ = 1;
     std::mutex lock_;
     std::vector<std::function<void()>> inbox_;

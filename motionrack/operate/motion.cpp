@@ -270,6 +270,7 @@ void Machine::tell() {
     status_.feed_override = feed_;
     status_.rapid_override = rapid_;
     if (settings_.on_status) settings_.on_status(status_);
+    for (const auto& call : listeners_) call(status_);
 }
 
 }  // namespace motionrack::operate

@@ -93,6 +93,7 @@ constexpr std::array order_rows = {
 
 constexpr std::array query_rows = {
     AskRow{"status", Role::observe, false, {}, "The machine at this moment.", "status", false, false},
+    AskRow{"channels", Role::observe, false, {}, "All channels that can be looked at.", "channels: name, unit, text", false, false},
     AskRow{"users", Role::maintain, false, {}, "Who is paired.", "users", true, false},
 };
 

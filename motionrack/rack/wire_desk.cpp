@@ -103,6 +103,12 @@ tl::unexpected<Error> WireDesk::unknown(std::string_view name) const {
                             in_quotes(name), hint.empty() ? "." : hint));
 }
 
+std::vector<WireDesk::Named> WireDesk::names() const {
+    std::vector<Named> out;
+    for (const auto& [name, wire] : wires_) out.push_back({name, wire.unit != 1, wire.refused.empty(), wire.bits});
+    return out;
+}
+
 void WireDesk::add_ideal_encoders() {
     for (std::size_t i = 0; i < rack_.cards().size(); ++i) {
         if (rack_.cards()[i]->motion() == nullptr) continue;

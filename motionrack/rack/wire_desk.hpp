@@ -28,6 +28,14 @@ class WireDesk {
     /// What set would say.
     Result<void> check(std::string_view name, double value) const;
     bool knows(std::string_view name) const { return wires_.find(name) != wires_.end(); }
+    struct Named {
+        std::string_view name;
+        bool volts = false;      ///< a voltage, else a level
+        bool drivable = false;   ///< set takes it
+        int bits = 1;
+    };
+    /// All wires in the order of their names.
+    std::vector<Named> names() const;
 
     /// The wires are driven as those of `other`, whose rack has the same wiring and whose kernel state was copied.
     void copy_from(const WireDesk& other) { encoders_ = other.encoders_; }
