@@ -15,14 +15,14 @@ Result<ProgramText> load_program(const std::string& path) {
     return ProgramText{std::move(text), path};
 }
 
-std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code_out) {
+std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code_out, BuiltInRack built_in) {
     rack::RackReading reading;
-    if (path.empty()) {
-        const Result<std::string> text = rack::rack_template("router");
-        reading = rack::read_rack_text(*text, "built-in router");
-    } else {
+    if (!path.empty())
         reading = rack::read_rack_file(path);
-    }
+    else if (built_in == BuiltInRack::router)
+        reading = rack::read_rack_text(*rack::rack_template("router"), "built-in router");
+    else
+        reading = rack::read_rack_text(demonstration_rack(), "built-in demonstration");
     for (const Error& warning : reading.warnings) print_warning(warning.text());
     for (const Error& error : reading.errors) print_error(error.text());
     if (!reading.errors.empty()) exit_code_out = exit_code(reading.errors.front().trouble);

@@ -11,6 +11,8 @@ namespace motionrack::cli {
 
 /// The example that comes with the program (examples/02_part/part.ngc).
 const char* example_program();
+/// The rack with all kinds of card (examples/15_panel/demonstration.toml).
+const char* demonstration_rack();
 
 /// A part program's text and what to call it.
 struct ProgramText {
@@ -21,8 +23,9 @@ struct ProgramText {
 /// Reads a part program ("-": standard input); an empty path is the built-in example. Errors: io.
 Result<ProgramText> load_program(const std::string& path);
 
-/// Reads a rack file, prints its warnings, and every error; nothing if there are errors. An empty path is the built-in router.
-std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code);
+enum class BuiltInRack { router, demonstration };
+/// Reads a rack file, prints its warnings, and every error; nothing if there are errors. An empty path is the built-in one.
+std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code, BuiltInRack built_in = BuiltInRack::router);
 
 /// Prints up to 20 problems of a program with their lines; the exit code (0 if there are none).
 int print_problems(const control::gcode::Check& check, const std::string& name);
