@@ -7,6 +7,7 @@
 #include <cstring>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/mark/svg.hpp>
+#include <motionrack/mark/svg_style.hpp>
 #include <optional>
 #include <pugixml.hpp>
 
@@ -16,9 +17,15 @@ namespace {
 
 constexpr int deepest = 64;
 constexpr double greatest_scale = 1e9;
-constexpr std::array<std::string_view, 14> passed_over = {"title",  "desc",  "metadata", "defs", "symbol", "clipPath", "mask", "pattern",
-                                                          "marker", "linearGradient", "radialGradient", "filter", "style", "script"};
-constexpr std::array<std::string_view, 3> refused_attributes = {"clip-path", "mask", "stroke-dasharray"};
+constexpr std::array<std::string_view, 13> passed_over = {"title",  "desc",  "metadata", "defs", "symbol", "clipPath", "mask", "pattern",
+                                                          "marker", "linearGradient", "radialGradient", "filter", "script"};
+
+/// What an element has from the groups around it.
+struct Around {
+    Affine to_mm;
+    bool visible = true;
+    int depth = 1;
+};
 
 class SvgReader {
   public:
@@ -31,9 +38,13 @@ class SvgReader {
         const pugi::xml_parse_result parsed = document.load_buffer(text_.data(), text_.size(), pugi::parse_default, pugi::encoding_utf8);
         if (!parsed) return wrong(static_cast<std::size_t>(std::max<std::ptrdiff_t>(parsed.offset, 0)), fmt::format("this is not XML: {}", parsed.description()));
         const pugi::xml_node root = document.document_element();
-        if (std::string_view(root.name()) != "svg") return wrong(offset(root), fmt::format("the outermost element is '{}', not svg", short_of(root.name())));
+        if (svg_name(root) != "svg") return wrong(offset(root), fmt::format("the outermost element is '{}', not svg", short_of(root.name())));
         MOTIONRACK_TRY(const Affine to_mm, size_of(root));
-        for (const pugi::xml_node child : root.children()) MOTIONRACK_CHECK(element(child, to_mm, 1));
+        MOTIONRACK_CHECK(drawable(root));
+        MOTIONRACK_CHECK(sheets(root, 0));
+        const Showing seen = showing(root, true);
+        for (const pugi::xml_node child : root.children())
+            if (seen.displayed) MOTIONRACK_CHECK(element(child, {to_mm, seen.visible, 1}));
         return {};
     }
 
@@ -129,28 +140,48 @@ class SvgReader {
         return Affine{unit_mm_, 0, 0, -unit_mm_, -low_x * unit_mm_, (low_y + high) * unit_mm_};
     }
 
-    Result<void> element(const pugi::xml_node& node, const Affine& outer, int depth) {
+    /// Nothing of its look would change its lines.
+    Result<void> drawable(const pugi::xml_node& node) const {
+        const std::optional<Unsupported> found = unsupported(node);
+        if (!found) return {};
+        const std::string what = found->in_style ? fmt::format("{} in a style", found->name) : std::string(found->name);
+        return wrong(value_of(node, found->in_style ? std::string_view("style") : found->name),
+                     fmt::format("{} of {}: this is not supported; make plain paths of it in the editor", what, short_of(node.name())));
+    }
+    /// Style sheets decide by selectors, which are not read: one that could change the lines is refused.
+    Result<void> sheets(const pugi::xml_node& node, int depth) const {
+        if (depth > deepest) return {};
+        for (const pugi::xml_node child : node.children()) {
+            if (svg_name(child) == "style") {
+                if (const std::string_view found = deciding_property(child.text().get()); !found.empty())
+                    return wrong(offset(child), fmt::format("the style sheet sets {}, and style sheets are not read; write it into the elements, or make plain paths in the editor", found));
+            }
+            MOTIONRACK_CHECK(sheets(child, depth + 1));
+        }
+        return {};
+    }
+
+    Result<void> element(const pugi::xml_node& node, const Around& around) {
         if (node.type() != pugi::node_element) return {};
-        const std::string_view name = node.name();
-        if (name.find(':') != std::string_view::npos || std::find(passed_over.begin(), passed_over.end(), name) != passed_over.end()) return {};
-        if (depth > deepest) return wrong(offset(node), fmt::format("more than {} groups in one another", deepest));
-        const std::string_view style = node.attribute("style").value();
-        if (std::string_view(node.attribute("display").value()) == "none" || style.find("display:none") != std::string_view::npos) return {};
-        for (const std::string_view refused : refused_attributes)
-            if (const pugi::xml_attribute found = node.attribute(refused.data()); found && std::string_view(found.value()) != "none")
-                return wrong_in(node, refused.data(), {0, "this is not supported; make plain paths of it in the editor"});
-        Affine to_mm = outer;
+        const std::string_view name = svg_name(node);
+        if (name.empty() || name == "style" || std::find(passed_over.begin(), passed_over.end(), name) != passed_over.end()) return {};
+        if (around.depth > deepest) return wrong(offset(node), fmt::format("more than {} groups in one another", deepest));
+        const Showing seen = showing(node, around.visible);
+        if (!seen.displayed) return {};
+        MOTIONRACK_CHECK(drawable(node));
+        Affine to_mm = around.to_mm;
         if (const pugi::xml_attribute transform = node.attribute("transform")) {
             const auto own = read_transform(transform.value());
             if (!own) return wrong_in(node, "transform", own.error());
-            to_mm = outer.after(*own);
+            to_mm = to_mm.after(*own);
             if (!(to_mm.greatest_scale() <= greatest_scale && std::fabs(to_mm.e) <= greatest_scale && std::fabs(to_mm.f) <= greatest_scale))
                 return wrong_in(node, "transform", {0, "this and the groups around it make the drawing too large"});
         }
         if (name == "g" || name == "a") {
-            for (const pugi::xml_node child : node.children()) MOTIONRACK_CHECK(element(child, to_mm, depth + 1));
+            for (const pugi::xml_node child : node.children()) MOTIONRACK_CHECK(element(child, {to_mm, seen.visible, around.depth + 1}));
             return {};
         }
+        if (!seen.visible) return {};
         pen_.use(to_mm);
         MOTIONRACK_CHECK(shape(node, name));
         if (!pen_.complete()) return wrong(offset(node), fmt::format("the drawing has more than {} lines and arcs", most_elements));

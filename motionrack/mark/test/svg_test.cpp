@@ -90,6 +90,29 @@ TEST(SvgReader, WhatItCannotDrawIsRefusedWithItsPlace) {
     EXPECT_THAT(refusal(""), HasSubstr("not XML"));
 }
 
+TEST(SvgReader, WhatAStyleSaysCountsAsMuchAsAnAttribute) {
+    EXPECT_THAT(refusal("<svg><path\nstyle='fill:none; stroke-dasharray: 1,2 !important' d='M0 0L1 1'/></svg>"), HasSubstr("d.svg:2:8: stroke-dasharray in a style of path"));
+    EXPECT_THAT(refusal("<svg><g style='clip-path:url(#c)'><path d='M0 0L1 1'/></g></svg>"), HasSubstr("clip-path in a style of g"));
+    EXPECT_THAT(refusal("<svg><path style='transform: scale(2)' d='M0 0L1 1'/></svg>"), HasSubstr("transform in a style"));
+    EXPECT_THAT(refusal("<svg mask='url(#m)'/>"), HasSubstr("mask of svg"));
+    EXPECT_THAT(refusal("<svg><path filter='url(#f)' d='M0 0L1 1'/></svg>"), HasSubstr("filter of path"));
+    EXPECT_THAT(refusal("<svg><path marker-end='url(#arrow)' d='M0 0L1 1'/></svg>"), HasSubstr("marker-end of path"));
+    EXPECT_THAT(refusal("<svg><defs>\n<style>.a { fill: red } .b { stroke-dasharray: 2 }</style></defs></svg>"), HasSubstr("d.svg:2:2: the style sheet sets stroke-dasharray"));
+    EXPECT_THAT(refusal("<svg><style>.hidden { display: none }</style></svg>"), HasSubstr("sets display"));
+    EXPECT_EQ(read("<svg><style>path { fill: none; stroke: #000; display: inline }</style><path style='stroke-dasharray:none;filter:none' mask='none' d='M0 0L3 4'/></svg>").strokes.size(), 1u);
+}
+
+TEST(SvgReader, DrawsWhatIsVisible) {
+    EXPECT_TRUE(read("<svg><g style='display : none'><text/></g><path visibility='hidden' d='M0 0L1 1'/></svg>").strokes.empty());
+    EXPECT_EQ(read("<svg style='visibility:hidden'><path d='M0 0L1 1'/><g><path visibility='visible' d='M0 0L1 1'/></g></svg>").strokes.size(), 1u);
+    EXPECT_TRUE(read("<svg display='none'><path d='M0 0L1 1'/></svg>").strokes.empty());
+}
+
+TEST(SvgReader, ReadsSvgUnderAnyPrefixAndPassesOtherLanguagesOver) {
+    EXPECT_EQ(read("<s:svg xmlns:s='http://www.w3.org/2000/svg' xmlns:i='http://inkscape'><i:view/><s:path d='M0 0L1 1'/></s:svg>").strokes.size(), 1u);
+    EXPECT_EQ(read("<svg xmlns='&ns_svg;'><path d='M0 0L1 1'/><x:path d='M0 0L1 1'/><p xmlns='http://www.w3.org/1999/xhtml'/></svg>").strokes.size(), 1u);
+}
+
 TEST(SvgReader, DamagedFilesAreReadOrRefusedAndNothingElse) {
     const std::string good = "<svg width='10mm' viewBox='0 0 10 10'><g transform='matrix(1 0 0 1 2 3)'><path d='M0 0C1 2 3 4 5 6S1 1 2 2Q3 3 4 4T1 1A5 4 10 1 0 9 9z'/><circle r='3'/></g></svg>";
     const unsigned seed = 20260;
