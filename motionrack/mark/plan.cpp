@@ -225,7 +225,10 @@ Result<Prepared> prepare(const Job& job, const Load& load) {
             if (job.optics.correction) out.table = rtc5::table_of(file);
         } else {
             // Without a lens the field behind the table is the one that it is made for.
-            if (file.bits_per_mm() > 0) out.bits_per_mm = file.bits_per_mm();
+            if (file.bits_per_mm() > 0)
+                out.bits_per_mm = file.bits_per_mm();
+            else
+                out.notes.push_back(fmt::format("{} does not say for how many bits/mm it is made; {:g} are taken, as bits_per_mm says.", *job.optics.ct5, out.bits_per_mm));
             out.notes.push_back(fmt::format("There is no [lens]: the optics are taken to be those that {} corrects.", *job.optics.ct5));
         }
     } else if (job.lens && job.optics.correction) {

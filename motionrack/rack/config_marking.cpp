@@ -21,7 +21,7 @@ constexpr std::array<Field, 9> track_table = {
     only_in(field<&RackTrack::direction_deg>("direction_deg", -3'600, 3'600, "deg", "where it goes, from +X counter-clockwise"), "mm"),
     only_in(field<&RackTrack::centre_x_mm>("centre_x_mm", -1e5, 1e5, "mm", "what it turns about, counter-clockwise"), "deg"),
     only_in(field<&RackTrack::centre_y_mm>("centre_y_mm", -1e5, 1e5, "mm", "what it turns about"), "deg"),
-    field<&RackTrack::counts_per_unit>("counts_per_{u}", -1e9, 1e9, "", "of its encoder, four a line; negative counts the other way; 0: no encoder"),
+    field<&RackTrack::counts_per_unit>("counts_per_{u}", -1e6, 1e6, "", "of its encoder, four a line; negative counts the other way; 0: no encoder"),
     field<&RackTrack::slip>("slip", -0.5, 0.5, "", "part of the way that the encoder's wheel does not see"),
     field<&RackTrack::jitter_us>("jitter_us", 0, 1'000, "us", "greatest delay of an edge of the encoder; by chance, the same in every run"),
 };
