@@ -81,6 +81,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"operate", {"base", "control", "rack", "live", "journal"}},
     {"authority", {"base"}},
     {"panel", {"base", "control", "rack", "operate", "authority"}},
+    {"grbl", {"base", "control", "rack", "operate"}},
     {"calls", {"base"}},
     {"frontends", {"base", "calls", "mark", "live", "control", "decode", "trace", "rack", "dds", "grating_bus/map", "grating_bus/model", "c.h"}},
     {"flex2pos", {"base", "calls", "rack", "frontends", "flex2pos.h", "ioflex02/map", "ioflex02/driver"}},

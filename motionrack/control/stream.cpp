@@ -41,6 +41,16 @@ gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number) {
     return {};
 }
 
+void Stream::move(const Move& move) {
+    Step step;
+    step.line = move.line;
+    step.move = move;
+    begin_cut(step, true);
+    interpreter_.stand_at(move.end);
+    unpulled_ = true;
+    pull_steps();
+}
+
 void Stream::pull_steps() {
     while (entries_.size() < settings_.most_entries) {
         if (cutting_) {
@@ -51,15 +61,17 @@ void Stream::pull_steps() {
         unpulled_ = step != nullptr;
         if (step == nullptr) return;
         if (step->kind == StepKind::move && step->move.kind != MoveKind::dwell) {
-            begin_cut(*step);
+            begin_cut(*step, false);
         } else {
+            moves_ += step->kind == StepKind::move;
             entries_.push_back({*step, std::string(step->text), read_to_});
         }
     }
 }
 
-void Stream::begin_cut(const Step& step) {
+void Stream::begin_cut(const Step& step, bool by_hand) {
     Cutting cut{step, geometry_of(step.move, read_to_)};
+    cut.by_hand = by_hand;
     if (on_move_) on_move_(step.move, read_to_);
     if (cut.path.shape == PathShape::nothing) return;
     const double wanted = limits_.along(cut.path, step.move).speed * settings_.piece_seconds;
@@ -69,6 +81,7 @@ void Stream::begin_cut(const Step& step) {
     const double pieces = std::min(cut.path.length / wanted, cut.path.length * pulses / least_pulses);
     cut.pieces = static_cast<int>(std::max(1.0, std::ceil(std::min(std::max(pieces, std::fabs(cut.path.sweep) / most_sweep), 1e9))));
     cutting_ = cut;
+    ++moves_;
 }
 
 void Stream::add_piece() {
@@ -76,6 +89,8 @@ void Stream::add_piece() {
     const double from = each * cutting_->done++;
     const bool last = cutting_->done == cutting_->pieces;
     Entry piece{cutting_->step, {}, read_to_};
+    piece.last = last;
+    piece.by_hand = cutting_->by_hand;
     Move& move = piece.step.move;
     move = part_of(cutting_->step.move, cutting_->path, from, last ? cutting_->path.length : each * cutting_->done);
     if (!last && move.path == PathControl::exact_stop) move.path = PathControl::exact_path;
@@ -136,7 +151,7 @@ Result<void> Stream::fill_planner() {
         const Entry& entry = entries_[planned_];
         if (!entry.is_move()) continue;
         Move move = entry.step.move;
-        move.feed *= feed_;
+        if (!entry.by_hand) move.feed *= feed_;
         move.haste = rapid_;
         MOTIONRACK_CHECK(planner_.push(move));
     }
@@ -235,6 +250,7 @@ void Stream::keep_rest_of_path() {
 void Stream::forget() {
     entries_.clear();
     cutting_.reset();
+    moves_ = 0;
     unpulled_ = false;
     planned_ = handed_ = 0;
     state_ = StreamState::rest;
@@ -261,6 +277,13 @@ void Stream::forget_modes() {
     interpreter_ = gcode::Interpreter(fresh_settings());
 }
 
+void Stream::forget_offsets() {
+    gcode::Settings settings = fresh_settings();
+    settings.work_offsets = {};
+    settings.g28 = settings.g30 = {};
+    interpreter_ = gcode::Interpreter(settings);
+}
+
 void Stream::new_planner(const Point& place) {
     planner_ = planner_for(*axes_, settings_.gcode.limits, settings_.kept_back, settings_.planner, place);
 }
@@ -281,6 +304,7 @@ void Stream::pop() {
     Entry& front = entries_.front();
     if (front.is_move()) {
         ++front_block_;
+        moves_ -= front.last;
     } else if (on_event_) {
         front.step.text = front.text;
         on_event_(front.step);

@@ -52,6 +52,9 @@ class Stream {
     bool has_room() const { return entries_.size() < settings_.most_entries && !unpulled_ && wish_ != Wish::stop; }
     /// Reads and checks a line and puts its moves behind the others. Needs has_room(). Errors: it had no effect.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number);
+    /// Puts a move behind the others that no line has asked for: modes stay, the feed override does not count, and the lines after it
+    /// begin where it ends. It must be one that the axes can do. Needs has_room().
+    void move(const Move& move);
     /// Decelerates along the path; drive() returns held. Nothing if nothing is driven.
     void hold();
     /// Goes on from a hold or a pause.
@@ -64,10 +67,15 @@ class Stream {
     void set_single_step(bool on) { single_step_ = on; }
     bool has_work() const { return !entries_.empty() || unpulled_; }
     std::size_t entries() const { return entries_.size(); }
+    /// Moves and dwells, as they were read, that are not done.
+    std::size_t moves() const { return moves_; }
     std::int32_t line_driven() const { return line_driven_; }
     StreamState state() const { return state_; }
     const gcode::Interpreter& interpreter() const { return interpreter_; }
     const std::atomic<bool>* stop_flag() const { return &stop_flag_; }
+
+    /// The coolant was switched by hand: lines go on from there.
+    void set_coolant(bool mist, bool flood) { interpreter_.set_coolant(mist, flood); }
 
     // ---- between drives ---------------------------------------------------------------------------------------------------------------
     /// Hands over the next move, or ends the path if there is none; blocks in the host's time until the axes have room for another.
@@ -78,6 +86,8 @@ class Stream {
     void stand_here(PathAxes& axes);
     /// A new program, or after a reset: modes as at the start, work offsets kept. Needs rest.
     void forget_modes();
+    /// Work offsets, G28 and G30 are 0 from now on. Needs rest.
+    void forget_offsets();
     /// What forget_modes() leaves: how a program that begins here is read.
     gcode::Settings fresh_settings() const;
 
@@ -94,6 +104,8 @@ class Stream {
         std::string text;
         Point start = {};
         double seconds = 0;  ///< of a move that was handed over
+        bool last = true;    ///< piece of its move
+        bool by_hand = false;  ///< not of a line
         bool is_move() const { return step.kind == gcode::StepKind::move; }
     };
     /// A move that is being cut.
@@ -101,10 +113,11 @@ class Stream {
         gcode::Step step;
         Geometry path;
         int pieces = 1, done = 0;
+        bool by_hand = false;
     };
 
     void pull_steps();
-    void begin_cut(const gcode::Step& step);
+    void begin_cut(const gcode::Step& step, bool by_hand);
     void add_piece();
     Result<void> fill_planner();
     bool stops_before(const Entry& entry) const;
@@ -129,6 +142,7 @@ class Stream {
     std::optional<Cutting> cutting_;
     std::string text_;           ///< of the last line
     Point read_to_ = {};         ///< where the last entry ends
+    std::size_t moves_ = 0;      ///< in entries_ and cutting_
     std::size_t planned_ = 0;    ///< entries that the planner has had
     std::size_t handed_ = 0;     ///< entries up to the last move that the axes have had
     std::int64_t front_block_ = 0;  ///< of the first move in entries_, as the axes count

@@ -71,6 +71,7 @@ Result<void> Machine::ready(const char* what) {
 /// And every axis knows where it is.
 Result<void> Machine::ready_for_lines(const char* what) {
     MOTIONRACK_CHECK(ready(what));
+    if (!positions_wanted_.empty()) return fail(Trouble::refused, fmt::format("{}: positions of axes are being declared; try again at once. Nothing was moved.", what));
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (!trusted_[static_cast<std::size_t>(axis.index())])
             return fail(Trouble::refused, fmt::format("{}: the position of axis {} is not trusted. Home it, or declare where it stands. Nothing was moved.", what, axis.letter));
@@ -154,7 +155,7 @@ void Machine::reset() {
 }
 
 Result<void> Machine::jog(char axis, double speed) {
-    if (state_ != MachineState::jogging) MOTIONRACK_CHECK(ready("Not jogged"));
+    if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     if (rack_.config().axis(axis) == nullptr) return fail(Trouble::bad_input, fmt::format("Not jogged: the machine has no axis {}.", axis));
     if (!std::isfinite(speed)) return fail(Trouble::bad_input, "Not jogged: the speed is not a number.");
     jogs_.push_back({axis, speed, std::nullopt});
@@ -171,6 +172,36 @@ Result<void> Machine::jog_by(char axis, double distance, double speed) {
     return {};
 }
 
+Result<void> Machine::jog_to(const control::Point& target, double speed) {
+    if (state_ != MachineState::jogging || !stream_->has_work()) MOTIONRACK_CHECK(ready_for_lines("Not jogged"));
+    if (!stream_->has_room()) return fail(Trouble::refused, "Not jogged: there is no room for another jog until others are driven.");
+    if (!std::isfinite(speed) || !(speed > 0)) return fail(Trouble::bad_input, fmt::format("Not jogged: a speed of {} is no motion.", speed));
+    const control::MachineLimits limits = rack_.config().limits();
+    control::Move move;
+    int moving = 0;
+    for (std::size_t i = 0; i < target.size(); ++i) {
+        const double from = stream_->interpreter().position()[i], slack = control::gcode::limit_slack;
+        if (target[i] == from) continue;
+        if (!std::isfinite(target[i]) || !limits[i].present)
+            return fail(Trouble::bad_input, fmt::format("Not jogged: the machine has no axis {}, or {} is no place of it.", control::axis_letters[i], target[i]));
+        if (target[i] < limits[i].min_position - slack || target[i] > limits[i].max_position + slack)
+            return fail(Trouble::refused, fmt::format("Not jogged: axis {} goes from {:.6g} to {:.6g}, not to {:.6g}.", control::axis_letters[i],
+                                                      limits[i].min_position, limits[i].max_position, target[i]));
+        ++moving;
+        move.haste = std::min(move.haste, speed / limits[i].max_speed);
+    }
+    // Axes that position one by one cannot keep a speed along a line together.
+    move.kind = moving > 1 && rack_.config().point_to_point() ? control::MoveKind::traverse : control::MoveKind::feed;
+    move.path = control::PathControl::continuous;
+    move.tolerance_mm = rack_.config().controller.default_path_tolerance_mm;
+    move.feed = speed;
+    move.end = target;
+    stream_->move(move);
+    last_line_ = now();
+    if (stream_->has_work()) enter(MachineState::jogging);
+    return {};
+}
+
 Result<void> Machine::home(std::string axes) {
     MOTIONRACK_CHECK(ready("Not homed"));
     home_wanted_ = std::move(axes);
@@ -183,7 +214,19 @@ Result<void> Machine::declare_position(char axis, double position) {
     MOTIONRACK_CHECK(ready("The position was not declared"));
     if (rack_.config().axis(axis) == nullptr) return fail(Trouble::bad_input, fmt::format("The position was not declared: the machine has no axis {}.", axis));
     if (!std::isfinite(position)) return fail(Trouble::bad_input, "The position was not declared: it is not a number.");
-    position_wanted_ = {axis, position};
+    positions_wanted_.push_back({axis, position});
+    return {};
+}
+
+void Machine::set_coolant(bool mist, bool flood) {
+    stream_->set_coolant(mist, flood);
+    status_.mist = mist;
+    status_.flood = flood;
+}
+
+Result<void> Machine::forget_offsets() {
+    if (stream_->has_work()) return fail(Trouble::refused, "The work offsets were not changed: the machine moves. Stop it, or wait until it stands.");
+    stream_->forget_offsets();
     return {};
 }
 

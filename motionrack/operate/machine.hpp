@@ -18,6 +18,7 @@
 #include <motionrack/control/gcode/reader.hpp>
 #include <motionrack/control/stream.hpp>
 #include <motionrack/operate/status.hpp>
+#include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/wire_desk.hpp>
 #include <mutex>
@@ -78,18 +79,34 @@ class Machine {
     Result<void> jog(char axis, double speed);
     /// Jogs by a distance.
     Result<void> jog_by(char axis, double distance, double speed);
+    /// Jogs along a straight line in machine coordinates at `speed` along it, behind the jogs of this kind that run; stop() ends them.
+    /// Modes stay as they are. Errors: refused, also where no axis may go; bad_input, an axis that the machine has not, or no speed.
+    Result<void> jog_to(const control::Point& target, double speed);
     /// Homes these axes; empty: all that have a home switch.
     Result<void> home(std::string axes);
     /// Declares where an axis stands; it is trusted then. Refused while something moves.
     Result<void> declare_position(char axis, double position);
     void set_overrides(double feed, double rapid) { stream_->set_overrides(feed_ = feed, rapid_ = rapid); }
     void set_single_step(bool on) { stream_->set_single_step(single_step_ = on); }
+    /// Switches the coolant, as M7, M8 and M9 do, but at once.
+    void set_coolant(bool mist, bool flood);
+    /// Work offsets, G28 and G30 become 0. Refused while something moves.
+    Result<void> forget_offsets();
     /// False: there is no such alarm.
     bool acknowledge(std::int64_t alarm);
 
     // ---- looking, on the motion thread -------------------------------------------------------------------------------------------------
     const Status& status() const { return status_; }
     MachineState state() const { return state_; }
+    /// A stop, a reset or a declared position is not carried out yet.
+    bool has_orders() const { return stop_wanted_ || !positions_wanted_.empty(); }
+    bool can_home() const;
+    /// Whether the positions of this axis mean places of the machine.
+    bool trusted(const rack::RackAxis& axis) const { return trusted_[static_cast<std::size_t>(axis.index())]; }
+    double feed_override() const { return feed_; }
+    double rapid_override() const { return rapid_; }
+    /// How the last homing went, if there was one.
+    const std::optional<rack::HomingOutcome>& homed() const { return homed_; }
     const control::Stream& stream() const { return *stream_; }
     rack::Rack& rack() { return rack_; }
     rack::WireDesk& wires() { return desk_; }
@@ -115,7 +132,7 @@ class Machine {
     void feed_program();
     void jog_all();
     void home_all();
-    void change_position();
+    void change_positions();
     void failed(const Error& error);
     void raise(std::string text);
     void come_to_rest();
@@ -123,6 +140,8 @@ class Machine {
     bool button_pressed() const;
     Result<void> ready(const char* what);
     Result<void> ready_for_lines(const char* what);
+    void pass_event(const control::gcode::Step& step);
+    void tools_off();
     void tell();
     AxisStatus look_at(rack::RunningAxis& axis);
     Interrupt& host() { return rack_.cards().front()->host(); }
@@ -148,7 +167,8 @@ class Machine {
     std::vector<JogOrder> jogs_;
     std::vector<control::Axis*> jogging_;
     std::optional<std::string> home_wanted_;
-    std::optional<std::pair<char, double>> position_wanted_;
+    std::vector<std::pair<char, double>> positions_wanted_;  ///< until all of them are declared
+    std::optional<rack::HomingOutcome> homed_;
     std::atomic<bool> home_stop_{false};
     // told
     Status status_;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <motionrack/operate/machine.hpp>
-#include <motionrack/rack/homing.hpp>
 #include <motionrack/rack/job.hpp>
 
 namespace motionrack::operate {
@@ -13,6 +12,10 @@ namespace {
 bool can_home(const rack::RackAxis& axis) { return axis.switches.home || axis.switches.has_cam(); }
 
 }  // namespace
+
+bool Machine::can_home() const {
+    return std::any_of(rack_.config().axes.begin(), rack_.config().axes.end(), [](const rack::RackAxis& axis) { return operate::can_home(axis); });
+}
 
 // ---- who holds the card's axes ------------------------------------------------------------------------------------------------------
 
@@ -28,7 +31,7 @@ Result<void> Machine::stand(rack::RunningAxis& axis, bool known) {
 
 Result<void> Machine::start(const rack::RackConfig& config) {
     rack_.start();
-    const bool known = std::none_of(rack_.axes().begin(), rack_.axes().end(), [](const rack::RunningAxis& axis) { return can_home(axis.config); });
+    const bool known = !can_home();
     for (rack::RunningAxis& axis : rack_.axes()) MOTIONRACK_CHECK(stand(axis, known));
     MOTIONRACK_TRY(control::PathAxes * group, rack_.path_axes_here());
     control::StreamSettings settings;
@@ -36,7 +39,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     settings.gcode.start = group->commanded_position();
     settings.kept_back = rack_.axes().front().card->kept_back();
     stream_ = std::make_unique<control::Stream>(*group, host(), settings);
-    stream_->on_event(settings_.on_event);
+    stream_->on_event([this](const control::gcode::Step& step) { pass_event(step); });
     group_holds_ = true;
     rack_.set_stop_flag(stream_->stop_flag());
     rack_.on_slice(settings_.slice, [this] { slice(); });
@@ -92,7 +95,7 @@ void Machine::hear() {
 void Machine::step() {
     if (!jogs_.empty() || !jogging_.empty()) return jog_all();
     if (home_wanted_) return home_all();
-    if (position_wanted_) return change_position();
+    if (!positions_wanted_.empty()) return change_positions();
     if (lines_ || stream_->has_work() || stream_->state() == control::StreamState::driving) return drive();
     if (stop_wanted_) return come_to_rest();
     watch_button();
@@ -118,6 +121,7 @@ void Machine::come_to_rest() {
     if (reset_wanted_ && button_pressed()) status_.why = "Not reset: the emergency stop is still pressed. Release it, then reset.";
     if (std::exchange(reset_wanted_, false) && !button_pressed()) {
         stream_->forget_modes();
+        tools_off();
         for (Alarm& alarm : status_.alarms) alarm.active = false;
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
     }
@@ -157,7 +161,7 @@ void Machine::drive() {
         case control::StreamState::rest:
             if (lines_) break;
             program_runs_ = false;
-            if (state_ == MachineState::moving) enter(MachineState::standstill);
+            if (state_ == MachineState::moving || state_ == MachineState::jogging) enter(MachineState::standstill);
             break;
         case control::StreamState::driving: break;
     }
@@ -201,7 +205,7 @@ void Machine::home_all() {
     settings.axes = *std::exchange(home_wanted_, std::nullopt);
     settings.stop = &home_stop_;
     group_holds_ = false;
-    const rack::HomingOutcome homed = rack::home_axes(rack_, settings);
+    const rack::HomingOutcome& homed = homed_.emplace(rack::home_axes(rack_, settings));
     for (const rack::HomedAxis& axis : homed.axes)
         if (axis.begun) trusted_[static_cast<std::size_t>(rack_.config().axis(axis.letter)->index())] = axis.outcome.homed;
     if (Result<void> taken = take_group(); !taken) return failed(taken.error());
@@ -209,12 +213,16 @@ void Machine::home_all() {
     if (state_ == MachineState::homing) enter(MachineState::standstill, homed.ended ? "" : homed.ended.error().message);
 }
 
-void Machine::change_position() {
-    const auto [letter, position] = *std::exchange(position_wanted_, std::nullopt);
-    const Result<control::Axis*> axis = take_axis(letter);
-    Result<void> done = axis ? (*axis)->set_position(position) : tl::unexpected<Error>(axis.error());
-    if (done) trusted_[static_cast<std::size_t>(rack_.config().axis(letter)->index())] = true;
+void Machine::change_positions() {
+    Result<void> done;
+    for (std::size_t i = 0; i < positions_wanted_.size() && done; ++i) {
+        const auto [letter, position] = positions_wanted_[i];
+        const Result<control::Axis*> axis = take_axis(letter);
+        done = axis ? (*axis)->set_position(position) : tl::unexpected<Error>(axis.error());
+        if (done) trusted_[static_cast<std::size_t>(rack_.config().axis(letter)->index())] = true;
+    }
     if (Result<void> taken = take_group(); done) done = taken;
+    positions_wanted_.clear();
     if (!done) status_.why = done.error().message;
 }
 
@@ -223,6 +231,7 @@ void Machine::change_position() {
 void Machine::failed(const Error& error) {
     lines_.reset();
     program_runs_ = false;
+    tools_off();
     const bool pressed = button_pressed();
     if (pressed) trusted_.fill(false);  // it stopped without a ramp
     raise(error.text() + (pressed ? " The emergency stop is pressed: the positions are not trusted any more." : ""));
@@ -239,6 +248,23 @@ void Machine::raise(std::string text) {
 void Machine::enter(MachineState state, std::string why) {
     state_ = state;
     status_.why = std::move(why);
+}
+
+void Machine::pass_event(const control::gcode::Step& step) {
+    using control::gcode::StepKind;
+    if (step.kind == StepKind::spindle_speed || step.kind == StepKind::spindle) status_.spindle_rpm = step.speed_rpm;
+    if (step.kind == StepKind::spindle) status_.spindle = step.spindle;
+    if (step.kind == StepKind::coolant) {
+        status_.mist = step.mist;
+        status_.flood = step.flood;
+    }
+    if (step.kind == StepKind::end) tools_off();
+    if (settings_.on_event) settings_.on_event(step);
+}
+
+void Machine::tools_off() {
+    status_.spindle = control::gcode::Spindle::off;
+    status_.mist = status_.flood = false;
 }
 
 AxisStatus Machine::look_at(rack::RunningAxis& axis) {

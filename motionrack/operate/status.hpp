@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <motionrack/base/time.hpp>
-#include <motionrack/control/move.hpp>
+#include <motionrack/control/gcode/step.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,6 +62,9 @@ struct Status {
     std::int32_t line = 0;      ///< being driven
     std::int32_t lines = 0;
     bool program_runs = false, single_step = false;
+    control::gcode::Spindle spindle = control::gcode::Spindle::off;  ///< as the last program or line has passed it
+    double spindle_rpm = 0;
+    bool mist = false, flood = false;
     double feed_override = 1, rapid_override = 1;
     std::vector<Alarm> alarms;  ///< oldest first
 };

@@ -99,6 +99,11 @@ class Interpreter {
     const Point& position() const { return position_; }  ///< machine coordinates after the last line
     /// The machine was moved otherwise: the next line begins there.
     void stand_at(const Point& position) { position_ = position; }
+    /// The operator has switched the coolant.
+    void set_coolant(bool mist, bool flood) {
+        modes_.mist = mist;
+        modes_.flood = flood;
+    }
     const Modes& modes() const { return modes_; }
     const Frame& frame() const { return frame_; }
     const Block& block() const { return block_; }  ///< the words of the last line

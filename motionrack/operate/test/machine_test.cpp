@@ -320,5 +320,73 @@ TEST(AMachine, HearsManyThreadsAtOnce) {
     EXPECT_FALSE(machine->state() == MachineState::error_stop);
 }
 
+TEST(AMachine, JogsAlongLinesOneBehindTheOtherAndKeepsItsModes) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.line("G20 G91", 1)); });
+    o.at(0.2, [](Machine& m) {
+        EXPECT_TRUE(m.jog_to({30, 20, 0, 0, 0, 0}, 20));
+        EXPECT_TRUE(m.jog_to({50, 20, 0, 0, 0, 0}, 20));
+        EXPECT_THAT(m.line("G1 X1 F10", 2).error().message, HasSubstr("state 'jogging'"));
+        EXPECT_THAT(m.jog('X', 5).error().message, HasSubstr("state 'jogging'"));
+    });
+    o.run(6);
+    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "jogging", "standstill"));
+    EXPECT_NEAR(o.x(), 50, 0.5 / 640);
+    EXPECT_NEAR(o.y(), 20, 0.5 / 640);
+    EXPECT_TRUE(o.machine->stream().interpreter().modes().inch && o.machine->stream().interpreter().modes().incremental);
+    EXPECT_EQ(o.machine->stream().moves(), 0u);
+}
+
+TEST(AMachine, StopsAJogAlongALineAndGoesOnFromThere) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.jog_to({200, 100, 0, 0, 0, 0}, 20)); });
+    o.at(1, [](Machine& m) { m.stop(); });
+    o.at(2, [&](Machine& m) {
+        EXPECT_GT(o.x(), 20);
+        EXPECT_LT(o.x(), 40);
+        EXPECT_TRUE(m.line("G91 G1 Y-1 F600", 1));
+    });
+    o.run(4);
+    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "jogging", "stopping", "standstill", "moving", "standstill"));
+    EXPECT_NEAR((o.x() - 10) / 190, (o.y() + 1) / 100, 1e-3);
+}
+
+TEST(AMachine, JogsNeitherPastItsTravelNorWithoutASpeed) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        EXPECT_THAT(m.jog_to({301, 0, 0, 0, 0, 0}, 20).error().message, HasSubstr("axis X goes from 0 to 300, not to 301"));
+        EXPECT_THAT(m.jog_to({11, 0, 1, 0, 0, 0}, 20).error().message, HasSubstr("no axis Z"));
+        EXPECT_THAT(m.jog_to({11, 0, 0, 0, 0, 0}, 0).error().message, HasSubstr("a speed of 0"));
+    });
+    o.run(1);
+    EXPECT_DOUBLE_EQ(o.x(), 10);
+}
+
+TEST(AMachine, TellsSpindleAndCoolantWhenTheProgramHasPassedTheirWords) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X30\nM3 S900 M8\nG1 X50\nM2\n", "p")); });
+    o.at(0.5, [](Machine& m) { EXPECT_EQ(m.status().spindle, control::gcode::Spindle::off); });
+    o.at(2, [](Machine& m) {
+        EXPECT_EQ(m.status().spindle, control::gcode::Spindle::clockwise);
+        EXPECT_EQ(m.status().spindle_rpm, 900);
+        EXPECT_TRUE(m.status().flood && !m.status().mist);
+    });
+    o.run(6);
+    EXPECT_EQ(o.machine->status().spindle, control::gcode::Spindle::off);
+    EXPECT_FALSE(o.machine->status().flood);
+}
+
+TEST(AMachine, TakesPlacesDeclaredForSeveralAxesAtOnce) {
+    Operated o(router());
+    o.at(0.1, [](Machine& m) {
+        for (const AxisStatus& axis : m.status().axes) EXPECT_TRUE(m.declare_position(axis.letter, 5));
+    });
+    o.run(0.5);
+    for (const AxisStatus& axis : o.machine->status().axes) {
+        EXPECT_TRUE(axis.trusted) << axis.letter;
+        EXPECT_DOUBLE_EQ(axis.commanded, 5) << axis.letter;
+    }
+}
+
 }  // namespace
 }  // namespace motionrack::operate

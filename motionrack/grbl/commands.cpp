@@ -1,0 +1,240 @@
+// $ commands, and in which states they are taken.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <motionrack/control/gcode/number.hpp>
+#include <motionrack/grbl/session.hpp>
+
+namespace motionrack::grbl {
+
+using control::gcode::Block;
+using control::gcode::Problem;
+using operate::MachineState;
+
+namespace {
+
+constexpr std::string_view help = "[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]\r\n";
+
+bool take_number(std::string_view& text, double& value) {
+    const char* at = text.data();
+    const control::gcode::Number number = control::gcode::scan_number(at, text.data() + text.size());
+    if (number.fault != control::gcode::NumberFault::none) return false;
+    text.remove_prefix(static_cast<std::size_t>(at - text.data()));
+    value = number.value;
+    return true;
+}
+
+bool take_equals(std::string_view& text) {
+    if (text.empty() || text[0] != '=') return false;
+    text.remove_prefix(1);
+    return true;
+}
+
+}  // namespace
+
+int Session::command(const std::string& text) {
+    const char what = text.size() > 1 ? text[1] : '\0';
+    const State now = state();
+    switch (what) {
+        case '\0': put(help); return error_none;
+        case 'J': return jog(text);
+        case '$':
+            if (text.size() > 2) return error_unknown;
+            if (now == State::run || now == State::hold) return error_not_idle;
+            put(settings_text(machine_.rack().config(), own_, settings_.axes));
+            return error_none;
+        case 'G':
+            if (text.size() > 2) return error_unknown;
+            put(modes_text());
+            return error_none;
+        case 'C': return text.size() > 2 ? int{error_unknown} : check_mode();
+        case 'X': return text.size() > 2 ? int{error_unknown} : unlock();
+        default: break;
+    }
+    if (now != State::idle && now != State::alarm) return error_not_idle;
+    return command_at_rest(text);
+}
+
+int Session::command_at_rest(const std::string& text) {
+    switch (text[1]) {
+        case '#':
+            if (text.size() > 2) return error_unknown;
+            put(parameters_text());
+            return error_none;
+        case 'H': return text.size() > 2 ? int{error_unknown} : home();
+        case 'S':
+            if (text != "$SLP") return error_unknown;
+            answer(error_none);
+            say("Sleeping");
+            asleep_ = true;
+            return answer_later;
+        case 'I':
+            if (text.size() > 2 && text[2] != '=') return error_unknown;
+            if (text.size() > 2)
+                build_text_ = text.substr(3);
+            else
+                put(fmt::format("[VER:1.1h.20190830:{}]\r\n[OPT:V,{},{}]\r\n", build_text_, planner_blocks, waiting_most));
+            return error_none;
+        case 'R': return restore(text);
+        case 'N':
+            if (text.size() > 2) return store_startup_line(std::string_view(text).substr(2));
+            for (std::size_t i = 0; i < startup_lines_.size(); ++i) put(fmt::format("$N{}={}\r\n", i, startup_lines_[i]));
+            return error_none;
+        default: return store(std::string_view(text).substr(1));
+    }
+}
+
+/// 10=3
+int Session::store(std::string_view text) {
+    double number = 0, value = 0;
+    if (!take_number(text, number)) return error_bad_number;
+    if (!take_equals(text)) return error_unknown;
+    if (!take_number(text, value)) return error_bad_number;
+    if (!text.empty() || number != std::floor(number) || number < 0 || number > 255) return error_unknown;
+    if (!control()) return error_locked;
+    const Changed changed = change_setting(machine_.rack().config(), own_, settings_.axes, static_cast<int>(number), value);
+    if (changed.note.empty()) return changed.error;
+    if (changed.error != error_none)
+        say(changed.note);
+    else if (settings_.on_setting)
+        settings_.on_setting(changed.note);
+    return changed.error;
+}
+
+/// 0=G54. It is read, but not driven.
+int Session::store_startup_line(std::string_view text) {
+    double number = 0;
+    if (!take_number(text, number)) return error_bad_number;
+    if (!take_equals(text) || (number != 0 && number != 1)) return error_unknown;
+    if (!control()) return error_locked;
+    control::gcode::Interpreter trial = interpreter();
+    if (const auto read = trial.line(text, 0); !read) return static_cast<int>(read.error().status);
+    startup_lines_[number == 0 ? 0 : 1] = text;
+    return error_none;
+}
+
+int Session::restore(const std::string& text) {
+    if (text.size() != 6 || text.compare(0, 5, "$RST=") != 0) return error_unknown;
+    const char what = text[5];
+    if (what != '$' && what != '#' && what != '*') return error_unknown;
+    if (!control()) return error_locked;
+    if (what != '#') own_ = OwnSettings();
+    if (what != '$' && !machine_.forget_offsets()) return error_not_idle;
+    if (what == '*') {
+        startup_lines_ = {};
+        build_text_.clear();
+    }
+    if (settings_.on_setting) settings_.on_setting(fmt::format("{}: settings of the Grbl port are as at the start", text));
+    say("Restoring defaults");
+    answer(error_none);
+    reset();
+    return answer_later;
+}
+
+int Session::check_mode() {
+    if (check_) {
+        say("Disabled");
+        answer(error_none);
+        reset();
+        return answer_later;
+    }
+    if (state() != State::idle) return error_not_idle;
+    check_ = machine_.stream().interpreter();
+    if (check_->modes().motion == control::gcode::no_motion && !was_g80_) (void)check_->line("G0", 0);
+    say("Enabled");
+    return error_none;
+}
+
+// ---- lock and home ------------------------------------------------------------------------------------------------------------------
+
+/// The operator says that the axes are where they are shown to be.
+int Session::unlock() {
+    if (state() != State::alarm) return error_none;
+    if (!control()) return error_locked;
+    (void)machine_.enable(true);
+    declare_positions();
+    alarm_ = false;
+    doing_ = Doing{Doing::What::unlocking};
+    return answer_later;
+}
+
+void Session::declare_positions() {
+    for (const operate::AxisStatus& axis : machine_.status().axes)
+        if (!machine_.trusted(*machine_.rack().config().axis(axis.letter))) (void)machine_.declare_position(axis.letter, axis.commanded);
+}
+
+int Session::home() {
+    if (!machine_.can_home()) return error_no_homing;
+    if (!control()) return error_locked;
+    (void)machine_.enable(true);
+    if (const Result<void> begun = machine_.home(""); !begun) {
+        say(begun.error().message);
+        return error_locked;
+    }
+    doing_ = Doing{Doing::What::homing};
+    return answer_later;
+}
+
+/// Axes without a switch stand where they are shown to, as after power-up of a Grbl.
+bool Session::finish_homing() {
+    const Result<void>& ended = machine_.homed()->ended;
+    if (ended) {
+        alarm_ = false;
+        if (locked() && !std::exchange(doing_->declared, true)) {
+            declare_positions();
+            return false;
+        }
+        startup();
+        finish_answer(error_none);
+        return true;
+    }
+    if (ended.error().trouble == Trouble::refused) {
+        say(ended.error().message);
+        finish_answer(error_no_homing);
+        return true;
+    }
+    alarm(number_of_homing(), false);
+    say(ended.error().message);
+    reset();
+    return false;
+}
+
+int Session::number_of_homing() const {
+    if (machine_.homed()->ended.error().trouble == Trouble::stopped) return alarm_homing_reset;
+    for (const rack::HomedAxis& axis : machine_.homed()->axes)
+        if (axis.begun && !axis.outcome.homed) return axis.outcome.edges.empty() ? alarm_homing_no_switch : alarm_homing_pull_off;
+    return alarm_homing_no_switch;
+}
+
+// ---- jog ----------------------------------------------------------------------------------------------------------------------------
+
+/// $J=G91 G21 X10 F600. What it means is read by a copy of the reader, so that it leaves no traces.
+int Session::jog(const std::string& text) {
+    using namespace control::gcode;
+    const State now = state();
+    if (now != State::idle && now != State::jog) return error_not_idle;
+    if (text.size() < 3 || text[2] != '=') return error_unknown;
+    const std::string_view words = std::string_view(text).substr(3);
+    Block block;
+    Problem problem;
+    if (!scan_line(words, false, block, problem)) return static_cast<int>(problem.status);
+    constexpr unsigned groups = 1u << g_units | 1u << g_distance | 1u << g_nonmodal;
+    if (block.percent || block.m_groups != 0 || (block.g_groups & ~groups) != 0 || (block.has_g(g_nonmodal) && block.g[g_nonmodal] != 530)) return error_jog;
+    if (!grbl_has(block)) return error_unsupported;
+    if ((block.words & ~(axis_words | letter_bit('F') | letter_bit('N'))) != 0) return error_unused_words;
+    if (!block.has('F')) return error_no_feed;
+    if ((block.words & axis_words) == 0) return error_no_axis_words;
+    Interpreter trial = interpreter();
+    const std::string line = fmt::format("G1G94{}", words);
+    if (const auto read = trial.line(line, 0); !read) return static_cast<int>(read.error().status);
+    const Step* step = trial.pull();
+    if (step == nullptr || !control()) return error_locked;
+    if (const Result<void> begun = machine_.jog_to(step->move.end, step->move.feed); !begun) {
+        say(begun.error().message);
+        return error_locked;
+    }
+    watch_machine();
+    return error_none;
+}
+
+}  // namespace motionrack::grbl

@@ -1,0 +1,68 @@
+// What comes down a Grbl port: bytes that act at once wherever they stand, and lines.
+//
+//   G1X10 ? F600 \n  ──►  '?' acts now ─ "G1X10F600" is a line
+//
+// As in Grbl 1.1h, 128 bytes wait for their turn, what comes beyond them is lost without a word; a line's buffer has 80 bytes, its end
+// among them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace motionrack::grbl {
+
+enum class Realtime : std::uint8_t {
+    reset, status, cycle_start, feed_hold, door, jog_cancel,
+    feed_100, feed_plus_10, feed_minus_10, feed_plus_1, feed_minus_1,
+    rapid_100, rapid_50, rapid_25,
+    spindle_100, spindle_plus_10, spindle_minus_10, spindle_plus_1, spindle_minus_1, spindle_stop,
+    flood, mist
+};
+
+struct RealtimeByte {
+    std::uint8_t byte;
+    Realtime what;
+};
+inline constexpr std::array<RealtimeByte, 22> realtime_bytes = {{
+    {0x18, Realtime::reset},          {'?', Realtime::status},           {'~', Realtime::cycle_start},
+    {'!', Realtime::feed_hold},       {0x84, Realtime::door},            {0x85, Realtime::jog_cancel},
+    {0x90, Realtime::feed_100},       {0x91, Realtime::feed_plus_10},    {0x92, Realtime::feed_minus_10},
+    {0x93, Realtime::feed_plus_1},    {0x94, Realtime::feed_minus_1},    {0x95, Realtime::rapid_100},
+    {0x96, Realtime::rapid_50},       {0x97, Realtime::rapid_25},        {0x99, Realtime::spindle_100},
+    {0x9A, Realtime::spindle_plus_10}, {0x9B, Realtime::spindle_minus_10}, {0x9C, Realtime::spindle_plus_1},
+    {0x9D, Realtime::spindle_minus_1}, {0x9E, Realtime::spindle_stop},   {0xA0, Realtime::flood},
+    {0xA1, Realtime::mist},
+}};
+std::optional<Realtime> realtime_of(std::uint8_t byte);
+
+inline constexpr std::size_t waiting_most = 128, line_most = 79;
+
+/// A line as Grbl's parser sees it: no blanks, no comments, upper case.
+struct Line {
+    std::string text;
+    bool too_long = false;
+};
+
+/// Bytes that wait for their turn, and the line that is being read from them.
+class Intake {
+  public:
+    /// One byte that is not a real-time one: false if there was no room and it is lost.
+    bool put(std::uint8_t byte);
+    /// Reads on to the end of the present line; nothing: its end has not come yet. Each CR and each LF ends a line.
+    std::optional<Line> next();
+    std::size_t room() const { return waiting_most - waiting_.size(); }
+    void clear() { *this = Intake(); }
+
+  private:
+    void read(char c);
+
+    std::deque<char> waiting_;
+    Line line_;
+    bool in_brackets_ = false, behind_semicolon_ = false;
+};
+
+}  // namespace motionrack::grbl

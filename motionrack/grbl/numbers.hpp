@@ -1,0 +1,37 @@
+// Grbl's numbers of errors and alarms, beside those that a line of G-code can have (control::gcode::GrblStatus).
+#pragma once
+
+namespace motionrack::grbl {
+
+enum Error : int {
+    answer_later = -1,       ///< the line's answer waits for something
+    error_none = 0,
+    error_letter = 1,        ///< a G-code word does not begin with a letter
+    error_bad_number = 2,
+    error_unknown = 3,       ///< no such $ command or setting, or not one that can be changed
+    error_negative = 4,
+    error_no_homing = 5,
+    error_short_pulse = 6,
+    error_not_idle = 8,
+    error_locked = 9,
+    error_line_length = 11,
+    error_travel = 15,       ///< a jog past the travel
+    error_jog = 16,
+    error_unsupported = 20,
+    error_no_feed = 22,
+    error_no_axis_words = 26,
+    error_unused_words = 36
+};
+
+enum Alarm : int {
+    alarm_none = 0,
+    alarm_hard_limit = 1,
+    alarm_soft_limit = 2,
+    alarm_reset = 3,            ///< stopped in motion
+    alarm_homing_reset = 6,
+    alarm_homing_door = 7,
+    alarm_homing_pull_off = 8,  ///< the switch was found, but not its edge
+    alarm_homing_no_switch = 9
+};
+
+}  // namespace motionrack::grbl

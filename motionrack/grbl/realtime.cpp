@@ -1,0 +1,209 @@
+// Bytes that act at once, and what the machine does by itself.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/grbl/session.hpp>
+
+namespace motionrack::grbl {
+
+using operate::MachineState;
+
+namespace {
+
+constexpr std::string_view banner = "\r\nGrbl 1.1h ['$' for help]\r\n";
+
+struct OverrideStep {
+    Realtime what;
+    int Session::Overrides::*which;
+    bool absolute;
+    int percent;
+};
+constexpr std::array<OverrideStep, 13> override_steps = {{
+    {Realtime::feed_100, &Session::Overrides::feed, true, 100},
+    {Realtime::feed_plus_10, &Session::Overrides::feed, false, 10},
+    {Realtime::feed_minus_10, &Session::Overrides::feed, false, -10},
+    {Realtime::feed_plus_1, &Session::Overrides::feed, false, 1},
+    {Realtime::feed_minus_1, &Session::Overrides::feed, false, -1},
+    {Realtime::rapid_100, &Session::Overrides::rapid, true, 100},
+    {Realtime::rapid_50, &Session::Overrides::rapid, true, 50},
+    {Realtime::rapid_25, &Session::Overrides::rapid, true, 25},
+    {Realtime::spindle_100, &Session::Overrides::spindle, true, 100},
+    {Realtime::spindle_plus_10, &Session::Overrides::spindle, false, 10},
+    {Realtime::spindle_minus_10, &Session::Overrides::spindle, false, -10},
+    {Realtime::spindle_plus_1, &Session::Overrides::spindle, false, 1},
+    {Realtime::spindle_minus_1, &Session::Overrides::spindle, false, -1},
+}};
+constexpr int least_override = 10, greatest_override = 200;
+
+}  // namespace
+
+void Session::act(Realtime what) {
+    const operate::Status& status = machine_.status();
+    switch (what) {
+        case Realtime::status: status_wanted_ = true; return;
+        case Realtime::reset: return reset();
+        case Realtime::feed_hold: return hold();
+        case Realtime::door: return open_door();
+        case Realtime::jog_cancel:
+            if (state() == State::jog) machine_.stop();
+            return;
+        case Realtime::cycle_start: return resume();
+        case Realtime::spindle_stop:
+            if (state() == State::hold && status.spindle != control::gcode::Spindle::off && control()) {
+                spindle_stopped_ = !spindle_stopped_;
+                until_overrides_ = 0;
+            }
+            return;
+        case Realtime::flood:
+            if (may_switch_coolant()) switch_coolant(status.mist, !status.flood);
+            return;
+        case Realtime::mist:
+            if (may_switch_coolant()) switch_coolant(!status.mist, status.flood);
+            return;
+        default: return override_by(what);
+    }
+}
+
+bool Session::may_switch_coolant() {
+    const State now = state();
+    return (now == State::idle || now == State::run || now == State::hold) && control();
+}
+
+void Session::switch_coolant(bool mist, bool flood) {
+    machine_.set_coolant(mist, flood);
+    until_overrides_ = 0;
+}
+
+void Session::override_by(Realtime what) {
+    const auto step = std::find_if(override_steps.begin(), override_steps.end(), [&](const OverrideStep& one) { return one.what == what; });
+    if (step == override_steps.end() || !control()) return;
+    Overrides now = overrides();
+    int& value = now.*step->which;
+    value = std::clamp(step->absolute ? step->percent : value + step->percent, least_override, greatest_override);
+    spindle_override_ = now.spindle;
+    machine_.set_overrides(now.feed / 100.0, now.rapid / 100.0);
+}
+
+// ---- hold, door, reset --------------------------------------------------------------------------------------------------------------
+
+void Session::hold() {
+    switch (state()) {
+        case State::idle: held_ = true; break;
+        case State::run:
+            held_ = machine_.hold().has_value();
+            break;
+        case State::jog: machine_.stop(); break;
+        case State::home: reset(); break;
+        default: break;
+    }
+}
+
+/// The machine has no door: it is shut again at once, and the sender resumes.
+void Session::open_door() {
+    const State now = state();
+    if (now == State::home) {
+        homing_alarm_ = alarm_homing_door;
+        return reset();
+    }
+    if (now == State::alarm || now == State::check || now == State::sleep || now == State::door) return;
+    say("Check Door");
+    if (now == State::jog) machine_.stop();
+    if (now == State::run) (void)machine_.hold();
+    door_ = true;
+    held_ = false;
+}
+
+void Session::resume() {
+    const State now = state();
+    if ((now != State::hold && now != State::door) || brakes() || !control()) return;
+    held_ = door_ = hold_seen_ = spindle_stopped_ = false;
+    until_overrides_ = 0;
+    if (machine_.state() == MachineState::hold) (void)machine_.resume();
+}
+
+/// On its way into a hold.
+bool Session::brakes() const {
+    const MachineState state = machine_.state();
+    return state == MachineState::moving || state == MachineState::stopping || state == MachineState::jogging;
+}
+
+void Session::reset() {
+    const MachineState state = machine_.state();
+    const int number = state == MachineState::homing ? homing_alarm_ : brakes() ? alarm_reset : alarm_none;
+    if (number != alarm_none) alarm(number, false);
+    homing_alarm_ = alarm_homing_reset;
+    alarm_ = alarm_ || asleep_;
+    if (doing_) finish_answer(error_none);
+    intake_.clear();
+    line_.reset();
+    n_words_.clear();
+    check_.reset();
+    held_ = door_ = asleep_ = critical_ = was_g80_ = spindle_stopped_ = false;
+    spindle_override_ = 100;
+    line_number_ = 0;
+    machine_.set_overrides(1, 1);
+    machine_.reset();
+    begin_again(true);
+}
+
+void Session::begin_again(bool after_reset) {
+    until_offset_ = until_overrides_ = 0;
+    put(banner);
+    if (boot_ != Boot::reset) boot_ = after_reset ? Boot::reset : Boot::greeting;
+}
+
+// ---- what the machine does ----------------------------------------------------------------------------------------------------------
+
+void Session::watch_machine() {
+    const MachineState state = machine_.state();
+    jogging_ = state == MachineState::jogging || (jogging_ && state == MachineState::stopping);
+    if (state == MachineState::hold) {
+        hold_seen_ = held_ || door_;
+    } else if (hold_seen_ && state != MachineState::stopping) {
+        held_ = door_ = hold_seen_ = false;  // somebody else went on, or stopped it
+    }
+    while (!n_words_.empty() && n_words_.front().first < machine_.stream().line_driven()) n_words_.pop_front();
+    if (state != MachineState::error_stop) {
+        stop_told_ = false;
+    } else if (!std::exchange(stop_told_, true) && !(doing_ && doing_->what == Doing::What::homing)) {
+        held_ = door_ = hold_seen_ = false;
+        alarm(number_of_stop(), true);
+        say(machine_.status().why);
+    }
+}
+
+int Session::number_of_stop() const {
+    for (const rack::RackAxis& axis : machine_.rack().config().axes)
+        if (limit_active(axis.letter)) return alarm_hard_limit;
+    return alarm_reset;
+}
+
+/// Contacts open when they act; an end that is not there does not.
+bool Session::contact_open(const std::string& wire) const {
+    const Result<double> level = machine_.wires().get(wire);
+    return level && *level == 0;
+}
+
+bool Session::limit_active(char letter) const {
+    return contact_open(fmt::format("{}.limit_minus", letter)) || contact_open(fmt::format("{}.limit_plus", letter));
+}
+
+bool Session::locked() const {
+    if (alarm_ || machine_.state() == MachineState::error_stop || machine_.state() == MachineState::disabled) return true;
+    const auto& axes = machine_.rack().config().axes;
+    return std::any_of(axes.begin(), axes.end(), [&](const rack::RackAxis& axis) { return !machine_.trusted(axis); });
+}
+
+State Session::state() const {
+    const MachineState state = machine_.state();
+    if (asleep_) return State::sleep;
+    if (state == MachineState::homing) return State::home;
+    if (critical_ || locked()) return State::alarm;
+    if (state == MachineState::jogging || (jogging_ && state == MachineState::stopping)) return State::jog;
+    if (door_) return State::door;
+    if (held_ || state == MachineState::hold) return State::hold;
+    if (brakes()) return State::run;
+    return check_ ? State::check : State::idle;
+}
+
+}  // namespace motionrack::grbl

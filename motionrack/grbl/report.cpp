@@ -1,0 +1,164 @@
+// What is told of the machine: the status report and the answers to $G and $#.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <motionrack/grbl/session.hpp>
+
+namespace motionrack::grbl {
+
+using operate::MachineState;
+
+namespace {
+
+// A report that is told every so many status reports: while something moves, and while not.
+struct Every {
+    int busy, idle;
+};
+constexpr Every offset_every = {30, 10}, overrides_every = {20, 10};
+
+bool is_busy(State state) {
+    return state == State::run || state == State::hold || state == State::jog || state == State::home || state == State::door;
+}
+
+constexpr double mm_per_inch = 25.4;
+
+}  // namespace
+
+std::string Session::state_text(State now) const {
+    switch (now) {
+        case State::idle: return "Idle";
+        case State::run: return "Run";
+        case State::hold: return brakes() ? "Hold:1" : "Hold:0";
+        case State::jog: return "Jog";
+        case State::alarm: return "Alarm";
+        case State::door: return brakes() ? "Door:2" : "Door:0";
+        case State::check: return "Check";
+        case State::home: return "Home";
+        case State::sleep: return "Sleep";
+    }
+    return "";
+}
+
+/// "1.000,2.000,3.000"; degrees stay degrees in inches.
+std::string Session::values(const control::Point& point) const {
+    std::string out;
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis) {
+        const bool inches = own_.inches != 0 && axis < 3;
+        double value = inches ? point[axis] / mm_per_inch : point[axis];
+        if (std::fabs(value) < (inches ? 0.00005 : 0.0005)) value = 0;  // no "-0.000"
+        out += fmt::format("{}{:.{}f}", axis == 0 ? "" : ",", value, inches ? 4 : 3);
+    }
+    return out;
+}
+
+void Session::report() {
+    status_wanted_ = false;
+    const State now = state();
+    const operate::Status& status = machine_.status();
+    const unsigned shown = static_cast<unsigned>(own_.report);
+    const control::Point& offset = interpreter().frame().offset;
+    control::Point place = {};
+    for (const operate::AxisStatus& axis : status.axes)
+        place[static_cast<std::size_t>(machine_.rack().config().axis(axis.letter)->index())] = axis.commanded;
+    const bool machine_places = (shown & 1) != 0;
+    if (!machine_places)
+        for (std::size_t axis = 0; axis < place.size(); ++axis) place[axis] -= offset[axis];
+    put(fmt::format("<{}|{}Pos:{}", state_text(now), machine_places ? 'M' : 'W', values(place)));
+    if ((shown & 2) != 0) put(fmt::format("|Bf:{},{}", planner_blocks - std::min(planner_blocks, machine_.stream().moves()), intake_.room()));
+    if (now == State::run && !n_words_.empty() && n_words_.front().first == machine_.stream().line_driven()) put(fmt::format("|Ln:{}", n_words_.front().second));
+    const double feed = own_.inches != 0 ? feed_now() / mm_per_inch : feed_now();
+    put(fmt::format("|FS:{:.{}f},{:.0f}", feed, own_.inches != 0 ? 1 : 0, spindle_rpm()));
+    put(pins());
+    put(counted_reports(now));
+    put(">\r\n");
+}
+
+/// Work offset and overrides: after a change, and now and then; overrides never beside the offset.
+std::string Session::counted_reports(State now) {
+    const control::Point& offset = interpreter().frame().offset;
+    const Overrides overrides_now = overrides();
+    if (offset != std::exchange(told_offset_, offset)) until_offset_ = 0;
+    if (overrides_now != std::exchange(told_overrides_, overrides_now)) until_overrides_ = 0;
+    std::string accessories_now = accessories();
+    if (accessories_now != std::exchange(told_accessories_, accessories_now)) until_overrides_ = 0;
+    std::string out;
+    if (until_offset_ > 0) {
+        --until_offset_;
+    } else {
+        until_offset_ = (is_busy(now) ? offset_every.busy : offset_every.idle) - 1;
+        if (until_overrides_ == 0) until_overrides_ = 1;
+        out += "|WCO:" + values(offset);
+    }
+    if (until_overrides_ > 0) {
+        --until_overrides_;
+    } else {
+        until_overrides_ = (is_busy(now) ? overrides_every.busy : overrides_every.idle) - 1;
+        out += fmt::format("|Ov:{},{},{}", overrides_now.feed, overrides_now.rapid, overrides_now.spindle);
+        if (!accessories_now.empty()) out += "|A:" + accessories_now;
+    }
+    return out;
+}
+
+/// Limit switches of the axes, and R: the emergency stop, which a Grbl has at its reset pin.
+std::string Session::pins() const {
+    std::string out;
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis)
+        if (limit_active(control::axis_letters[axis])) out += control::axis_letters[axis];
+    if (contact_open("estop")) out += 'R';
+    return out.empty() ? out : "|Pn:" + out;
+}
+
+std::string Session::accessories() const {
+    using control::gcode::Spindle;
+    const operate::Status& status = machine_.status();
+    std::string out;
+    if (status.spindle != Spindle::off && !spindle_stopped_) out += status.spindle == Spindle::clockwise ? 'S' : 'C';
+    if (status.flood) out += 'F';
+    if (status.mist) out += 'M';
+    return out;
+}
+
+Session::Overrides Session::overrides() const {
+    return {static_cast<int>(std::lround(machine_.feed_override() * 100)), static_cast<int>(std::lround(machine_.rapid_override() * 100)), spindle_override_};
+}
+
+double Session::spindle_rpm() const {
+    const operate::Status& status = machine_.status();
+    if (status.spindle == control::gcode::Spindle::off || spindle_stopped_ || status.spindle_rpm == 0) return 0;
+    return std::max(own_.least_rpm, std::min(own_.most_rpm, status.spindle_rpm * spindle_override_ / 100));
+}
+
+/// Along the path, mm/min; degrees/min where only rotary axes move.
+double Session::feed_now() const {
+    double linear = 0, rotary = 0;
+    for (const operate::AxisStatus& axis : machine_.status().axes) (axis.rotary ? rotary : linear) += axis.speed * axis.speed;
+    return std::sqrt(linear > 0 ? linear : rotary) * 60;
+}
+
+std::string Session::modes_text() const {
+    using control::gcode::Spindle;
+    const control::gcode::Modes& modes = interpreter().modes();
+    const int motion = modes.motion != control::gcode::no_motion ? modes.motion / 10 : was_g80_ ? 80 : 0;
+    std::string out = fmt::format("[GC:G{} G{} G{} G{} G{} G{}", motion, 54 + modes.system, 17 + modes.plane, modes.inch ? 20 : 21,
+                                  modes.incremental ? 91 : 90, modes.inverse_time ? 93 : 94);
+    out += modes.spindle == Spindle::off ? " M5" : modes.spindle == Spindle::clockwise ? " M3" : " M4";
+    if (modes.mist) out += " M7";
+    if (modes.flood) out += " M8";
+    if (!modes.mist && !modes.flood) out += " M9";
+    const double feed = modes.inverse_time ? 0 : modes.feed * 60;
+    const bool inches = own_.inches != 0;
+    out += fmt::format(" T{} F{:.{}f} S{:.0f}]\r\n", std::max(0, modes.tool_selected), inches ? feed / mm_per_inch : feed, inches ? 1 : 0, modes.speed_rpm);
+    return out;
+}
+
+std::string Session::parameters_text() const {
+    const control::gcode::Frame& frame = interpreter().frame();
+    std::string out;
+    for (std::size_t system = 0; system < frame.work.size(); ++system) out += fmt::format("[G{}:{}]\r\n", 54 + system, values(frame.work[system]));
+    out += fmt::format("[G28:{}]\r\n[G30:{}]\r\n[G92:{}]\r\n", values(frame.g28), values(frame.g30), values(frame.g92));
+    const bool inches = own_.inches != 0;
+    out += fmt::format("[TLO:{:.{}f}]\r\n[PRB:{}:0]\r\n", inches ? frame.tool_length / mm_per_inch : frame.tool_length, inches ? 4 : 3, values({}));
+    return out;
+}
+
+}  // namespace motionrack::grbl

@@ -1,0 +1,166 @@
+// One Grbl port: bytes of a sender in, bytes for it out, motion by an operate::Machine.
+//
+//   bytes ─┬─ real-time ones ──► at once: hold, resume, stop, overrides, "<Idle|MPos:..>"
+//          └─ lines ─► Intake ─► one at a time ─┬─ $ commands ──► answers
+//                                               └─ G-code, $J= ─► Machine::line, jog_to      each line: one "ok" or "error:N"
+//
+//   no line is taken while a hold, a stop, a homing or the alarm of a limit lasts; then bytes wait, 128 of them
+//
+// Runs on the motion thread: receive() among what is posted, tick() once a slice. No network, no waiting, no access to cards.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <motionrack/grbl/intake.hpp>
+#include <motionrack/grbl/numbers.hpp>
+#include <motionrack/grbl/settings.hpp>
+#include <motionrack/operate/machine.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace motionrack::grbl {
+
+struct SessionSettings {
+    int axes = 3;  ///< 3: X Y Z; 4: A too, as grblHAL reports it
+    /// Good: this sender may move the machine at present. Empty: always.
+    std::function<Result<void>()> take_control = {};
+    /// A setting was changed, as a sentence.
+    std::function<void(const std::string&)> on_setting = {};
+};
+
+/// As senders see the machine.
+enum class State : std::uint8_t { idle, run, hold, jog, alarm, door, check, home, sleep };
+
+class Session {
+  public:
+    static constexpr std::size_t planner_blocks = 15;  ///< that a sender can fill
+
+    /// Enables a machine that is disabled: a Grbl has no such state. The machine must outlive this.
+    Session(operate::Machine& machine, SessionSettings settings);
+
+    /// Somebody has connected: what was left of the one before is forgotten, the machine goes on. Sends the banner.
+    void greet();
+    void receive(std::string_view bytes);
+    /// From one who may only look on: reports and stops are served, all else is thrown away.
+    void observe(std::string_view bytes);
+    /// Every slice: lines that had to wait, answers that are due, alarms.
+    void tick();
+    /// What is to be sent, whole lines; empties it.
+    std::string take_output() { return std::exchange(out_, {}); }
+
+    State state() const;
+    const OwnSettings& own() const { return own_; }
+
+    /// Percent.
+    struct Overrides {
+        int feed = 100, rapid = 100, spindle = 100;
+        friend bool operator==(const Overrides&, const Overrides&) = default;
+    };
+    Overrides overrides() const;
+
+  private:
+    /// A line that was carried out, and whose answer waits.
+    struct Doing {
+        enum class What : std::uint8_t { moving, leaving_travel, homing, unlocking } what = What::moving;
+        bool silent = false;        ///< the one who asked has gone
+        bool program_ends = false;
+        bool declared = false;      ///< homing: the axes without a switch
+    };
+    /// Which part of the banner is due.
+    enum class Boot : std::uint8_t { done, greeting, reset };
+
+    // session.cpp: lines
+    void work();
+    bool settled() const;
+    bool has_room() const;
+    bool must_wait(const Line& line);
+    bool must_stand_first(const control::gcode::Block& block) const;
+    bool grbl_has(const control::gcode::Block& block) const;
+    void carry_out(const std::string& text);
+    int gcode(const std::string& text);
+    control::gcode::Outcome<void> give(const std::string& text, std::int32_t n_word);
+    int refused(const control::gcode::Problem& problem);
+    bool control();
+    bool finish();
+    void finish_answer(int error);
+    void end_program();
+    void finish_boot();
+    void startup();
+    void answer(int error);
+    void say(std::string_view text);
+    void put(std::string_view text) { out_ += text; }
+    void alarm(int number, bool needs_reset);
+    // commands.cpp
+    int command(const std::string& text);
+    int command_at_rest(const std::string& text);
+    int store(std::string_view text);
+    int store_startup_line(std::string_view text);
+    int restore(const std::string& text);
+    int check_mode();
+    int unlock();
+    void declare_positions();
+    int home();
+    bool finish_homing();
+    int number_of_homing() const;
+    int jog(const std::string& text);
+    // realtime.cpp
+    void act(Realtime what);
+    bool may_switch_coolant();
+    void switch_coolant(bool mist, bool flood);
+    void override_by(Realtime what);
+    void hold();
+    void open_door();
+    void resume();
+    bool brakes() const;
+    void reset();
+    void begin_again(bool after_reset);
+    void watch_machine();
+    int number_of_stop() const;
+    bool contact_open(const std::string& wire) const;
+    bool limit_active(char letter) const;
+    bool locked() const;
+    // report.cpp
+    void report();
+    std::string state_text(State now) const;
+    std::string values(const control::Point& point) const;
+    std::string counted_reports(State now);
+    std::string pins() const;
+    std::string accessories() const;
+    std::string modes_text() const;
+    std::string parameters_text() const;
+    double spindle_rpm() const;
+    double feed_now() const;
+    const control::gcode::Interpreter& interpreter() const { return check_ ? *check_ : machine_.stream().interpreter(); }
+
+    operate::Machine& machine_;
+    SessionSettings settings_;
+    OwnSettings own_;
+    std::array<std::string, 2> startup_lines_;
+    std::string build_text_, out_;
+    Intake intake_;
+    std::optional<Line> line_;     ///< the next one, which has to wait
+    std::optional<Doing> doing_;
+    std::optional<control::gcode::Interpreter> check_;  ///< check mode
+    std::int32_t line_number_ = 0;
+    std::deque<std::pair<std::int32_t, std::int32_t>> n_words_;  ///< of lines that may be driven yet
+    Boot boot_ = Boot::done;
+    int homing_alarm_ = alarm_homing_reset;  ///< of a homing that is broken off
+    bool alarm_ = false;           ///< until it is unlocked or homed
+    bool critical_ = false;        ///< until a reset
+    bool held_ = false, door_ = false, asleep_ = false;
+    bool hold_seen_ = false;       ///< the machine has come to its hold
+    bool jogging_ = false;         ///< the machine jogs, or brakes after it
+    bool stop_told_ = false;       ///< the machine's present error stop
+    bool was_g80_ = false;         ///< no motion mode because a line said so
+    bool status_wanted_ = false;
+    bool spindle_stopped_ = false;
+    int spindle_override_ = 100;
+    int until_offset_ = 0, until_overrides_ = 0;  ///< reports
+    control::Point told_offset_ = {};
+    Overrides told_overrides_;
+    std::string told_accessories_;
+};
+
+}  // namespace motionrack::grbl

@@ -1,0 +1,103 @@
+// A machine with a Grbl port, driven step by step: bytes in, time passes, bytes out.
+//
+// The machine runs on a thread of its own, which stands still whenever the test does something: the two take turns.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <memory>
+#include <motionrack/grbl/session.hpp>
+#include <motionrack/rack/template.hpp>
+#include <mutex>
+#include <thread>
+
+namespace motionrack::grbl {
+
+inline rack::RackConfig rack_of(const std::string& text) {
+    const rack::RackReading reading = rack::read_rack_text(text);
+    EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].text());
+    return *reading.config;
+}
+
+/// X, Y and Z without home switches: they stand where the file says. `more` for the file.
+inline rack::RackConfig three_axes(const std::string& more = "") {
+    return rack_of("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n[axis.Z]\ncard = \"m\"\n"
+                   "channel = \"z\"\n" + more);
+}
+
+inline rack::RackConfig router() { return *rack::read_rack_text(*rack::rack_template("router")).config; }
+
+class Bench {
+  public:
+    explicit Bench(const rack::RackConfig& config, SessionSettings settings = {}) {
+        operate::MachineSettings machine_settings;
+        machine_settings.pace = [this](Instant now) { return wait_for_turn(now); };
+        machine_settings.on_status = [this](const operate::Status&) {
+            if (session) session->tick();
+        };
+        auto made = operate::Machine::make(config, std::move(machine_settings));
+        EXPECT_TRUE(made) << made.error().message;
+        machine = std::move(*made);
+        session = std::make_unique<Session>(*machine, std::move(settings));
+        thread_ = std::thread([this] { machine->run(); });
+        pass(0.01);
+    }
+    ~Bench() {
+        machine->quit();
+        {
+            const std::lock_guard<std::mutex> alone(lock_);
+            ending_ = true;
+        }
+        turn_.notify_all();
+        thread_.join();
+    }
+
+    /// Lets so many seconds go by.
+    void pass(double seconds) {
+        std::unique_lock<std::mutex> alone(lock_);
+        until_ += from_seconds(seconds);
+        waiting_ = false;
+        turn_.notify_all();
+        turn_.wait(alone, [this] { return waiting_; });
+    }
+    /// What comes back of these bytes at once and within `seconds`.
+    std::string ask(std::string_view bytes, double seconds = 0.01) {
+        session->receive(bytes);
+        pass(seconds);
+        return session->take_output();
+    }
+    /// The status report.
+    std::string report() { return ask("?"); }
+    /// Until it is idle again, 100 s at most; what came meanwhile.
+    std::string until_idle() {
+        std::string out;
+        for (int i = 0; i < 10'000 && session->state() != State::idle; ++i) out += ask("");
+        EXPECT_EQ(session->state(), State::idle);
+        return out;
+    }
+    double axis(int index) { return machine->status().axes[static_cast<std::size_t>(index)].commanded; }
+
+    std::unique_ptr<operate::Machine> machine;
+    std::unique_ptr<Session> session;
+
+  private:
+    bool wait_for_turn(Instant now) {
+        std::unique_lock<std::mutex> alone(lock_);
+        while (now >= until_ && !ending_) {
+            waiting_ = true;
+            turn_.notify_all();
+            turn_.wait(alone);
+        }
+        return true;
+    }
+
+    std::mutex lock_;
+    std::condition_variable turn_;
+    Instant until_{};
+    bool waiting_ = false, ending_ = false;
+    std::thread thread_;
+};
+
+}  // namespace motionrack::grbl
