@@ -62,8 +62,29 @@ build_in() {
     fi
 }
 
+# build_page FOLDER: the operator panel's web page into FOLDER/share/motionrack/page, where the program in FOLDER/bin looks for it; only
+# if its sources changed. Where it cannot be built the program shows a text in its place, so that is no failure.
+build_page() {
+    local folder="$PWD/$1/share/motionrack/page" stamp="$1/.page-made-of" want log
+    want=$(find hmi -path hmi/node_modules -prune -o -path hmi/test -prune -o -type f -print0 | sort -z | xargs -0 sha256sum | sha256sum)
+    [ -e "$folder/index.html" ] && [ -d hmi/node_modules ] && [ "$(cat "$stamp" 2>/dev/null)" = "$want" ] && return 0
+    if ! command -v npm >/dev/null 2>&1 && ! need_packages nodejs npm; then
+        say "the operator panel's page needs nodejs and npm; the program shows a text in its place"
+        return 0
+    fi
+    say "building the operator panel's page"
+    log=$(mktemp)
+    if ! (cd hmi && npm ci --no-audit --no-fund && MOTIONRACK_PAGE="$folder" npm run build) >"$log" 2>&1; then
+        tail -n 15 "$log" >&2
+        say "the page could not be built (npm fetches packages from the network); the program shows a text in its place. The whole log is $log"
+        return 0
+    fi
+    rm -f "$log"
+    printf '%s' "$want" >"$stamp"
+}
+
 run_packages=(g++ cmake ninja-build libfmt-dev libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libexpected-dev
     libfast-float-dev zlib1g-dev libpugixml-dev cyclonedds-dev cyclonedds-tools
     pkg-config librsvg2-dev fonts-dejavu-core libsqlite3-dev libboost1.81-dev libssl-dev)
 test_packages=("${run_packages[@]}" libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev sigrok-cli iverilog fp-compiler fp-units-rtl clang
-    libclang-rt-14-dev make libfuse3-dev fuse3 iproute2)
+    libclang-rt-14-dev make libfuse3-dev fuse3 iproute2 chromium)

@@ -1,0 +1,67 @@
+// What can be done to the machine by a button and by a key: one place that says who may and what is sent.
+import { signal } from '@preact/signals';
+import { axes, machineState, status } from './link/state';
+import { mayOperate, notice, order, stop, whyNot } from './link/orders';
+import * as text from './program/text';
+
+export interface Action {
+  label: string;
+  /** Why not now; empty: it may. */
+  why(): string;
+  run(): void;
+}
+
+/** The axis that touch off is for. */
+export const chosenAxis = signal('X');
+
+function startText(): void {
+  if (machineState.value === 'hold') void order('resume');
+  else if (text.program.value === '') notice('refused', 'There is no program to run. Open one, or type one, first.');
+  else void order('begin', { name: text.programName.value, text: text.program.value });
+}
+
+async function oneStep(): Promise<void> {
+  if (!(await order('set_single_step', { on: true }))) return;
+  startText();
+}
+
+function touchOff(): void {
+  const letter = axes.value.some((axis) => axis.letter === chosenAxis.value) ? chosenAxis.value : axes.value[0]?.letter;
+  if (letter !== undefined) void order('set_work_zero', { axis: letter, value: 0 });
+}
+
+const enabled = (): boolean => machineState.value !== 'disabled';
+
+export const actions = {
+  stop: { label: 'STOP', why: () => '', run: stop },
+  hold: { label: 'Feed hold', why: () => whyNot('operate'), run: () => void order('hold') },
+  resume: { label: 'Resume', why: mayOperate, run: () => void order('resume') },
+  reset: { label: 'Reset', why: mayOperate, run: () => void order('reset') },
+  enable: { label: 'Enable drives', why: mayOperate, run: () => void order('enable', { on: !enabled() }) },
+  estop: {
+    label: 'E-stop input (simulated)',
+    why: () => whyNot('operate') || (status.value?.estop.wired === false ? 'The rack file wires no emergency stop.' : ''),
+    run: () => void order('press_estop', { pressed: !status.value?.estop.pressed }),
+  },
+  home: { label: 'Home all', why: mayOperate, run: () => void order('home') },
+  touchOff: { label: 'Touch off', why: mayOperate, run: touchOff },
+  run: { label: 'Run', why: mayOperate, run: startText },
+  step: { label: 'Single step', why: mayOperate, run: () => void oneStep() },
+} satisfies Record<string, Action>;
+
+export const acknowledge = (alarm: number): Action => ({
+  label: 'Acknowledge',
+  why: () => whyNot('operate'),
+  run: () => void order('acknowledge', { alarm }),
+});
+
+/** Does it, or says why not. */
+export function perform(action: Action): void {
+  const why = action.why();
+  if (why === '') action.run();
+  else notice('refused', `${action.label}: ${why}`);
+}
+
+export function setFeed(part: number): void {
+  perform({ label: 'Feed override', why: mayOperate, run: () => void order('set_overrides', { feed: part }) });
+}

@@ -1,0 +1,30 @@
+// The last seconds of some channels, for small charts beside the numbers.
+import { signal, type Signal } from '@preact/signals';
+import { useEffect, useMemo } from 'preact/hooks';
+import { channel, want } from '../link/channels';
+import { channelNames } from '../link/rack';
+import { whenPicture } from '../link/socket';
+
+/** x in seconds before now, then one array a channel. A chart takes it as it is. `rate` in samples a second. */
+export function useHistory(names: readonly string[], rate: number, seconds: number): Signal<(number | null)[][]> {
+  const known = names.filter((name) => channelNames.value.has(name));
+  const key = known.join(' ');
+  const data = useMemo(() => signal<(number | null)[][]>([[], ...known.map(() => [])]), [key]);
+  useEffect(() => {
+    const stop = want(known, rate);
+    const rows: { at: number; values: (number | null)[] }[] = [];
+    let shown = 0;
+    const unhook = whenPicture((picture) => {
+      rows.push({ at: picture.at, values: known.map((name) => channel(name).peek()) });
+      while (rows.length > 2 && (rows[0]?.at ?? 0) < picture.at - seconds) rows.shift();
+      if (performance.now() - shown < 50) return;
+      shown = performance.now();
+      data.value = [rows.map((row) => row.at - picture.at), ...known.map((_, i) => rows.map((row) => row.values[i] ?? null))];
+    });
+    return () => {
+      stop();
+      unhook();
+    };
+  }, [key, rate, seconds]);
+  return data;
+}

@@ -1,0 +1,134 @@
+// The MCX314's panel: the counters of its channels, as often as its source's panel reads them, speeds as pictures, drive flags.
+import { useSignal } from '@preact/signals';
+import type { JSX } from 'preact';
+import { useEffect } from 'preact/hooks';
+import { channel, want } from '../link/channels';
+import { channelNames, rack, type CardInfo } from '../link/rack';
+import { mayOperate, notice, order } from '../link/orders';
+import { axisOf } from '../link/state';
+import { typed, unitName, whole } from '../parts/numbers';
+import { Button, Choice, Field, Led, Panel } from '../parts/ui';
+import { Lamps } from '../panels/dro';
+import { Chart, Legend } from '../scope/chart';
+import { useHistory } from './history';
+
+const EVERY_HZ = 100;
+const COUNTERS = [
+  { name: 'LP', text: 'pulses sent' },
+  { name: 'EP', text: 'encoder counts' },
+  { name: 'CV', text: 'present speed' },
+  { name: 'CA', text: 'present acceleration' },
+] as const;
+
+/** Channels of the card in the chip's order. */
+const channelsOf = (card: CardInfo): string[] => card.channels ?? ['x', 'y', 'z', 'u'];
+const axisAt = (card: CardInfo, which: string): string | undefined => rack.value?.axes?.find((axis) => axis.card === card.name && axis.channel === which)?.letter;
+
+function Counters({ card }: { card: CardInfo }): JSX.Element {
+  const names = channelsOf(card).flatMap((which) => COUNTERS.map((one) => `${card.name}.${which}.${one.name}`)).filter((name) => channelNames.value.has(name));
+  const key = names.join(' ');
+  useEffect(() => want(key === '' ? [] : key.split(' '), EVERY_HZ), [key]);
+  return (
+    <table class="counters">
+      <thead>
+        <tr><th scope="col">Channel</th>{COUNTERS.map((one) => <th key={one.name} scope="col" title={one.text}>{one.name}<small>{one.text}</small></th>)}<th scope="col">Lamps</th></tr>
+      </thead>
+      <tbody>
+        {channelsOf(card).map((which) => {
+          const letter = axisAt(card, which);
+          const axis = letter === undefined ? undefined : axisOf(letter);
+          return (
+            <tr key={which}>
+              <th scope="row">{which}<small>{letter === undefined ? 'no axis' : `axis ${letter}`}</small></th>
+              {COUNTERS.map((one) => <td key={one.name} class="tabular">{whole(channel(`${card.name}.${which}.${one.name}`).value)}</td>)}
+              <td>{axis !== undefined ? <Lamps axis={axis} /> : <span class="hint">–</span>}</td>
+            </tr>
+          );
+        })}
+      </tbody>
+    </table>
+  );
+}
+
+function Speeds({ card }: { card: CardInfo }): JSX.Element {
+  const what = useSignal<'CV' | 'LP' | 'EP' | 'CA'>('CV');
+  const names = channelsOf(card).map((which) => `${card.name}.${which}.${what.value}`).filter((name) => channelNames.value.has(name));
+  const data = useHistory(names, EVERY_HZ, 10);
+  return (
+    <Panel title="Last ten seconds" class="trend" tools={<Choice label="What the picture shows" value={what.value} onChange={(to) => (what.value = to)} options={COUNTERS.map((one) => ({ value: one.name, text: one.name }))} />}>
+      <Chart data={data.value} names={names} xName="s" label={`${what.value} of all channels, last ten seconds`} height={220} />
+      <Legend names={names} />
+    </Panel>
+  );
+}
+
+/** Moves of one axis, by hand. */
+function Moves({ card }: { card: CardInfo }): JSX.Element {
+  const letters = channelsOf(card).map((which) => axisAt(card, which)).filter((one): one is string => one !== undefined);
+  const chosen = useSignal('');
+  const distance = useSignal('10');
+  const speed = useSignal('20');
+  const place = useSignal('0');
+  const letter = letters.includes(chosen.value) ? chosen.value : letters[0];
+  const why = mayOperate() || (letter === undefined ? 'No axis is on this card.' : '');
+  const unit = unitName(letter === undefined ? 'mm' : (axisOf(letter)?.unit ?? 'mm'));
+  const move = (direction: 1 | -1): void => {
+    const [by, at] = [typed(distance.value), typed(speed.value)];
+    if (by === null || at === null) notice('refused', 'Distance and speed must be numbers. Nothing was moved.');
+    else void order('jog_by', { axis: letter, distance: direction * by, speed: at });
+  };
+  const declare = (): void => {
+    const position = typed(place.value);
+    if (position === null) notice('refused', 'The position must be a number. Nothing was changed.');
+    else void order('declare_position', { axis: letter, position });
+  };
+  return (
+    <Panel title="Moves and homing" class="moves">
+      <Choice label="Axis" value={letter ?? ''} onChange={(to) => (chosen.value = to)} options={letters.map((one) => ({ value: one, text: one }))} />
+      <div class="row">
+        <Field label="Distance" value={distance.value} unit={unit} mode="decimal" onInput={(text) => (distance.value = text)} />
+        <Field label="Speed" value={speed.value} unit={`${unit}/s`} mode="decimal" onInput={(text) => (speed.value = text)} />
+        <Button machine why={why} icon="left" onClick={() => move(-1)}>Move −</Button>
+        <Button machine why={why} icon="right" onClick={() => move(1)}>Move +</Button>
+      </div>
+      <div class="row">
+        <Button machine icon="home" why={why} onClick={() => void order('home', { axes: letter })}>Home {letter}</Button>
+        <Field label="Stands at" value={place.value} unit={unit} mode="decimal" onInput={(text) => (place.value = text)} />
+        <Button machine why={why} onClick={declare}>Declare</Button>
+      </div>
+    </Panel>
+  );
+}
+
+/** RR0's flags of what drives. */
+function Drives({ card }: { card: CardInfo }): JSX.Element | null {
+  const name = `${card.name}.RR0`;
+  const has = channelNames.value.has(name);
+  useEffect(() => want(has ? [name] : [], 20), [has, name]);
+  const register = card.registers.find((one) => one.name === 'RR0');
+  const word = channel(name).value;
+  if (!has || register === undefined) return null;
+  return (
+    <div class="flags" role="group" aria-label="RR0, main status">
+      {register.fields.filter((field) => (field.mask & (field.mask - 1)) === 0).map((field) => (
+        <span key={field.name} class="flag" title={field.meaning}>
+          <Led on={word !== null && (word & field.mask) !== 0} letter={word !== null && (word & field.mask) !== 0 ? '1' : '0'} text={field.meaning} />
+          <code>{field.name}</code>
+        </span>
+      ))}
+    </div>
+  );
+}
+
+export function Mcx({ card }: { card: CardInfo }): JSX.Element {
+  return (
+    <>
+      <Panel title={`${card.name}: ${card.title}`} class="wide" note={`Read ${EVERY_HZ} times a second.`}>
+        <Counters card={card} />
+        <Drives card={card} />
+      </Panel>
+      <Speeds card={card} />
+      <Moves card={card} />
+    </>
+  );
+}

@@ -1,0 +1,86 @@
+// Registers of a card with the names of their bits, by peek: looking changes nothing.
+import { useSignal } from '@preact/signals';
+import type { JSX } from 'preact';
+import { cardNamed, rack, type CardInfo, type RegisterInfo } from '../link/rack';
+import { hex, whole } from '../parts/numbers';
+import { usePoll } from '../parts/poll';
+import { Empty, Field, Panel } from '../parts/ui';
+import { address, detail } from '../view';
+import { fieldValues, plainName } from './words';
+
+interface CardAnswer {
+  registers?: { name: string; word: number | null }[];
+  values?: { name: string; value: number | null }[];
+}
+
+function Bits({ register, word }: { register: RegisterInfo; word: number }): JSX.Element {
+  return (
+    <ul class="bits">
+      {fieldValues(register, word).map(({ field, bits, width, value }) => (
+        <li key={field.name} class={value !== 0 ? 'set' : ''} title={field.meaning}>
+          <span class="place tabular">{bits}</span>
+          <code>{field.name}</code>
+          <span class="value tabular">{width === 1 ? value : `${hex(value, width)}`}</span>
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+function Row({ name, register, word, open, onOpen }: { name: string; register: RegisterInfo | undefined; word: number | null; open: boolean; onOpen(): void }): JSX.Element {
+  const has = (register?.fields.length ?? 0) > 0;
+  return (
+    <li class={`register ${open ? 'open' : ''}`}>
+      <button type="button" aria-expanded={has ? open : undefined} onClick={onOpen}>
+        <code class="name">{name}</code>
+        <span class="word tabular">{hex(word, register?.width ?? 16)}</span>
+        <span class="meaning">{register?.meaning ?? ''}</span>
+      </button>
+      {open && has && register !== undefined && word !== null && <Bits register={register} word={word} />}
+    </li>
+  );
+}
+
+export function Inspector({ card }: { card: CardInfo }): JSX.Element {
+  const filter = useSignal('');
+  const opened = useSignal<readonly string[]>([]);
+  const { data, why } = usePoll<CardAnswer>('card', { name: card.name }, 250);
+  const registers = (data.value?.registers ?? []).filter((one) => one.name.toLowerCase().includes(filter.value.toLowerCase()));
+  const values = (data.value?.values ?? []).filter((one) => one.name.toLowerCase().includes(filter.value.toLowerCase()));
+  const toggle = (name: string): void => {
+    opened.value = opened.value.includes(name) ? opened.value.filter((one) => one !== name) : [...opened.value, name];
+  };
+  return (
+    <>
+      <Field label="Find" value={filter.value} wide placeholder="RR0, LP …" onInput={(text) => (filter.value = text)} />
+      {why.value !== '' && <p class="why">{why.value}</p>}
+      {data.value !== null && registers.length + values.length === 0 && <Empty>{filter.value === '' ? 'This card shows no registers.' : 'No register of that name.'}</Empty>}
+      <ul class="registers">
+        {registers.map((one) => (
+          <Row key={one.name} name={one.name} word={one.word} register={card.registers.find((info) => info.name === plainName(one.name))} open={opened.value.includes(one.name)} onOpen={() => toggle(one.name)} />
+        ))}
+      </ul>
+      {values.length > 0 && (
+        <dl class="values">
+          {values.map((one) => <div key={one.name}><dt><code>{one.name}</code></dt><dd class="tabular">{whole(one.value)}</dd></div>)}
+        </dl>
+      )}
+    </>
+  );
+}
+
+export function Registers(): JSX.Element {
+  const cards = rack.value?.cards ?? [];
+  const card = cardNamed(detail.value) ?? cards[0];
+  if (card === undefined) return <Panel title="Registers"><Empty>The rack has no cards.</Empty></Panel>;
+  return (
+    <>
+      <nav class="pills" aria-label="Cards">
+        {cards.map((one) => <a key={one.name} href={address('registers', one.name)} aria-current={one === card ? 'page' : undefined}>{one.name}<small>{one.type}</small></a>)}
+      </nav>
+      <Panel title={`Registers of ${card.name}`} class="inspector" note="Looked at without effects: no register is read through the bus, nothing is cleared.">
+        <Inspector key={card.name} card={card} />
+      </Panel>
+    </>
+  );
+}

@@ -1,0 +1,112 @@
+// Jogging: a lease that is renewed while somebody holds a key or a button, and ended by everything that could mean that nobody does.
+//
+//   begin ──► jog ──80 ms──► jog ──80 ms──► ...      end, blur, hidden, page gone, connection lost, arm switch off ──► jog_stop
+//
+// The program itself stops an axis that was not renewed for 250 ms: what this page does is only to be quicker.
+import { signal } from '@preact/signals';
+import { axisOf } from '../link/state';
+import { order } from '../link/orders';
+import { ask, whenLost } from '../link/socket';
+
+export const RENEW_MS = 80;
+
+/** Distances of a step in mm or degrees; null: continuous. */
+export const STEPS: readonly (number | null)[] = [0.001, 0.01, 0.1, 1, 10, null];
+
+const kept = Number(localStorage.getItem('motionrack.jog.step') ?? 3);
+export const stepIndex = signal(kept >= 0 && kept < STEPS.length ? kept : 3);
+/** Speed of jogging, as a part of each axis' greatest. */
+export const speedPart = signal(Number(localStorage.getItem('motionrack.jog.speed') ?? 0.2) || 0.2);
+/** The arm switch of the keyboard. */
+export const armed = signal(false);
+/** Axes that are held, for the buttons' looks. */
+export const jogging = signal('');
+
+export function setStep(index: number): void {
+  stepIndex.value = index;
+  localStorage.setItem('motionrack.jog.step', String(index));
+  endAll();
+}
+
+export function setSpeedPart(part: number): void {
+  speedPart.value = part;
+  localStorage.setItem('motionrack.jog.speed', String(part));
+}
+
+interface Held {
+  axis: string;
+  direction: 1 | -1;
+  rapid: boolean;
+}
+
+const held = new Map<string, Held>();
+let timer: ReturnType<typeof setInterval> | undefined;
+
+const speedOf = (axis: string, rapid: boolean): number => (axisOf(axis)?.max_speed ?? 0) * (rapid ? 1 : speedPart.value);
+
+function renew(): void {
+  for (const one of held.values())
+    ask({ order: 'jog', axis: one.axis, speed: one.direction * speedOf(one.axis, one.rapid) }).catch(() => undefined);
+}
+
+function tell(): void {
+  jogging.value = [...held.values()].map((one) => (one.direction < 0 ? '-' : '+') + one.axis).join('');
+}
+
+/** `who` holds: a key or a button. In a step mode one press is one move, and holding it does nothing. */
+export function begin(who: string, axis: string, direction: 1 | -1, rapid = false): void {
+  if (axisOf(axis) === undefined || held.has(who)) return;
+  const step = STEPS[stepIndex.value];
+  if (step !== null && step !== undefined) {
+    void order('jog_by', { axis, distance: direction * step, speed: speedOf(axis, rapid) });
+    return;
+  }
+  for (const [other, one] of held) if (one.axis === axis) held.delete(other);
+  held.set(who, { axis, direction, rapid });
+  tell();
+  void order('jog', { axis, speed: direction * speedOf(axis, rapid) }).then((taken) => {
+    if (!taken && held.delete(who)) settle();
+  });
+  timer ??= setInterval(renew, RENEW_MS);
+}
+
+export function end(who: string): void {
+  const one = held.get(who);
+  if (one === undefined) return;
+  held.delete(who);
+  if (held.size > 0) ask({ order: 'jog', axis: one.axis, speed: 0 }).catch(() => undefined);
+  settle();
+}
+
+/** Rapid jogs go on at the normal speed. */
+export function slowDown(): void {
+  for (const one of held.values()) one.rapid = false;
+}
+
+/** Every jog ends, whoever held it. */
+export function endAll(): void {
+  if (held.size === 0) return;
+  held.clear();
+  settle();
+}
+
+/** When the last one was let go, everything that jogs is stopped. */
+function settle(): void {
+  tell();
+  if (held.size > 0) return;
+  ask({ order: 'jog_stop' }).catch(() => undefined);
+  clearInterval(timer);
+  timer = undefined;
+}
+
+export function setArmed(on: boolean): void {
+  armed.value = on;
+  if (!on) endAll();
+}
+
+window.addEventListener('blur', endAll);
+window.addEventListener('pagehide', endAll);
+document.addEventListener('visibilitychange', () => {
+  if (document.hidden) endAll();
+});
+whenLost(endAll);

@@ -1,0 +1,102 @@
+// What the program says, as the panel's contract has it: greeting, status, events, errors.
+
+export type Role = 'nobody' | 'observe' | 'operate' | 'maintain';
+export const ROLES: readonly Role[] = ['nobody', 'observe', 'operate', 'maintain'];
+
+export interface Hello {
+  version: string;
+  rack: string;
+  boot: string;
+  role: Role;
+  simulation: boolean;
+  session?: string;
+  user?: string;
+}
+
+/** Names as the machine's states are written; blanks and underscores are the same. */
+export type StateName = 'disabled' | 'standstill' | 'homing' | 'moving' | 'jogging' | 'hold' | 'stopping' | 'error stop';
+
+export const LEDS = ['soft_minus', 'soft_plus', 'hard_minus', 'hard_plus', 'home', 'index', 'capture', 'compare', 'in_position', 'alarm'] as const;
+export type LedName = (typeof LEDS)[number];
+
+export interface AxisStatus {
+  letter: string;
+  unit: string;
+  trusted: boolean;
+  can_home: boolean;
+  commanded: number;
+  actual: number;
+  error: number;
+  speed: number;
+  pulses: number;
+  counts: number;
+  min: number;
+  max: number;
+  max_speed: number;
+  leds: Partial<Record<LedName, boolean>>;
+}
+
+export interface Alarm {
+  number: number;
+  at: number;
+  text: string;
+  source: string;
+  active: boolean;
+  acknowledged: boolean;
+}
+
+export interface HomingAxis {
+  axis: string;
+  phase: string;
+  [more: string]: unknown;
+}
+
+export interface Status {
+  at: number;
+  sequence: number;
+  state: string;
+  why: string;
+  simulation: boolean;
+  clock: { mode: 'real' | 'free' | 'paused'; factor: number; late_ms: number };
+  estop: { wired: boolean; pressed: boolean };
+  control: { holder: string; holder_session?: string; session_is_mine?: boolean; since?: number };
+  axes: AxisStatus[];
+  program: { name: string; runs: boolean; line: number; lines: number; remaining_s: number | null; single_step: boolean };
+  overrides: { feed: number; rapid: number };
+  alarms: Alarm[];
+  homing?: unknown;
+  link?: { sender: string; clients: number };
+}
+
+export interface Picture {
+  seq: number;
+  lost: number;
+  at: number;
+  status: Status;
+  values?: (number | null)[];
+}
+
+export interface MachineEvent {
+  number: number;
+  at: number;
+  kind: string;
+  text: string;
+  data?: unknown;
+}
+
+export interface ErrorBody {
+  trouble: string;
+  message: string;
+  line?: number;
+  column?: number;
+}
+
+/** An answer of the program that says no, with its sentence. */
+export class Refusal extends Error {
+  constructor(readonly body: ErrorBody) {
+    super(body.message);
+  }
+}
+
+export type Fields = Record<string, unknown>;
+export type Reply = Record<string, unknown>;

@@ -1,0 +1,80 @@
+// Orders and queries by name; what is refused is shown as the sentence that the program gave.
+import { signal } from '@preact/signals';
+import { Refusal, ROLES, type Fields, type Reply, type Role } from './contract';
+import { ask } from './socket';
+import * as state from './state';
+
+export interface Notice {
+  key: number;
+  kind: 'refused' | 'done';
+  text: string;
+}
+
+export const notices = signal<Notice[]>([]);
+let key = 1;
+
+export function notice(kind: Notice['kind'], text: string): void {
+  const same = notices.peek().filter((one) => one.text !== text);
+  const one = { key: key++, kind, text };
+  notices.value = [...same, one].slice(-4);
+  setTimeout(() => dismiss(one.key), kind === 'done' ? 4000 : 12000);
+}
+
+export function dismiss(which: number): void {
+  notices.value = notices.peek().filter((one) => one.key !== which);
+}
+
+export function sentence(why: unknown): string {
+  if (!(why instanceof Refusal)) return why instanceof Error ? why.message : String(why);
+  const { line, column, message } = why.body;
+  if (line === undefined || line <= 0) return message;
+  return `Line ${line}${column === undefined || column <= 0 ? '' : `, column ${column}`}: ${message}`;
+}
+
+/** Gives an order. False: it was refused, and the sentence is on the screen. */
+export async function order(name: string, fields: Fields = {}): Promise<boolean> {
+  return (await orderFor(name, fields)) !== null;
+}
+
+/** As order, with the answer; null: refused. */
+export async function orderFor(name: string, fields: Fields = {}): Promise<Reply | null> {
+  try {
+    return await ask({ ...fields, order: name });
+  } catch (why) {
+    notice('refused', sentence(why));
+    return null;
+  }
+}
+
+/** Asks. Throws Refusal. */
+export const query = async <T>(name: string, fields: Fields = {}): Promise<T> => (await ask({ ...fields, query: name })) as T;
+
+/** STOP goes both ways, by the stream and by HTTP, and needs neither token nor lease. */
+export function stop(): void {
+  ask({ order: 'stop' }).catch(() => undefined);
+  fetch('api/stop', { method: 'POST', keepalive: true }).then(
+    (answer) => {
+      if (!answer.ok) notice('refused', 'STOP did not reach the program by HTTP. If the machine moves, use its emergency stop.');
+    },
+    () => notice('refused', 'STOP did not reach the program: there is no connection. If the machine moves, use its emergency stop.'),
+  );
+}
+
+export function hasRole(needed: Role): boolean {
+  return ROLES.indexOf(state.role.value) >= ROLES.indexOf(needed);
+}
+
+/** Why something is not allowed now; empty: it is. Reads signals, so that a component that shows it follows. */
+export function whyNot(needed: Role, control = false): string {
+  if (state.link.value !== 'open') return 'There is no connection to the program.';
+  if (!hasRole(needed))
+    return `This needs the role ${needed}; you ${state.role.value === 'nobody' ? 'are not paired' : `have the role ${state.role.value}`}. Pair this browser with a code of that role.`;
+  if (control && !state.inControl.value) {
+    const holder = state.status.value?.control.holder;
+    return holder ? `${holder} holds control.` : 'Take control first.';
+  }
+  return '';
+}
+
+export const mayOperate = (): string => whyNot('operate', true);
+export const mayMaintain = (): string => whyNot('maintain', true);

@@ -1,0 +1,73 @@
+// What does not change while the program runs: the rack's cards, registers, wires, faults. Asked once a connection.
+import { computed, signal } from '@preact/signals';
+import { query } from './orders';
+import { whenOpen } from './socket';
+
+export interface FieldInfo {
+  name: string;
+  mask: number;
+  meaning: string;
+}
+export interface RegisterInfo {
+  name: string;
+  offset: number;
+  width: number;
+  access: string;
+  bank?: string;
+  per_axis?: boolean;
+  meaning: string;
+  fields: FieldInfo[];
+}
+export interface CommandInfo {
+  name: string;
+  code: number;
+  meaning: string;
+}
+export interface PinInfo {
+  name: string;
+  direction?: string;
+  meaning: string;
+}
+export interface CardInfo {
+  name: string;
+  type: string;
+  title: string;
+  slot: number;
+  channels?: string[];
+  registers: RegisterInfo[];
+  commands?: CommandInfo[];
+  pins?: PinInfo[];
+  values?: string[];
+  quantities?: string[];
+}
+export interface RackInfo {
+  name: string;
+  text?: string;
+  axes?: { letter: string; unit?: string; card?: string; channel?: string }[];
+  cards: CardInfo[];
+  wires?: { name: string; volts?: boolean; drivable?: boolean }[];
+  stages?: string[];
+  tracks?: string[];
+  scanners?: string[];
+  faults?: { target: string; faults: string[] }[];
+}
+export interface ChannelInfo {
+  name: string;
+  unit: string;
+  text: string;
+}
+
+export const rack = signal<RackInfo | null>(null);
+export const channelList = signal<ChannelInfo[]>([]);
+export const cardNamed = (name: string): CardInfo | undefined => rack.value?.cards.find((card) => card.name === name);
+export const channelNames = computed(() => new Set(channelList.value.map((one) => one.name)));
+
+async function load(): Promise<void> {
+  try {
+    rack.value = await query<RackInfo>('rack');
+    channelList.value = (await query<{ channels: ChannelInfo[] }>('channels')).channels;
+  } catch {
+    // Panels say that they know no cards until the next connection.
+  }
+}
+whenOpen(() => void load());

@@ -1,0 +1,50 @@
+// What the page knows of the machine: signals that panels read. Only the link writes them.
+import { computed, effect, signal } from '@preact/signals';
+import type { AxisStatus, Hello, MachineEvent, Role, StateName, Status } from './contract';
+
+export type LinkState = 'connecting' | 'open' | 'lost';
+
+export const link = signal<LinkState>('connecting');
+export const hello = signal<Hello | null>(null);
+export const role = signal<Role>('observe');
+export const user = signal('');
+export const status = signal<Status | null>(null);
+/** performance.now() of the newest picture. */
+export const received = signal(0);
+/** Pictures left out since the page was opened. */
+export const lost = signal(0);
+export const events = signal<MachineEvent[]>([]);
+
+/** Milliseconds since the newest picture, looked at ten times a second. */
+export const age = signal(Infinity);
+export const STALE_MS = 500;
+export const stale = computed(() => link.value !== 'open' || age.value > STALE_MS);
+
+export function lookAtAge(): void {
+  age.value = received.value === 0 ? Infinity : Math.max(0, performance.now() - received.value);
+}
+setInterval(lookAtAge, 100);
+effect(() => {
+  document.documentElement.classList.toggle('stale', stale.value);
+});
+
+export function stateName(text: string): StateName {
+  return text.replace(/_/g, ' ') as StateName;
+}
+
+export const machineState = computed<StateName>(() => stateName(status.value?.state ?? 'disabled'));
+export const axes = computed<AxisStatus[]>(() => status.value?.axes ?? []);
+/** Changes only when the axes themselves change, not their numbers. */
+export const axisLetters = computed(() => axes.value.map((axis) => axis.letter).join(''));
+export const openAlarms = computed(() => (status.value?.alarms ?? []).filter((alarm) => alarm.active || !alarm.acknowledged));
+export const standsStill = computed(() => ['standstill', 'disabled', 'error stop'].includes(machineState.value));
+
+/** This tab holds control. */
+export const inControl = computed(() => {
+  const control = status.value?.control;
+  if (!control?.holder) return false;
+  if (control.session_is_mine !== undefined) return control.session_is_mine;
+  return control.holder_session !== undefined && control.holder_session === hello.value?.session;
+});
+
+export const axisOf = (letter: string): AxisStatus | undefined => axes.value.find((axis) => axis.letter === letter);

@@ -1,0 +1,24 @@
+// The page's beginning.
+import { render } from 'preact';
+import './style/base.css';
+import './style/parts.css';
+import './style/layout.css';
+import './style/axes.css';
+import './style/panels.css';
+import './style/cards.css';
+import { App } from './app';
+import { listen } from './keys/handler';
+import { loadHistory } from './link/history';
+import { pairFromAddress } from './link/pairing';
+import { connect, whenOpen } from './link/socket';
+import { keepControl } from './link/control';
+import { watch } from './view';
+
+const pairing = pairFromAddress();
+watch();
+listen();
+whenOpen(() => void loadHistory());
+keepControl();
+const root = document.getElementById('page');
+if (root !== null) render(<App />, root);
+void pairing.finally(connect);

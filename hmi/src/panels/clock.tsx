@@ -1,0 +1,39 @@
+// The rack's clock: real, some times as fast, as fast as it can, paused and stepped; the simulated emergency stop.
+import { useSignal } from '@preact/signals';
+import type { JSX } from 'preact';
+import { actions } from '../actions';
+import { mayMaintain, notice, order } from '../link/orders';
+import { status } from '../link/state';
+import { fixed, typed } from '../parts/numbers';
+import { ActionButton, Button, Choice, Field, Panel } from '../parts/ui';
+
+const FACTORS = [0.1, 0.5, 1, 2, 10];
+
+export function Clock(): JSX.Element {
+  const clock = status.value?.clock;
+  const step = useSignal('0.002');
+  const why = mayMaintain();
+  const set = (mode: string): void => {
+    if (why !== '') notice('refused', why);
+    else if (mode === 'free' || mode === 'paused') void order('set_clock', { mode });
+    else void order('set_clock', { mode: 'real', factor: Number(mode) });
+  };
+  const stepBy = (): void => {
+    const seconds = typed(step.value);
+    if (seconds === null || seconds <= 0) notice('refused', `The clock cannot be stepped by "${step.value}"; a number of seconds above 0 is needed. Nothing was done.`);
+    else void order('step_clock', { seconds });
+  };
+  const now = clock === undefined || clock === null ? '' : clock.mode === 'real' ? String(clock.factor) : clock.mode;
+  return (
+    <Panel title="Clock and E-stop input" class="clockpanel" tools={<span class="tabular">{fixed(status.value?.at, 3)} s</span>}>
+      <Choice label="Clock" value={now} onChange={set}
+        options={[{ value: 'paused', text: 'Pause' }, ...FACTORS.map((one) => ({ value: String(one), text: one === 1 ? 'Real' : `${one} ×` })), { value: 'free', text: 'Free' }]} />
+      <div class="row">
+        <Field label="Step" value={step.value} unit="s" mode="decimal" onInput={(text) => (step.value = text)} onEnter={stepBy} />
+        <Button icon="step" why={why || (clock?.mode === 'paused' ? '' : 'The clock is stepped while it is paused.')} onClick={stepBy}>Step</Button>
+        <ActionButton action={actions.estop} icon="power" machine={false}>{status.value?.estop.pressed ? 'Release E-stop' : 'Press E-stop'}</ActionButton>
+      </div>
+      {clock?.mode === 'real' && <p class="hint tabular">behind by {fixed(clock.late_ms, 1)} ms</p>}
+    </Panel>
+  );
+}

@@ -1,0 +1,108 @@
+// Where the axes are: commanded, actual, following error, speed; lamps; enable and home.
+import type { JSX } from 'preact';
+import { actions, chosenAxis } from '../actions';
+import { LEDS, type AxisStatus, type LedName } from '../link/contract';
+import { mayOperate, order } from '../link/orders';
+import * as state from '../link/state';
+import { Icon } from '../parts/icons';
+import { fixed, position, unitName } from '../parts/numbers';
+import { ActionButton, Button, Led, Panel, type LedKind } from '../parts/ui';
+import { largeNumbers, narrow } from '../view';
+
+const LAMPS: Record<LedName, { letter: string; text: string; kind: LedKind }> = {
+  soft_minus: { letter: 'S−', text: 'software limit −', kind: 'warn' },
+  soft_plus: { letter: 'S+', text: 'software limit +', kind: 'warn' },
+  hard_minus: { letter: 'L−', text: 'limit switch −', kind: 'alarm' },
+  hard_plus: { letter: 'L+', text: 'limit switch +', kind: 'alarm' },
+  home: { letter: 'H', text: 'home switch', kind: 'info' },
+  index: { letter: 'I', text: 'encoder index', kind: 'info' },
+  capture: { letter: 'C', text: 'capture input', kind: 'info' },
+  compare: { letter: 'K', text: 'compare output', kind: 'info' },
+  in_position: { letter: 'P', text: 'in position', kind: 'info' },
+  alarm: { letter: 'F', text: 'drive fault', kind: 'alarm' },
+};
+
+/** The lamps that an axis has. */
+export function Lamps({ axis }: { axis: AxisStatus }): JSX.Element {
+  return (
+    <div class="lamps">
+      {LEDS.filter((name) => axis.leds[name] !== undefined).map((name) => (
+        <Led key={name} on={axis.leds[name] === true} {...LAMPS[name]} text={`${axis.letter} ${LAMPS[name].text}`} />
+      ))}
+    </div>
+  );
+}
+
+function Axis({ axis }: { axis: AxisStatus }): JSX.Element {
+  const unit = unitName(axis.unit);
+  const chosen = chosenAxis.value === axis.letter;
+  return (
+    <div class={`axis ${chosen ? 'chosen' : ''}`} role="group" aria-label={`Axis ${axis.letter}`}>
+      {narrow.value ? (
+        <span class="letter">{axis.letter}</span>
+      ) : (
+        <button type="button" class="letter" aria-pressed={chosen} title={`Choose axis ${axis.letter} for touch off`} onClick={() => (chosenAxis.value = axis.letter)}>
+          {axis.letter}
+        </button>
+      )}
+      <div class="main">
+        <output class="commanded tabular" aria-label={`${axis.letter} commanded, ${axis.unit}`}>{position(axis.commanded, axis.unit)}</output>
+        <span class="unit">{unit}</span>
+      </div>
+      <dl>
+        <div><dt>actual</dt><dd class="tabular">{position(axis.actual, axis.unit)}</dd></div>
+        <div><dt>error</dt><dd class="tabular">{position(axis.error, axis.unit)}</dd></div>
+        <div><dt>{unit}/s</dt><dd class="tabular">{fixed(axis.speed, 2)}</dd></div>
+      </dl>
+      <span class={`homed ${axis.trusted ? 'yes' : 'no'}`} title={axis.trusted ? 'The position is trusted: homed or declared' : 'The position is not trusted: home the axis, or declare where it stands'}>
+        <Icon name={axis.trusted ? 'check' : 'alarm'} size={14} />
+        {axis.trusted ? 'homed' : 'not homed'}
+      </span>
+      <Lamps axis={axis} />
+      {!narrow.value && (
+        <Button machine class="homeone" icon="home" why={mayOperate() || (axis.can_home ? '' : `Axis ${axis.letter} has no home switch; declare its position instead.`)}
+          label={`Home axis ${axis.letter}`} onClick={() => void order('home', { axes: axis.letter })}>{''}</Button>
+      )}
+    </div>
+  );
+}
+
+export function Dro(): JSX.Element {
+  const disabled = state.machineState.value === 'disabled';
+  return (
+    <Panel title="Axes" class={`dro ${largeNumbers.value ? 'large' : ''}`} tools={<Age />}>
+      <div class="axes">
+        {state.axes.value.map((axis) => <Axis key={axis.letter} axis={axis} />)}
+      </div>
+      {!narrow.value && (
+        <div class="row">
+          <ActionButton action={actions.enable} icon="power" kind={disabled ? 'main' : 'plain'}>{disabled ? 'Enable drives' : 'Disable drives'}</ActionButton>
+          <ActionButton action={actions.home} icon="home" />
+          <ActionButton action={actions.touchOff} icon="zero">Touch off {chosenAxis.value}</ActionButton>
+        </div>
+      )}
+      <Homing />
+    </Panel>
+  );
+}
+
+/** How old the numbers are, once they are too old to go by. */
+function Age(): JSX.Element | null {
+  if (!state.stale.value || state.received.value === 0) return null;
+  return <span class="age">these values are {(state.age.value / 1000).toFixed(1)} s old</span>;
+}
+
+/** Phases while axes home, and what was found. */
+function Homing(): JSX.Element | null {
+  const homing = state.status.value?.homing as { axes?: { axis: string; phase: string }[]; report?: string | { text?: string } } | null | undefined;
+  if (homing === null || homing === undefined) return null;
+  const report = typeof homing.report === 'string' ? homing.report : homing.report?.text;
+  if ((homing.axes ?? []).length === 0 && !report) return null;
+  return (
+    <details class="homing" open={state.machineState.value === 'homing'}>
+      <summary>Homing</summary>
+      {(homing.axes ?? []).map((one) => <p key={one.axis}><strong>{one.axis}</strong> {one.phase}</p>)}
+      {report && <pre>{report}</pre>}
+    </details>
+  );
+}

@@ -1,0 +1,102 @@
+// The program: open or type it, check it dry, run, step, hold, stop; where it is.
+import { useSignal } from '@preact/signals';
+import type { JSX } from 'preact';
+import { useRef } from 'preact/hooks';
+import { actions, perform } from '../actions';
+import { mayOperate, notice, order, query, sentence, whyNot } from '../link/orders';
+import { status } from '../link/state';
+import { duration, fixed } from '../parts/numbers';
+import { ActionButton, Button, Panel, Switch } from '../parts/ui';
+import { checked, type Check } from '../path/checked';
+import { program, programName } from '../program/text';
+import { Listing } from '../program/listing';
+
+async function check(): Promise<void> {
+  try {
+    checked.value = await query<Check>('check', { name: programName.value, text: program.value });
+  } catch (why) {
+    checked.value = null;
+    notice('refused', sentence(why));
+  }
+}
+
+async function open(file: File | undefined): Promise<void> {
+  if (file === undefined) return;
+  programName.value = file.name;
+  program.value = await file.text();
+  checked.value = null;
+}
+
+function Findings({ result }: { result: Check }): JSX.Element {
+  const problems = result.problems ?? [];
+  return (
+    <div class="findings">
+      {problems.length === 0 ? (
+        <dl class="facts-list">
+          <div><dt>lines</dt><dd class="tabular">{result.lines ?? '–'}</dd></div>
+          <div><dt>takes</dt><dd class="tabular">{duration(result.seconds)}</dd></div>
+          {Object.keys(result.least ?? {}).map((letter) => (
+            <div key={letter}>
+              <dt>{letter}</dt>
+              <dd class="tabular">{fixed(result.least?.[letter], 3)} … {fixed(result.greatest?.[letter], 3)}</dd>
+            </div>
+          ))}
+        </dl>
+      ) : (
+        <ul class="problems">
+          {problems.map((one, i) => <li key={i}>{one.line ? <strong>Line {one.line}: </strong> : null}{one.message}</li>)}
+        </ul>
+      )}
+    </div>
+  );
+}
+
+function Progress(): JSX.Element | null {
+  const now = status.value?.program;
+  if (now === undefined || now.name === '') return null;
+  const part = now.lines > 0 ? Math.min(1, now.line / now.lines) : 0;
+  return (
+    <div class="progress">
+      <div class="words">
+        <strong>{now.name}</strong>
+        <span class="tabular">line {now.line} of {now.lines}</span>
+        <span class="tabular">{now.remaining_s === null || now.remaining_s === undefined ? (now.runs ? 'runs' : 'ended') : `${duration(now.remaining_s)} left`}</span>
+      </div>
+      <progress max="1" value={part} aria-label="Lines of the program that were driven" />
+    </div>
+  );
+}
+export { Progress };
+
+export function Program(): JSX.Element {
+  const file = useRef<HTMLInputElement>(null);
+  const editing = useSignal(false);
+  const runs = status.value?.program.runs === true;
+  const single = status.value?.program.single_step === true;
+  return (
+    <Panel title="Program" class="program" tools={<span class="file" title={programName.value}>{programName.value}</span>}>
+      <div class="row">
+        <ActionButton action={actions.run} icon="run" kind={runs ? 'plain' : 'main'} />
+        <ActionButton action={actions.step} icon="step">Step</ActionButton>
+        <ActionButton action={actions.hold} icon="hold">Hold</ActionButton>
+        <Button machine icon="stop" onClick={() => perform(actions.stop)}>Stop</Button>
+      </div>
+      <Progress />
+      {editing.value ? (
+        <textarea class="editor" aria-label="Program text" spellcheck={false} value={program.value}
+          onInput={(event) => ((program.value = event.currentTarget.value), (checked.value = null))} />
+      ) : (
+        <Listing />
+      )}
+      {checked.value !== null && <Findings result={checked.value} />}
+      <div class="row">
+        <input ref={file} class="hidden" type="file" accept=".ngc,.nc,.gcode,.tap,.txt" tabIndex={-1} aria-label="Program file"
+          onChange={(event) => void open(event.currentTarget.files?.[0])} />
+        <Button icon="open" onClick={() => file.current?.click()}>Open</Button>
+        <Button pressed={editing.value} onClick={() => (editing.value = !editing.value)}>Edit</Button>
+        <Button icon="check" why={whyNot('observe')} onClick={() => void check()}>Check</Button>
+        <Switch on={single} label="Single step" why={mayOperate()} onChange={(on) => void order('set_single_step', { on })} />
+      </div>
+    </Panel>
+  );
+}

@@ -1,0 +1,142 @@
+// Always visible: STOP and its neighbours, the machine's state, SIMULATION, the emergency stop's input, alarms.
+import type { JSX } from 'preact';
+import { acknowledge, actions, perform } from '../actions';
+import type { StateName } from '../link/contract';
+import * as state from '../link/state';
+import { Icon, type IconName } from '../parts/icons';
+import { ActionButton, Button } from '../parts/ui';
+import { address, narrow } from '../view';
+
+interface Look {
+  icon: IconName;
+  word: string;
+  tone: 'calm' | 'moves' | 'attention' | 'alarm';
+}
+
+const LOOKS: Record<StateName, Look> = {
+  disabled: { icon: 'disabled', word: 'Disabled', tone: 'calm' },
+  standstill: { icon: 'standstill', word: 'Standstill', tone: 'calm' },
+  homing: { icon: 'home', word: 'Homing', tone: 'moves' },
+  moving: { icon: 'moving', word: 'Moving', tone: 'moves' },
+  jogging: { icon: 'jogging', word: 'Jogging', tone: 'moves' },
+  hold: { icon: 'hold', word: 'Hold', tone: 'attention' },
+  stopping: { icon: 'stopping', word: 'Stopping', tone: 'attention' },
+  'error stop': { icon: 'alarm', word: 'Error stop', tone: 'alarm' },
+};
+
+function Stop(): JSX.Element {
+  return (
+    <button type="button" class="stop" onClick={() => perform(actions.stop)} title="STOP: controlled stop, the program is aborted (Esc). This is no emergency stop.">
+      <Icon name="stop" size={26} />
+      <span>STOP</span>
+    </button>
+  );
+}
+
+function StateChip(): JSX.Element {
+  const look = LOOKS[state.machineState.value] ?? { icon: 'alarm', word: state.machineState.value, tone: 'attention' };
+  const why = state.status.value?.why ?? '';
+  return (
+    <div class={`state ${look.tone}`} role="status" aria-live="polite">
+      <Icon name={look.icon} size={22} />
+      <span class="word">{look.word}</span>
+      {why !== '' && <span class="why" title={why}>{why}</span>}
+    </div>
+  );
+}
+
+function Estop(): JSX.Element | null {
+  const input = state.status.value?.estop;
+  if (input === undefined) return null;
+  const word = !input.wired ? 'not wired' : input.pressed ? 'PRESSED' : 'released';
+  const tone = input.wired && input.pressed ? 'alarm' : 'calm';
+  return (
+    <div class={`fact ${tone}`}>
+      <span class="name">E-stop input</span>
+      <span class="value">
+        <Icon name={tone === 'alarm' ? 'alarm' : input.wired ? 'check' : 'disabled'} size={15} />
+        {word}
+      </span>
+    </div>
+  );
+}
+
+function Alarms(): JSX.Element {
+  const count = state.openAlarms.value.filter((one) => one.active).length;
+  const unseen = state.openAlarms.value.filter((one) => !one.acknowledged).length;
+  return (
+    <a class={`fact ${count > 0 ? 'alarm' : unseen > 0 ? 'attention' : 'calm'}`} href={address('events')}>
+      <span class="name">Alarms</span>
+      <span class="value">
+        <Icon name={count + unseen > 0 ? 'alarm' : 'check'} size={15} />
+        {count === 0 ? 'none active' : `${count} active`}
+        {unseen > 0 && `, ${unseen} new`}
+      </span>
+    </a>
+  );
+}
+
+function LinkAge(): JSX.Element {
+  const { value: link } = state.link;
+  const ms = state.age.value;
+  const text = link === 'connecting' ? 'connecting' : link === 'lost' ? 'lost' : state.stale.value ? 'silent' : 'live';
+  const shown = Number.isFinite(ms) ? (ms > state.STALE_MS ? `${(ms / 1000).toFixed(1)} s old` : `< ${Math.max(100, Math.ceil(ms / 100) * 100)} ms`) : '';
+  return (
+    <div class={`fact ${text === 'live' ? 'calm' : 'attention'}`} title={`Pictures left out because this browser was slow: ${state.lost.value}`}>
+      <span class="name">Data</span>
+      <span class="value tabular">
+        <Icon name={text === 'live' ? 'link' : 'lost'} size={15} />
+        {text} {shown}
+      </span>
+    </div>
+  );
+}
+
+export const Simulation = (): JSX.Element => (
+  <span class="simulation" title="Cards, motors and machine are simulated; nothing real moves.">SIMULATION</span>
+);
+
+export function StateBar(): JSX.Element {
+  return (
+    <div class="statebar">
+      <Stop />
+      {!narrow.value && (
+        <div class="flow" role="group" aria-label="Motion">
+          <ActionButton action={actions.hold} icon="hold" />
+          <ActionButton action={actions.resume} icon="resume" />
+          <ActionButton action={actions.reset} icon="reset" />
+        </div>
+      )}
+      <StateChip />
+      {(state.hello.value?.simulation ?? state.status.value?.simulation ?? true) && <Simulation />}
+      <div class="facts">
+        <Estop />
+        <Alarms />
+        <LinkAge />
+      </div>
+    </div>
+  );
+}
+
+/** Alarms that nobody has acknowledged, under the bar on every view. */
+export function AlarmBanner(): JSX.Element {
+  const unseen = state.openAlarms.value.filter((one) => !one.acknowledged);
+  const newest = unseen[unseen.length - 1];
+  return (
+    <div class="alarmlive" aria-live="assertive" role="alert">
+      {newest !== undefined && (
+        <div class="banner">
+          <Icon name="alarm" size={20} />
+          <p><strong>Alarm</strong> {newest.text}</p>
+          {unseen.length > 1 && <a href={address('events')}>and {unseen.length - 1} more</a>}
+          {!narrow.value && <Acknowledge number={newest.number} />}
+        </div>
+      )}
+    </div>
+  );
+}
+
+function Acknowledge({ number }: { number: number }): JSX.Element {
+  const action = acknowledge(number);
+  return <Button why={action.why()} icon="check" onClick={() => perform(action)}>Acknowledge</Button>;
+}

@@ -1,0 +1,26 @@
+// A dialog of the browser's own: focus stays in it, Esc closes it too (and is STOP all the same).
+import type { ComponentChildren, JSX } from 'preact';
+import { useEffect, useId, useRef } from 'preact/hooks';
+import { Icon } from './icons';
+
+export function Dialog(props: { title: string; open: boolean; onClose(): void; children: ComponentChildren; class?: string }): JSX.Element | null {
+  const element = useRef<HTMLDialogElement>(null);
+  const id = useId();
+  useEffect(() => {
+    const dialog = element.current;
+    if (dialog === null) return;
+    if (props.open && !dialog.open) dialog.show();
+    else if (!props.open && dialog.open) dialog.close();
+    if (props.open) dialog.querySelector<HTMLElement>('input, button')?.focus();
+  }, [props.open]);
+  if (!props.open) return null;
+  return (
+    <dialog ref={element} class={props.class} aria-labelledby={id} onClose={props.onClose}>
+      <header>
+        <h2 id={id}>{props.title}</h2>
+        <button type="button" class="button quiet" aria-label="Close" onClick={props.onClose}><Icon name="close" /></button>
+      </header>
+      {props.children}
+    </dialog>
+  );
+}

@@ -1,0 +1,43 @@
+// Asks a query again and again while a panel is open; never a second time before the first was answered.
+import { useSignal, type Signal } from '@preact/signals';
+import { useEffect } from 'preact/hooks';
+import type { Fields } from '../link/contract';
+import { query, sentence } from '../link/orders';
+import { link } from '../link/state';
+
+export interface Polled<T> {
+  data: Signal<T | null>;
+  why: Signal<string>;
+}
+
+/** `name` "" asks nothing. */
+export function usePoll<T>(name: string, fields: Fields, every_ms: number): Polled<T> {
+  const data = useSignal<T | null>(null);
+  const why = useSignal('');
+  const key = JSON.stringify(fields);
+  useEffect(() => {
+    if (name === '') return undefined;
+    data.value = null;
+    let live = true;
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    const look = async (): Promise<void> => {
+      if (link.peek() === 'open' && !document.hidden)
+        try {
+          const answer = await query<T>(name, JSON.parse(key) as Fields);
+          if (live) {
+            data.value = answer;
+            why.value = '';
+          }
+        } catch (refused) {
+          if (live) why.value = sentence(refused);
+        }
+      if (live) timer = setTimeout(() => void look(), every_ms);
+    };
+    void look();
+    return () => {
+      live = false;
+      clearTimeout(timer);
+    };
+  }, [name, key, every_ms]);
+  return { data, why };
+}

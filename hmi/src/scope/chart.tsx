@@ -1,0 +1,106 @@
+// A chart of lines over one axis; the page's one place that knows uPlot.
+import type { JSX } from 'preact';
+import { useEffect, useRef } from 'preact/hooks';
+import uPlot from 'uplot';
+import 'uplot/dist/uPlot.min.css';
+import { dark } from '../view';
+
+export interface Mark {
+  x: number;
+  name: string;
+}
+
+interface ChartProps {
+  /** The first array is x. */
+  data: (number | null)[][];
+  names: readonly string[];
+  xName: string;
+  label: string;
+  marks?: readonly Mark[];
+  stepped?: boolean;
+  height?: number;
+  onPick?(x: number): void;
+}
+
+/** Lines differ by dash, too, not by colour alone. */
+const DASHES: readonly number[][] = [[], [8, 4], [2, 3], [10, 3, 2, 3]];
+export const LINES = 8;
+export const lineColour = (style: CSSStyleDeclaration, i: number): string => style.getPropertyValue(`--line-${(i % LINES) + 1}`).trim();
+export const dashOf = (i: number): readonly number[] => DASHES[Math.floor(i / 2) % DASHES.length] ?? [];
+
+function drawMarks(plot: uPlot, marks: readonly Mark[], colour: string): void {
+  const { ctx: pen, bbox } = plot;
+  pen.save();
+  pen.strokeStyle = pen.fillStyle = colour;
+  pen.lineWidth = devicePixelRatio;
+  pen.font = `${12 * devicePixelRatio}px Inter Variable, sans-serif`;
+  for (const mark of marks) {
+    const x = plot.valToPos(mark.x, 'x', true);
+    if (x < bbox.left || x > bbox.left + bbox.width) continue;
+    pen.beginPath();
+    pen.moveTo(x, bbox.top);
+    pen.lineTo(x, bbox.top + bbox.height);
+    pen.stroke();
+    pen.fillText(mark.name, x + 4 * devicePixelRatio, bbox.top + 13 * devicePixelRatio);
+  }
+  pen.restore();
+}
+
+function options(box: HTMLElement, props: ChartProps, marks: () => readonly Mark[]): uPlot.Options {
+  const style = getComputedStyle(box);
+  const get = (name: string): string => style.getPropertyValue(name).trim();
+  const axis: uPlot.Axis = { stroke: get('--muted'), grid: { stroke: get('--line'), width: 1 }, ticks: { stroke: get('--line'), width: 1 }, font: '11px Inter Variable, sans-serif' };
+  const steps = props.stepped === true && uPlot.paths.stepped !== undefined ? { paths: uPlot.paths.stepped({ align: 1 }) } : {};
+  return {
+    width: Math.max(100, box.clientWidth),
+    height: Math.max(80, box.clientHeight),
+    legend: { show: false },
+    cursor: { drag: { x: true, y: false } },
+    scales: { x: { time: false } },
+    axes: [{ ...axis, size: 34 }, { ...axis, size: 62 }],
+    series: [{ label: props.xName }, ...props.names.map((name, i) => ({ label: name, stroke: lineColour(style, i), width: 1.8, dash: [...dashOf(i)], points: { show: false }, ...steps }))],
+    hooks: { draw: [(plot) => drawMarks(plot, marks(), get('--amber'))] },
+  };
+}
+
+export function Chart(props: ChartProps): JSX.Element {
+  const box = useRef<HTMLDivElement>(null);
+  const plot = useRef<uPlot | null>(null);
+  const marks = useRef(props.marks ?? []);
+  const pick = useRef(props.onPick);
+  marks.current = props.marks ?? [];
+  pick.current = props.onPick;
+  const made = `${props.names.join(' ')}|${dark.value}|${props.stepped}`;
+  useEffect(() => {
+    const element = box.current;
+    if (element === null) return undefined;
+    const one = new uPlot(options(element, props, () => marks.current), props.data as uPlot.AlignedData, element);
+    plot.current = one;
+    one.over.addEventListener('click', (event) => pick.current?.(one.posToVal(event.offsetX, 'x')));
+    const watch = new ResizeObserver(() => one.setSize({ width: Math.max(100, element.clientWidth), height: Math.max(80, element.clientHeight) }));
+    watch.observe(element);
+    return () => {
+      watch.disconnect();
+      one.destroy();
+      plot.current = null;
+    };
+  }, [made]);
+  useEffect(() => plot.current?.setData(props.data as uPlot.AlignedData), [props.data]);
+  useEffect(() => plot.current?.redraw(false), [props.marks]);
+  return <div ref={box} class="chart" style={props.height === undefined ? undefined : { height: `${props.height}px` }} role="img" aria-label={props.label} />;
+}
+
+/** What the lines are. */
+export function Legend({ names, values }: { names: readonly string[]; values?: readonly (string | null)[] }): JSX.Element {
+  return (
+    <ul class="linelegend">
+      {names.map((name, i) => (
+        <li key={name}>
+          <svg width="26" height="8" aria-hidden="true"><path class={`line-${(i % LINES) + 1}`} d="M1 4h24" stroke-width="2.4" stroke-dasharray={dashOf(i).join(' ')} /></svg>
+          <code>{name}</code>
+          {values?.[i] != null && <span class="tabular">{values[i]}</span>}
+        </li>
+      ))}
+    </ul>
+  );
+}

@@ -1,0 +1,159 @@
+// The scope: channels, trigger, what comes before it; run, single, stop; two cursors; export.
+import { computed, signal } from '@preact/signals';
+import type { JSX } from 'preact';
+import { notice, order, whyNot } from '../link/orders';
+import { fixed, typed } from '../parts/numbers';
+import { usePoll } from '../parts/poll';
+import { Button, Empty, Field, Panel, Select } from '../parts/ui';
+import { Chart, Legend } from './chart';
+import { Picker } from './picker';
+
+interface ScopeAnswer {
+  state?: string;
+  channels?: string[];
+  period_us?: number;
+  trigger_index?: number | null;
+  at?: number;
+  data?: (number | null)[][];
+}
+
+const MOST = 8;
+const KEY = 'motionrack.scope';
+
+interface Settings {
+  channels: string[];
+  trigger: string;
+  edge: string;
+  level: string;
+  period: string;
+  length: string;
+  pre: string;
+}
+
+const EMPTY: Settings = { channels: [], trigger: '', edge: 'rise', level: '0', period: '1000', length: '2000', pre: '500' };
+const settings = signal<Settings>({ ...EMPTY, ...(JSON.parse(localStorage.getItem(KEY) ?? '{}') as Partial<Settings>) });
+const cursors = signal<[number, number]>([0, 0]);
+const moving = signal<0 | 1>(0);
+
+function set(part: Partial<Settings>): void {
+  settings.value = { ...settings.value, ...part };
+  localStorage.setItem(KEY, JSON.stringify(settings.value));
+}
+
+function arm(mode: 'run' | 'single'): void {
+  const now = settings.value;
+  const [level, period_us, length, pre] = [now.level, now.period, now.length, now.pre].map(typed);
+  if (level == null || period_us == null || length == null || pre == null) {
+    notice('refused', 'Level, period, samples and pre-trigger must be numbers. The scope was not armed.');
+    return;
+  }
+  const trigger = now.trigger === '' ? {} : { trigger: { channel: now.trigger, edge: now.edge, level } };
+  void order('scope_arm', { channels: now.channels, ...trigger, period_us, length, pre, mode });
+}
+
+function Cursors({ data, names }: { data: (number | null)[][]; names: readonly string[] }): JSX.Element {
+  const times = data[0] ?? [];
+  const index = (x: number): number => {
+    let best = 0;
+    times.forEach((time, i) => {
+      if (Math.abs((time ?? 0) - x) < Math.abs((times[best] ?? 0) - x)) best = i;
+    });
+    return best;
+  };
+  const [a, b] = cursors.value.map(index) as [number, number];
+  const move = (which: 0 | 1, i: number): void => {
+    const next: [number, number] = [...cursors.value];
+    next[which] = times[i] ?? 0;
+    cursors.value = next;
+  };
+  const at = (i: number): number => times[i] ?? 0;
+  return (
+    <div class="cursors">
+      {([0, 1] as const).map((which) => (
+        <label key={which} class={moving.value === which ? 'moving' : ''}>
+          <span>Cursor {which === 0 ? 'A' : 'B'}</span>
+          <input type="range" min="0" max={Math.max(1, times.length - 1)} value={which === 0 ? a : b} onFocus={() => (moving.value = which)} onInput={(event) => move(which, Number(event.currentTarget.value))} />
+          <output class="tabular">{fixed(at(which === 0 ? a : b), 3)} ms</output>
+        </label>
+      ))}
+      <table>
+        <thead><tr><th scope="col">Channel</th><th scope="col">A</th><th scope="col">B</th><th scope="col">B − A</th></tr></thead>
+        <tbody>
+          <tr><td>time</td><td class="tabular">{fixed(at(a), 3)}</td><td class="tabular">{fixed(at(b), 3)}</td><td class="tabular">{fixed(at(b) - at(a), 3)} ms</td></tr>
+          {names.map((name, i) => {
+            const [va, vb] = [data[i + 1]?.[a] ?? null, data[i + 1]?.[b] ?? null];
+            return <tr key={name}><td><code>{name}</code></td><td class="tabular">{fixed(va, 4)}</td><td class="tabular">{fixed(vb, 4)}</td><td class="tabular">{va === null || vb === null ? '–' : fixed(vb - va, 4)}</td></tr>;
+          })}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+function save(names: readonly string[], data: (number | null)[][]): void {
+  const rows = (data[0] ?? []).map((time, i) => [time, ...names.map((_, n) => data[n + 1]?.[i] ?? '')].join(','));
+  const file = new Blob([['time_ms', ...names].join(',') + '\n' + rows.join('\n') + '\n'], { type: 'text/csv' });
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(file);
+  link.download = 'scope.csv';
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
+const WORDS: Record<string, string> = { idle: 'stopped', armed: 'waits for its trigger', triggered: 'triggered, records', done: 'recorded' };
+const answer = signal<ScopeAnswer | null>(null);
+const shown = computed(() => {
+  const now = answer.value;
+  const length = now?.data?.[0]?.length ?? 0;
+  const period = (now?.period_us ?? 1000) / 1000;
+  return [Array.from({ length }, (_, i) => (i - (now?.trigger_index ?? 0)) * period), ...(now?.data ?? [])];
+});
+
+export function Scope(): JSX.Element {
+  const { data } = usePoll<ScopeAnswer>('scope', {}, 300);
+  if (data.value !== null && JSON.stringify(data.value) !== JSON.stringify(answer.peek())) answer.value = data.value;
+  const names = answer.value?.channels ?? [];
+  const why = whyNot('operate') || (settings.value.channels.length === 0 ? 'Choose a channel first.' : '');
+  const now = settings.value;
+  const pick = (x: number): void => {
+    const next: [number, number] = [...cursors.value];
+    next[moving.value] = x;
+    cursors.value = next;
+    moving.value = moving.value === 0 ? 1 : 0;
+  };
+  const marks = [{ x: 0, name: 'T' }, { x: cursors.value[0], name: 'A' }, { x: cursors.value[1], name: 'B' }];
+  return (
+    <div class="scopeview">
+      <Panel title="Scope" class="scope" tools={
+        <>
+          <span class={`word ${answer.value?.state ?? 'idle'}`} role="status">{WORDS[answer.value?.state ?? 'idle'] ?? answer.value?.state}</span>
+          <Button icon="run" why={why} onClick={() => arm('run')}>Run</Button>
+          <Button icon="step" why={why} onClick={() => arm('single')}>Single</Button>
+          <Button icon="standstill" why={whyNot('operate')} onClick={() => void order('scope_stop')}>Stop</Button>
+          <Button icon="save" why={names.length === 0 ? 'There is nothing recorded yet.' : ''} onClick={() => save(names, shown.value)}>CSV</Button>
+        </>
+      }>
+        {names.length > 0 && (shown.value[0]?.length ?? 0) > 0 ? (
+          <>
+            <Chart data={shown.value} names={names} xName="ms" label={`Recording of ${names.join(', ')}`} marks={marks} onPick={pick} />
+            <Legend names={names} />
+            <Cursors data={shown.value} names={names} />
+          </>
+        ) : (
+          <Empty>Choose channels, set a trigger, and press Run or Single. Without a trigger it records at once.</Empty>
+        )}
+      </Panel>
+      <div class="column">
+        <Panel title="Channels"><Picker chosen={now.channels} most={MOST} onChange={(channels) => set({ channels })} /></Panel>
+        <Panel title="Trigger and time" class="trigger">
+          <Select label="Trigger" value={now.trigger} onChange={(trigger) => set({ trigger })} options={[{ value: '', text: 'none' }, ...now.channels.map((name) => ({ value: name, text: name }))]} />
+          <Select label="Edge" value={now.edge} onChange={(edge) => set({ edge })} options={['rise', 'fall', 'either'].map((one) => ({ value: one, text: one }))} />
+          <Field label="Level" value={now.level} mode="decimal" onInput={(level) => set({ level })} />
+          <Field label="Sample every" value={now.period} unit="us" mode="decimal" onInput={(period) => set({ period })} />
+          <Field label="Samples" value={now.length} mode="decimal" onInput={(length) => set({ length })} />
+          <Field label="Before the trigger" value={now.pre} mode="decimal" onInput={(pre) => set({ pre })} />
+        </Panel>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,16 @@
+// How the page is built: everything local, nothing inline, so that the strictest content policy holds.
+import { defineConfig } from 'vite';
+
+export default defineConfig({
+  base: './',
+  build: {
+    outDir: process.env.MOTIONRACK_PAGE ?? '../build/release/share/motionrack/page',
+    emptyOutDir: true,
+    target: 'es2021',
+    assetsInlineLimit: 0,
+    modulePreload: { polyfill: false },
+    chunkSizeWarningLimit: 800,
+    reportCompressedSize: false,
+  },
+  server: { proxy: { '/api': { target: process.env.MOTIONRACK_SERVER ?? 'http://127.0.0.1:8314', ws: true } } },
+});
