@@ -12,5 +12,5 @@ export default defineConfig({
     chunkSizeWarningLimit: 800,
     reportCompressedSize: false,
   },
-  server: { proxy: { '/api': { target: process.env.MOTIONRACK_SERVER ?? 'http://127.0.0.1:8314', ws: true } } },
+  server: { proxy: { '/api': { target: process.env.MOTIONRACK_SERVER ?? 'http://127.0.0.1:8080', ws: true } } },
 });

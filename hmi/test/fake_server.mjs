@@ -77,6 +77,7 @@ export class Fake {
       send(reply.error ? { id: message.id, error: reply.error } : { id: message.id, done: true, ...reply });
     });
     socket.on('close', () => {
+      if (this.holder === one.session) this.holder = null;
       this.connections.delete(socket);
     });
   }
@@ -95,7 +96,7 @@ export class Fake {
     if (order === 'take_control') return this.holder && this.holder !== one.session && s.state !== 'standstill' ? refuse('anna holds control and the machine moves.') : ((this.holder = one.session), {});
     if (order === 'release_control') return (this.holder = null), {};
     if (order === 'enable') s.state = fields.on ? 'standstill' : 'disabled';
-    if (order === 'jog') s.state = 'jogging';
+    if (order === 'jog') (s.state = 'jogging'), (this.jogged = performance.now());
     if (order === 'jog_stop' || order === 'stop' || order === 'reset') (s.state = 'standstill'), (s.program.runs = false);
     if (order === 'begin') (s.state = 'moving'), (s.program = { ...s.program, name: fields.name, runs: true, line: 1, lines: fields.text.split('\n').length, remaining_s: 83.2 });
     if (order === 'hold') {
@@ -109,6 +110,7 @@ export class Fake {
     if (order === 'set_clock') s.clock = { ...s.clock, ...fields };
     if (order === 'acknowledge') s.alarms.forEach((alarm) => alarm.number === fields.alarm && (alarm.acknowledged = true));
     if (order === 'line' && /G999/.test(fields.text)) return { error: { trouble: 'bad_input', message: 'G999 is not a code that is understood.', line: 1, column: 1 } };
+    if (order === 'check') return { good: true, lines: 4, seconds: 83.2, path_mm: 440, extents: { X: [10, 120], Y: [20, 130] }, problems: [], path: { axes: 'XYZA', points: [[10, 20, 0, 0], [120, 20, 0, 0], [120, 130, 0, 0], [10, 130, 0, 0], [10, 20, 0, 0]] } };
     if (order === 'invite') return { code: 'WXYZ-1234' };
     return {};
   }
@@ -117,8 +119,7 @@ export class Fake {
     if (query === 'rack') return RACK;
     if (query === 'channels') return { channels: ['X', 'Y', 'Z', 'A'].flatMap((l) => ['commanded', 'actual', 'error', 'speed'].map((n) => ({ name: `${l}.${n}`, unit: n === 'speed' ? 'mm/s' : 'mm', text: n }))).concat(['x', 'y', 'z', 'u'].flatMap((c) => ['LP', 'EP', 'CV', 'CA'].map((n) => ({ name: `motion.${c}.${n}`, unit: '', text: n })))) };
     if (query === 'events') return { events: this.events };
-    if (query === 'card') return { registers: [{ name: 'RR0', word: 0x0003 }, { name: 'x.RR1', word: 0x0411 }], values: [{ name: 'x.LP', value: 123456 }] };
-    if (query === 'check') return { ok: true, lines: 4, seconds: 83.2, least: { X: 10, Y: 20 }, greatest: { X: 120, Y: 130 }, problems: [], path: [[10, 20, 0, 0], [120, 20, 0, 0], [120, 130, 0, 0], [10, 130, 0, 0], [10, 20, 0, 0]] };
+    if (query === 'card') return { registers: [{ name: 'RR0', register: 'RR0', word: 0x0003 }, { name: 'x.RR1', register: 'RR1', word: 0x0411 }], values: { 'x.LP': 123456 }, numbers: {}, pins: {} };
     if (query === 'path' || query === 'scope') return {};
     return { error: { trouble: 'bad_input', message: `There is no query "${query}" (${Object.keys(fields).join()}).` } };
   }
@@ -138,6 +139,7 @@ export class Fake {
     const s = this.status;
     s.at += 0.05;
     s.sequence += 1;
+    if (s.state === 'jogging' && performance.now() - this.jogged > 250) s.state = 'standstill';
     if (s.state === 'moving') {
       const [x, y] = [150 + 80 * Math.cos(s.at), 100 + 60 * Math.sin(2 * s.at)];
       [x, y].forEach((place, i) => Object.assign(s.axes[i], { commanded: place, actual: place - 0.004 * Math.sin(9 * s.at), error: 0.004 * Math.sin(9 * s.at), speed: 34.5 }));
@@ -155,11 +157,11 @@ export class Fake {
 const RACK = {
   name: 'demonstration',
   axes: ['X', 'Y', 'Z', 'A'].map((letter, i) => ({ letter, unit: letter === 'A' ? 'deg' : 'mm', card: 'motion', channel: 'xyzu'[i] })),
-  cards: [{ name: 'motion', type: 'mcx314', title: 'four-axis pulse chip with interpolation', slot: 0, channels: ['x', 'y', 'z', 'u'],
-    registers: [{ name: 'RR0', offset: 0, width: 16, access: 'read', meaning: 'main status', fields: [{ name: 'XDRV', mask: 1, meaning: 'X drives' }, { name: 'YDRV', mask: 2, meaning: 'Y drives' }, { name: 'ZONE', mask: 0x1c00, meaning: 'quadrant of the arc' }] },
-      { name: 'RR1', offset: 2, width: 16, access: 'read', meaning: 'status of an axis', per_axis: true, fields: [{ name: 'CMPP', mask: 1, meaning: 'at or above COMP+' }] }],
-    commands: [], pins: [], values: [], quantities: [] }],
-  wires: [{ name: 'X.limit_plus', drivable: true }, { name: 'estop', drivable: true }],
+  cards: [{ name: 'motion', type: 'mcx314', title: 'four-axis pulse chip with interpolation', slot: 0, about: '', bus: { base: 0, widths: [16] }, axes: ['X', 'Y', 'Z', 'A'].map((letter, i) => ({ letter, channel: 'xyzu'[i] })),
+    registers: [{ name: 'RR0', offset: 0, width: 16, access: 'read', meaning: 'main status', fields: [{ name: 'XDRV', low: 0, bits: 1, meaning: 'X drives' }, { name: 'YDRV', low: 1, bits: 1, meaning: 'Y drives' }, { name: 'ZONE', low: 10, bits: 3, meaning: 'quadrant of the arc' }] },
+      { name: 'RR1', offset: 2, width: 16, access: 'read', meaning: 'status of an axis', per_axis: true, fields: [{ name: 'CMPP', low: 0, bits: 1, meaning: 'at or above COMP+' }] }],
+    commands: [], machines: [], pins: [], values: [], numbers: [] }],
+  wires: [{ name: 'X.limit_plus', volts: false, bits: 1, drivable: true }, { name: 'estop', volts: false, bits: 1, drivable: true }],
   stages: [], tracks: [], scanners: [], faults: [{ target: 'X', faults: ['encoder.broken_a', 'motor.lose_steps'] }],
 };
 

@@ -1,32 +1,46 @@
 // The DataBoard 4002's panel: its ports by hand, status and events, the slope as a picture.
 import type { JSX } from 'preact';
+import { useMemo } from 'preact/hooks';
 import type { CardInfo } from '../link/rack';
+import { fixed } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
 import { Empty, Panel } from '../parts/ui';
 import { Chart, Legend } from '../scope/chart';
 import { Console } from './console';
 import { Flags, Quantities, wordOf, type CardAnswer } from './peek';
 
+interface Interval {
+  position: number;
+  rate: number;
+  hz: number;
+}
 interface SlopesAnswer {
-  slopes?: { name: string; unit: string; points: [number, number][] }[];
+  deceleration: Interval[];
+  acceleration: Interval[];
+  moving: boolean;
+  hz: number;
 }
 
-/** Slopes of different times on one axis: each has its own points, the others none there. */
-function joined(slopes: NonNullable<SlopesAnswer['slopes']>): (number | null)[][] {
-  const times = [...new Set(slopes.flatMap((slope) => slope.points.map(([t]) => t)))].sort((a, b) => a - b);
-  return [times, ...slopes.map((slope) => times.map((t) => slope.points.find(([at]) => at === t)?.[1] ?? null))];
+const NAMES = ['acceleration', 'deceleration'];
+
+/** Speed over the way, both halves over one list of places. An interval's speed holds until its position. */
+function curves(answer: SlopesAnswer): (number | null)[][] {
+  const places = [...new Set([0, ...answer.acceleration, ...answer.deceleration].map((one) => (typeof one === 'number' ? one : one.position)))].sort((a, b) => a - b);
+  const at = (half: Interval[], place: number): number | null => half.find((one) => place < one.position)?.hz ?? half[half.length - 1]?.hz ?? null;
+  return [places, places.map((place) => at(answer.acceleration, place)), places.map((place) => at(answer.deceleration, place))];
 }
 
 function Slope({ card }: { card: CardInfo }): JSX.Element {
   const { data, why } = usePoll<SlopesAnswer>('slopes', { name: card.name }, 2000);
-  const slopes = (data.value?.slopes ?? []).filter((one) => one.points.length > 1);
-  const names = slopes.map((one) => `${one.name} (${one.unit})`);
+  const picture = useMemo(() => (data.value === null ? [[], [], []] : curves(data.value)), [JSON.stringify([data.value?.acceleration, data.value?.deceleration])]);
+  const loaded = (picture[0]?.length ?? 0) > 2;
   return (
     <Panel title="Slope" class="slope">
-      {slopes.length === 0 ? <Empty>{why.value || 'No slope has been loaded into the card (command S).'}</Empty> : (
+      {!loaded ? <Empty>{why.value || 'No slope has been loaded into the card (command S).'}</Empty> : (
         <>
-          <Chart data={joined(slopes)} names={names} xName="s" label="Slope tables of the card" height={240} />
-          <Legend names={names} />
+          <Chart data={picture} names={NAMES} xName="counts" label="Slope table: speed in Hz over the way in counts" height={240} stepped />
+          <Legend names={NAMES} />
+          <p class="hint tabular">Hz over counts; {data.value?.moving === true ? `it moves at ${fixed(data.value.hz, 0)} Hz` : 'it stands'}</p>
         </>
       )}
     </Panel>
@@ -42,7 +56,7 @@ export function Databoard({ card }: { card: CardInfo }): JSX.Element {
         {shown.map((one) => <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />)}
         <Quantities card={card} />
       </Panel>
-      <Panel title="Ports" class="ports"><Console card={card} bits={8} /></Panel>
+      <Panel title="Ports" class="ports"><Console card={card} /></Panel>
       <Slope card={card} />
     </>
   );

@@ -9,57 +9,75 @@ import { Flags, Quantities, wordOf, type CardAnswer } from './peek';
 
 interface BusCard {
   name: string;
-  role?: string;
-  frame?: number | null;
-  age_us?: number | null;
-  skew_ns?: number | null;
-  positions?: (number | null)[];
-  agrees?: boolean;
+  role: string;
+  stale: boolean;
+  off: boolean;
+  agrees: boolean;
+  age_us: number;
+  frames: number;
+  broken: number;
+  untrue: number;
+  unlike: number;
+  sequence?: number;
+  skew_ns?: number;
+  positions?: number[];
 }
 interface FramesAnswer {
-  buses?: { name: string; frame?: number | null; cards: BusCard[]; agree?: boolean; why?: string }[];
+  at: number;
+  published: number;
+  cards: BusCard[];
 }
 
-function Bus({ bus }: { bus: NonNullable<FramesAnswer['buses']>[number] }): JSX.Element {
-  const scales = Math.max(0, ...bus.cards.map((card) => card.positions?.length ?? 0));
+const MOST_SCALES = 8;
+
+const wordFor = (card: BusCard): string => (card.off ? 'off' : card.stale ? 'stale' : card.agrees ? 'yes' : 'no');
+
+function Table({ answer }: { answer: FramesAnswer }): JSX.Element {
+  const scales = Math.min(MOST_SCALES, Math.max(0, ...answer.cards.map((card) => card.positions?.length ?? 0)));
+  const bad = answer.cards.filter((card) => wordFor(card) !== 'yes');
   return (
-    <section class="bus" aria-label={`Bus ${bus.name}`}>
-      <p class={`agreement ${bus.agree === false ? 'no' : 'yes'}`}>
-        <Icon name={bus.agree === false ? 'alarm' : 'check'} />
-        <strong>{bus.name}</strong>
-        <span class="tabular">frame {whole(bus.frame)}</span>
-        <span>{bus.agree === false ? `the cards do not agree${bus.why ? `: ${bus.why}` : ''}` : 'all cards hold the same positions'}</span>
+    <>
+      <p class={`agreement ${bad.length > 0 ? 'no' : 'yes'}`}>
+        <Icon name={bad.length > 0 ? 'alarm' : 'check'} />
+        <strong>{bad.length > 0 ? `${bad.map((card) => card.name).join(', ')}: not the frame of the others` : 'All cards hold the same frame'}</strong>
+        <span class="tabular">{whole(answer.published)} frames published</span>
       </p>
-      <div class="scroll" tabIndex={0} role="region" aria-label={`Cards of bus ${bus.name}`}>
-        <table class="counters">
+      <div class="scroll" tabIndex={0} role="region" aria-label="Cards of the bus">
+        <table class="counters frames-table">
           <thead>
-            <tr><th scope="col">Card</th><th scope="col">Role</th><th scope="col">Frame</th><th scope="col">Age, us</th><th scope="col">Skew, ns</th>{Array.from({ length: scales }, (_, i) => <th key={i} scope="col">Scale {i}</th>)}<th scope="col">Agrees</th></tr>
+            <tr>
+              {['Card', 'Role', 'Frame', 'Age, us', 'Skew, ns', 'Broken', 'Untrue', 'Unlike'].map((head) => <th key={head} scope="col">{head}</th>)}
+              {Array.from({ length: scales }, (_, i) => <th key={i} scope="col">Scale {i}</th>)}
+              <th scope="col">Agrees</th>
+            </tr>
           </thead>
           <tbody>
-            {bus.cards.map((card) => (
+            {answer.cards.map((card) => (
               <tr key={card.name}>
                 <th scope="row">{card.name}</th>
-                <td>{card.role ?? '–'}</td>
-                <td class="tabular">{whole(card.frame)}</td>
+                <td>{card.role}</td>
+                <td class="tabular">{whole(card.sequence)}</td>
                 <td class="tabular">{fixed(card.age_us, 1)}</td>
                 <td class="tabular">{fixed(card.skew_ns, 1)}</td>
+                <td class="tabular">{whole(card.broken)}</td>
+                <td class="tabular">{whole(card.untrue)}</td>
+                <td class="tabular">{whole(card.unlike)}</td>
                 {Array.from({ length: scales }, (_, i) => <td key={i} class="tabular">{whole(card.positions?.[i])}</td>)}
-                <td>{card.agrees === undefined ? '–' : card.agrees ? 'yes' : <strong class="bad">no</strong>}</td>
+                <td class={wordFor(card) === 'yes' ? '' : 'bad'}>{wordFor(card)}</td>
               </tr>
             ))}
           </tbody>
         </table>
       </div>
-    </section>
+    </>
   );
 }
 
 export function Frames(): JSX.Element {
   const { data, why } = usePoll<FramesAnswer>('frames', {}, 200);
-  const buses = data.value?.buses ?? [];
   return (
     <Panel title="Frames of all cards" class="wide frames">
-      {buses.length === 0 ? <Empty>{why.value || 'The rack has no grating bus.'}</Empty> : buses.map((bus) => <Bus key={bus.name} bus={bus} />)}
+      {data.value === null ? <Empty>{why.value || 'Asking for the frames …'}</Empty> : <Table answer={data.value} />}
     </Panel>
   );
 }

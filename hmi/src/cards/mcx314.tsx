@@ -3,7 +3,7 @@ import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { channel, want } from '../link/channels';
-import { channelNames, rack, type CardInfo } from '../link/rack';
+import { channelNames, type CardInfo } from '../link/rack';
 import { mayOperate, notice, order } from '../link/orders';
 import { axisOf } from '../link/state';
 import { typed, unitName, whole } from '../parts/numbers';
@@ -11,6 +11,7 @@ import { Button, Choice, Field, Led, Panel } from '../parts/ui';
 import { Lamps } from '../panels/dro';
 import { Chart, Legend } from '../scope/chart';
 import { useHistory } from './history';
+import { fieldValues } from './words';
 
 const EVERY_HZ = 100;
 const COUNTERS = [
@@ -20,12 +21,11 @@ const COUNTERS = [
   { name: 'CA', text: 'present acceleration' },
 ] as const;
 
-/** Channels of the card in the chip's order. */
-const channelsOf = (card: CardInfo): string[] => card.channels ?? ['x', 'y', 'z', 'u'];
-const axisAt = (card: CardInfo, which: string): string | undefined => rack.value?.axes?.find((axis) => axis.card === card.name && axis.channel === which)?.letter;
+const CHANNELS = ['x', 'y', 'z', 'u'] as const;
+const axisAt = (card: CardInfo, which: string): string | undefined => card.axes.find((axis) => axis.channel === which)?.letter;
 
 function Counters({ card }: { card: CardInfo }): JSX.Element {
-  const names = channelsOf(card).flatMap((which) => COUNTERS.map((one) => `${card.name}.${which}.${one.name}`)).filter((name) => channelNames.value.has(name));
+  const names = CHANNELS.flatMap((which) => COUNTERS.map((one) => `${card.name}.${which}.${one.name}`)).filter((name) => channelNames.value.has(name));
   const key = names.join(' ');
   useEffect(() => want(key === '' ? [] : key.split(' '), EVERY_HZ), [key]);
   return (
@@ -34,7 +34,7 @@ function Counters({ card }: { card: CardInfo }): JSX.Element {
         <tr><th scope="col">Channel</th>{COUNTERS.map((one) => <th key={one.name} scope="col" title={one.text}>{one.name}<small>{one.text}</small></th>)}<th scope="col">Lamps</th></tr>
       </thead>
       <tbody>
-        {channelsOf(card).map((which) => {
+        {CHANNELS.map((which) => {
           const letter = axisAt(card, which);
           const axis = letter === undefined ? undefined : axisOf(letter);
           return (
@@ -52,7 +52,7 @@ function Counters({ card }: { card: CardInfo }): JSX.Element {
 
 function Speeds({ card }: { card: CardInfo }): JSX.Element {
   const what = useSignal<'CV' | 'LP' | 'EP' | 'CA'>('CV');
-  const names = channelsOf(card).map((which) => `${card.name}.${which}.${what.value}`).filter((name) => channelNames.value.has(name));
+  const names = CHANNELS.map((which) => `${card.name}.${which}.${what.value}`).filter((name) => channelNames.value.has(name));
   const data = useHistory(names, EVERY_HZ, 10);
   return (
     <Panel title="Last ten seconds" class="trend" tools={<Choice label="What the picture shows" value={what.value} onChange={(to) => (what.value = to)} options={COUNTERS.map((one) => ({ value: one.name, text: one.name }))} />}>
@@ -64,7 +64,7 @@ function Speeds({ card }: { card: CardInfo }): JSX.Element {
 
 /** Moves of one axis, by hand. */
 function Moves({ card }: { card: CardInfo }): JSX.Element {
-  const letters = channelsOf(card).map((which) => axisAt(card, which)).filter((one): one is string => one !== undefined);
+  const letters = CHANNELS.map((which) => axisAt(card, which)).filter((one): one is string => one !== undefined);
   const chosen = useSignal('');
   const distance = useSignal('10');
   const speed = useSignal('20');
@@ -110,9 +110,9 @@ function Drives({ card }: { card: CardInfo }): JSX.Element | null {
   if (!has || register === undefined) return null;
   return (
     <div class="flags" role="group" aria-label="RR0, main status">
-      {register.fields.filter((field) => (field.mask & (field.mask - 1)) === 0).map((field) => (
+      {fieldValues(register, word ?? 0).filter(({ field }) => field.bits === 1).reverse().map(({ field, value }) => (
         <span key={field.name} class="flag" title={field.meaning}>
-          <Led on={word !== null && (word & field.mask) !== 0} letter={word !== null && (word & field.mask) !== 0 ? '1' : '0'} text={field.meaning} />
+          <Led on={word !== null && value === 1} letter={word === null ? '–' : String(value)} text={field.meaning} />
           <code>{field.name}</code>
         </span>
       ))}

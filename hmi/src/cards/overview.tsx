@@ -21,14 +21,13 @@ const PANELS: Record<string, ComponentType<{ card: CardInfo }>> = {
 };
 
 function Tile({ card }: { card: CardInfo }): JSX.Element {
-  const axes = (rack.value?.axes ?? []).filter((axis) => axis.card === card.name);
   return (
     <a class="tile" href={address('cards', card.name)}>
-      <span class="slot">slot {card.slot}</span>
+      <span class="slot">{card.slot < 0 ? '' : `slot ${card.slot}`}</span>
       <strong>{card.name}</strong>
       <span class="type">{card.type}</span>
       <span class="title">{card.title}</span>
-      <span class="axes-of">{axes.length > 0 ? `moves ${axes.map((axis) => axis.letter).join(', ')}` : `${card.registers.length} registers, ${card.commands?.length ?? 0} commands, ${card.pins?.length ?? 0} pins`}</span>
+      <span class="axes-of">{card.axes.length > 0 ? `moves ${card.axes.map((axis) => axis.letter).join(', ')}` : `${card.registers.length} registers, ${card.commands.length} commands, ${card.pins.length} pins`}</span>
     </a>
   );
 }

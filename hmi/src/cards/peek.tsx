@@ -8,12 +8,14 @@ import { Empty, Led } from '../parts/ui';
 import { fieldValues } from './words';
 
 export interface CardAnswer {
-  registers?: { name: string; word: number | null }[];
-  values?: { name: string; value: number | null }[];
+  registers: { name: string; register: string; word: number }[];
+  values: Record<string, number>;
+  numbers: Record<string, number>;
+  pins: Record<string, number>;
 }
 
-export const wordOf = (answer: CardAnswer | null, name: string): number | null => answer?.registers?.find((one) => one.name === name)?.word ?? null;
-export const valueOf = (answer: CardAnswer | null, name: string): number | null => answer?.values?.find((one) => one.name === name)?.value ?? wordOf(answer, name);
+export const wordOf = (answer: CardAnswer | null, name: string): number | null => answer?.registers.find((one) => one.name === name)?.word ?? null;
+export const valueOf = (answer: CardAnswer | null, name: string): number | null => answer?.values[name] ?? wordOf(answer, name);
 
 /** One register: single bits are lamps, wider fields numbers. */
 export function Flags({ register, word }: { register: RegisterInfo; word: number | null }): JSX.Element {
@@ -21,9 +23,9 @@ export function Flags({ register, word }: { register: RegisterInfo; word: number
     <div class="flagset" role="group" aria-label={`${register.name}, ${register.meaning}`}>
       <p class="head"><code>{register.name}</code><span class="tabular">{hex(word, register.width)}</span><small>{register.meaning}</small></p>
       <div class="flags">
-        {fieldValues(register, word ?? 0).reverse().map(({ field, width, value }) => (
+        {fieldValues(register, word ?? 0).reverse().map(({ field, value }) => (
           <span key={field.name} class="flag" title={field.meaning}>
-            {width === 1 ? <Led on={word !== null && value === 1} letter={word === null ? '–' : String(value)} text={field.meaning} /> : <span class="volts tabular">{word === null ? '–' : value}</span>}
+            {field.bits === 1 ? <Led on={word !== null && value === 1} letter={word === null ? '–' : String(value)} text={field.meaning} /> : <span class="volts tabular">{word === null ? '–' : value}</span>}
             <code>{field.name}</code>
           </span>
         ))}
@@ -34,7 +36,7 @@ export function Flags({ register, word }: { register: RegisterInfo; word: number
 
 /** The numbers that the card itself tells, live. */
 export function Quantities({ card }: { card: CardInfo }): JSX.Element {
-  const own = channelList.value.filter((one) => one.name.startsWith(`${card.name}.`) && (card.quantities ?? []).includes(one.name.slice(card.name.length + 1)));
+  const own = channelList.value.filter((one) => one.name.startsWith(`${card.name}.`) && card.numbers.includes(one.name.slice(card.name.length + 1)));
   const key = own.map((one) => one.name).join(' ');
   useEffect(() => want(key === '' ? [] : key.split(' '), 10), [key]);
   if (own.length === 0) return <Empty>The card tells no numbers of its own.</Empty>;

@@ -2,25 +2,21 @@
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { cardNamed, rack, type CardInfo, type RegisterInfo } from '../link/rack';
-import { hex, whole } from '../parts/numbers';
+import { fixed, hex, whole } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
 import { Empty, Field, Panel } from '../parts/ui';
 import { address, detail } from '../view';
-import { fieldValues, plainName } from './words';
-
-interface CardAnswer {
-  registers?: { name: string; word: number | null }[];
-  values?: { name: string; value: number | null }[];
-}
+import type { CardAnswer } from './peek';
+import { fieldValues } from './words';
 
 function Bits({ register, word }: { register: RegisterInfo; word: number }): JSX.Element {
   return (
     <ul class="bits">
-      {fieldValues(register, word).map(({ field, bits, width, value }) => (
+      {fieldValues(register, word).map(({ field, bits, value }) => (
         <li key={field.name} class={value !== 0 ? 'set' : ''} title={field.meaning}>
           <span class="place tabular">{bits}</span>
           <code>{field.name}</code>
-          <span class="value tabular">{width === 1 ? value : `${hex(value, width)}`}</span>
+          <span class="value tabular">{field.bits === 1 ? value : hex(value, field.bits)}</span>
         </li>
       ))}
     </ul>
@@ -45,8 +41,11 @@ export function Inspector({ card }: { card: CardInfo }): JSX.Element {
   const filter = useSignal('');
   const opened = useSignal<readonly string[]>([]);
   const { data, why } = usePoll<CardAnswer>('card', { name: card.name }, 250);
-  const registers = (data.value?.registers ?? []).filter((one) => one.name.toLowerCase().includes(filter.value.toLowerCase()));
-  const values = (data.value?.values ?? []).filter((one) => one.name.toLowerCase().includes(filter.value.toLowerCase()));
+  const fits = (name: string): boolean => name.toLowerCase().includes(filter.value.toLowerCase());
+  const registers = (data.value?.registers ?? []).filter((one) => fits(one.name));
+  const own = new Set((data.value?.registers ?? []).map((one) => one.name));
+  const values = Object.entries(data.value?.values ?? {}).filter(([name]) => fits(name) && !own.has(name));
+  const numbers = Object.entries(data.value?.numbers ?? {}).filter(([name]) => fits(name));
   const toggle = (name: string): void => {
     opened.value = opened.value.includes(name) ? opened.value.filter((one) => one !== name) : [...opened.value, name];
   };
@@ -54,15 +53,16 @@ export function Inspector({ card }: { card: CardInfo }): JSX.Element {
     <>
       <Field label="Find" value={filter.value} wide placeholder="RR0, LP …" onInput={(text) => (filter.value = text)} />
       {why.value !== '' && <p class="why">{why.value}</p>}
-      {data.value !== null && registers.length + values.length === 0 && <Empty>{filter.value === '' ? 'This card shows no registers.' : 'No register of that name.'}</Empty>}
+      {data.value !== null && registers.length + values.length + numbers.length === 0 && <Empty>{filter.value === '' ? 'This card shows no registers.' : 'No register of that name.'}</Empty>}
       <ul class="registers">
         {registers.map((one) => (
-          <Row key={one.name} name={one.name} word={one.word} register={card.registers.find((info) => info.name === plainName(one.name))} open={opened.value.includes(one.name)} onOpen={() => toggle(one.name)} />
+          <Row key={one.name} name={one.name} word={one.word} register={card.registers.find((info) => info.name === one.register)} open={opened.value.includes(one.name)} onOpen={() => toggle(one.name)} />
         ))}
       </ul>
-      {values.length > 0 && (
+      {values.length + numbers.length > 0 && (
         <dl class="values">
-          {values.map((one) => <div key={one.name}><dt><code>{one.name}</code></dt><dd class="tabular">{whole(one.value)}</dd></div>)}
+          {values.map(([name, value]) => <div key={name}><dt><code>{name}</code></dt><dd class="tabular">{whole(value)}</dd></div>)}
+          {numbers.map(([name, value]) => <div key={name}><dt><code>{name}</code></dt><dd class="tabular">{fixed(value, 3)}</dd></div>)}
         </dl>
       )}
     </>

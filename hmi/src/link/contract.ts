@@ -16,7 +16,7 @@ export interface Hello {
 /** Names as the machine's states are written; blanks and underscores are the same. */
 export type StateName = 'disabled' | 'standstill' | 'homing' | 'moving' | 'jogging' | 'hold' | 'stopping' | 'error stop';
 
-export const LEDS = ['soft_minus', 'soft_plus', 'hard_minus', 'hard_plus', 'home', 'index', 'capture', 'compare', 'in_position', 'alarm'] as const;
+export const LEDS = ['soft_minus', 'soft_plus', 'hard_minus', 'hard_plus', 'home', 'cam', 'index', 'capture', 'compare', 'in_position', 'alarm'] as const;
 export type LedName = (typeof LEDS)[number];
 
 export interface AxisStatus {
@@ -40,7 +40,7 @@ export interface Alarm {
   number: number;
   at: number;
   text: string;
-  source: string;
+  source?: string;
   active: boolean;
   acknowledged: boolean;
 }
@@ -59,7 +59,7 @@ export interface Status {
   simulation: boolean;
   clock: { mode: 'real' | 'free' | 'paused'; factor: number; late_ms: number };
   estop: { wired: boolean; pressed: boolean };
-  control: { holder: string; holder_session?: string; session_is_mine?: boolean; since?: number };
+  control: { holder: string | null; holder_session?: string; session_is_mine?: boolean; since?: number };
   axes: AxisStatus[];
   program: { name: string; runs: boolean; line: number; lines: number; remaining_s: number | null; single_step: boolean };
   overrides: { feed: number; rapid: number };

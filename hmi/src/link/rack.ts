@@ -5,7 +5,8 @@ import { whenOpen } from './socket';
 
 export interface FieldInfo {
   name: string;
-  mask: number;
+  low: number;
+  bits: number;
   meaning: string;
 }
 export interface RegisterInfo {
@@ -25,31 +26,40 @@ export interface CommandInfo {
 }
 export interface PinInfo {
   name: string;
-  direction?: string;
+  direction: string;
+  volts: boolean;
+  bits: number;
+}
+export interface StateMachine {
+  name: string;
   meaning: string;
+  states: { name: string; meaning: string }[];
+  transitions: { from: string; to: string; when: string }[];
 }
 export interface CardInfo {
   name: string;
   type: string;
   title: string;
   slot: number;
-  channels?: string[];
+  about: string;
+  bus: { base: number; widths: number[] };
+  axes: { letter: string; channel: string }[];
   registers: RegisterInfo[];
-  commands?: CommandInfo[];
-  pins?: PinInfo[];
-  values?: string[];
-  quantities?: string[];
+  commands: CommandInfo[];
+  machines: StateMachine[];
+  pins: PinInfo[];
+  values: string[];
+  numbers: string[];
 }
 export interface RackInfo {
   name: string;
-  text?: string;
-  axes?: { letter: string; unit?: string; card?: string; channel?: string }[];
+  axes: { letter: string; unit: string; card: string; channel: string }[];
   cards: CardInfo[];
-  wires?: { name: string; volts?: boolean; drivable?: boolean }[];
-  stages?: string[];
-  tracks?: string[];
-  scanners?: string[];
-  faults?: { target: string; faults: string[] }[];
+  wires: { name: string; volts: boolean; bits: number; drivable: boolean }[];
+  stages: { name: string; card: string }[];
+  tracks: { name: string }[];
+  scanners: { name: string; card: string }[];
+  faults: { target: string; faults: string[] }[];
 }
 export interface ChannelInfo {
   name: string;

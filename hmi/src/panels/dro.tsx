@@ -15,6 +15,7 @@ const LAMPS: Record<LedName, { letter: string; text: string; kind: LedKind }> = 
   hard_minus: { letter: 'L−', text: 'limit switch −', kind: 'alarm' },
   hard_plus: { letter: 'L+', text: 'limit switch +', kind: 'alarm' },
   home: { letter: 'H', text: 'home switch', kind: 'info' },
+  cam: { letter: 'R', text: 'reference cam', kind: 'info' },
   index: { letter: 'I', text: 'encoder index', kind: 'info' },
   capture: { letter: 'C', text: 'capture input', kind: 'info' },
   compare: { letter: 'K', text: 'compare output', kind: 'info' },

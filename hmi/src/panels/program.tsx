@@ -3,7 +3,8 @@ import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { useRef } from 'preact/hooks';
 import { actions, perform } from '../actions';
-import { mayOperate, notice, order, query, sentence, whyNot } from '../link/orders';
+import { mayOperate, notice, order, sentence, whyNot } from '../link/orders';
+import { ask } from '../link/socket';
 import { status } from '../link/state';
 import { duration, fixed } from '../parts/numbers';
 import { ActionButton, Button, Panel, Switch } from '../parts/ui';
@@ -13,7 +14,7 @@ import { Listing } from '../program/listing';
 
 async function check(): Promise<void> {
   try {
-    checked.value = await query<Check>('check', { name: programName.value, text: program.value });
+    checked.value = (await ask({ order: 'check', name: programName.value, text: program.value })) as unknown as Check;
   } catch (why) {
     checked.value = null;
     notice('refused', sentence(why));
@@ -28,23 +29,22 @@ async function open(file: File | undefined): Promise<void> {
 }
 
 function Findings({ result }: { result: Check }): JSX.Element {
-  const problems = result.problems ?? [];
+  const problems = result.problems;
   return (
     <div class="findings">
       {problems.length === 0 ? (
         <dl class="facts-list">
-          <div><dt>lines</dt><dd class="tabular">{result.lines ?? '–'}</dd></div>
+          <div><dt>lines</dt><dd class="tabular">{result.lines}</dd></div>
           <div><dt>takes</dt><dd class="tabular">{duration(result.seconds)}</dd></div>
-          {Object.keys(result.least ?? {}).map((letter) => (
-            <div key={letter}>
-              <dt>{letter}</dt>
-              <dd class="tabular">{fixed(result.least?.[letter], 3)} … {fixed(result.greatest?.[letter], 3)}</dd>
-            </div>
+          <div><dt>path</dt><dd class="tabular">{fixed(result.path_mm, 1)} mm</dd></div>
+          {Object.entries(result.extents ?? {}).map(([letter, [least, greatest]]) => (
+            <div key={letter}><dt>{letter}</dt><dd class="tabular">{fixed(least, 3)} … {fixed(greatest, 3)}</dd></div>
           ))}
         </dl>
       ) : (
         <ul class="problems">
-          {problems.map((one, i) => <li key={i}>{one.line ? <strong>Line {one.line}: </strong> : null}{one.message}</li>)}
+          {problems.map((one, i) => <li key={i}>{one.line > 0 ? <strong>Line {one.line}: </strong> : null}{one.message}</li>)}
+          {(result.more_problems ?? 0) > 0 && <li>and {result.more_problems} more</li>}
         </ul>
       )}
     </div>

@@ -16,10 +16,10 @@ export function Dialog(props: { title: string; open: boolean; onClose(): void; c
   if (!props.open) return null;
   return (
     <dialog ref={element} class={props.class} aria-labelledby={id} onClose={props.onClose}>
-      <header>
+      <div class="head">
         <h2 id={id}>{props.title}</h2>
         <button type="button" class="button quiet" aria-label="Close" onClick={props.onClose}><Icon name="close" /></button>
-      </header>
+      </div>
       {props.children}
     </dialog>
   );

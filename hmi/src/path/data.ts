@@ -3,14 +3,12 @@ import { computed, signal } from '@preact/signals';
 import { query } from '../link/orders';
 import { whenPicture } from '../link/socket';
 import * as state from '../link/state';
-import { checked } from './checked';
+import { checked, type Polyline } from './checked';
 
-export interface PathAnswer {
-  axes?: string;
-  number?: number;
-  planned?: number[][];
-  driven?: number[][];
-  errors?: number[];
+/** `driven`: time, then places by the letters of `axes`; oldest first. */
+interface PathAnswer {
+  planned?: Polyline | null;
+  driven?: { axes: string; points: number[][]; errors?: number[] };
 }
 
 export const letters = computed(() => state.axisLetters.value.slice(0, 4));
@@ -39,18 +37,28 @@ function note(): void {
   driven.value = [...list, { at: status.at, place, error }].slice(-KEPT);
 }
 
+/** Places in the order of the page's axes. */
+function inOrder(axes: string, points: readonly number[][]): number[][] {
+  const from = [...letters.peek()].map((letter) => axes.indexOf(letter));
+  return points.map((point) => from.map((i) => point[i] ?? 0));
+}
+
+function show(path: Polyline | null | undefined, is: 'checked' | 'running'): void {
+  if (path === null || path === undefined || path.points.length < 2) return;
+  planned.value = inOrder(path.axes, path.points);
+  plannedIs.value = is;
+}
+
 async function look(): Promise<void> {
   try {
     const answer = await query<PathAnswer>('path');
-    if ((answer.planned?.length ?? 0) > 1) {
-      planned.value = answer.planned ?? [];
-      plannedIs.value = 'running';
-    } else if (checked.peek()?.path !== undefined) {
-      planned.value = checked.peek()?.path ?? [];
-      plannedIs.value = 'checked';
+    if ((answer.planned?.points.length ?? 0) > 1) show(answer.planned, 'running');
+    else show(checked.peek()?.path, 'checked');
+    const list = answer.driven;
+    if (list !== undefined && list.points.length > 0) {
+      const places = inOrder(list.axes, list.points.map(([, ...place]) => place));
+      driven.value = places.map((place, i) => ({ at: list.points[i]?.[0] ?? 0, place, error: list.errors?.[i] ?? 0 }));
     }
-    if (answer.driven !== undefined && answer.driven.length > 0)
-      driven.value = answer.driven.map(([at = 0, ...place], i) => ({ at, place, error: answer.errors?.[i] ?? 0 }));
   } catch {
     // The view then shows what the stream told.
   }
@@ -66,11 +74,7 @@ export function follow(): () => void {
   };
   void again();
   const stopNoting = whenPicture(note);
-  const stopShowing = checked.subscribe((result) => {
-    if (result?.path === undefined) return;
-    planned.value = result.path;
-    plannedIs.value = 'checked';
-  });
+  const stopShowing = checked.subscribe((result) => show(result?.path, 'checked'));
   return () => {
     live = false;
     clearTimeout(timer);

@@ -1,0 +1,167 @@
+// The keyboard, as its table says: every key, and the rules of where keys do not act.
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { arm, chooseStep, named, openTab, pause, state, suite, takeControl, until } from './support.mjs';
+
+const all = suite(test);
+const PROGRAM = 'G21 G90\nG1 F2000 X100\nG1 X0\nG1 X100\nG1 X0\nM2\n';
+
+async function fresh(options) {
+  const tab = await openTab(all.browser, all.server, options);
+  await takeControl(tab);
+  return tab;
+}
+
+async function withProgram() {
+  const tab = await fresh();
+  await tab.page.getByRole('button', { name: 'Edit' }).click();
+  await tab.page.getByLabel('Program text').fill(PROGRAM);
+  await tab.page.getByRole('button', { name: 'Edit' }).click();
+  return tab;
+}
+
+async function rest(tab) {
+  await tab.page.keyboard.press('Escape');
+  await state(tab, 'standstill');
+  await tab.page.getByRole('button', { name: 'Release', exact: true }).click();
+  await tab.context.close();
+}
+
+test('Esc stops, also while a field is typed in', async () => {
+  const tab = await fresh();
+  await tab.page.keyboard.press('Escape');
+  await until(() => named(tab, 'stop').length === 1, 'a stop');
+  await tab.page.getByLabel('Line of G-code').focus();
+  await tab.page.keyboard.press('Escape');
+  await until(() => named(tab, 'stop').length === 2, 'a second stop');
+  assert.ok(tab.requests.some((url) => url.endsWith('/api/stop')), 'STOP goes by HTTP, too');
+  await rest(tab);
+});
+
+test('Space with the focus on Run holds and does not click Run; a second Space does not resume', async () => {
+  const tab = await withProgram();
+  await tab.page.keyboard.press('r');
+  await state(tab, 'moving');
+  await tab.page.getByRole('button', { name: 'Run', exact: true }).focus();
+  await tab.page.keyboard.press('Space');
+  await state(tab, 'hold');
+  await tab.page.keyboard.press('Space');
+  await pause(300);
+  assert.equal(tab.status.state, 'hold');
+  assert.equal(named(tab, 'begin').length, 1);
+  assert.equal(named(tab, 'resume').length, 0);
+  await rest(tab);
+});
+
+test('Space is a blank in a field', async () => {
+  const tab = await fresh();
+  await tab.page.getByLabel('Line of G-code').focus();
+  await tab.page.keyboard.type('G0 X1');
+  assert.equal(await tab.page.getByLabel('Line of G-code').inputValue(), 'G0 X1');
+  assert.equal(named(tab, 'hold').length, 0);
+  await rest(tab);
+});
+
+test('r or ~ runs, p or ! pauses, s resumes, t does one step', async () => {
+  const tab = await withProgram();
+  await tab.page.keyboard.press('~');
+  await state(tab, 'moving');
+  assert.equal(named(tab, 'begin')[0].text, PROGRAM);
+  await tab.page.keyboard.press('!');
+  await state(tab, 'hold');
+  await tab.page.keyboard.press('s');
+  await state(tab, 'moving');
+  await tab.page.keyboard.press('p');
+  await state(tab, 'hold');
+  await tab.page.keyboard.press('t');
+  await until(() => named(tab, 'set_single_step').some((one) => one.on === true), 'single step on');
+  await until(() => named(tab, 'resume').length === 2, 'the step goes on from the hold');
+  await tab.page.getByRole('switch', { name: 'Single step' }).click();
+  await rest(tab);
+});
+
+test('digits are the feed override: 1 to 9 for 10 to 90 %, 0 for 100 %, ` for 0 %', async () => {
+  const tab = await fresh();
+  for (const key of ['1', '5', '9', '0', '`']) await tab.page.keyboard.press(key);
+  await until(() => named(tab, 'set_overrides').length === 5, 'five orders');
+  assert.deepEqual(named(tab, 'set_overrides').map((one) => one.feed), [0.1, 0.5, 0.9, 1, 0]);
+  await tab.page.keyboard.press('0');
+  await rest(tab);
+});
+
+test('F1 toggles the E-stop input, F2 enables; the browser shows no help', async () => {
+  const tab = await fresh();
+  await tab.page.evaluate(() => window.addEventListener('keydown', (event) => (window.prevented = event.defaultPrevented), true));
+  await tab.page.keyboard.press('F1');
+  await until(() => tab.status.estop.pressed, 'the E-stop input is pressed');
+  await tab.page.getByText('PRESSED').waitFor();
+  await tab.page.keyboard.press('F1');
+  await until(() => !tab.status.estop.pressed, 'the E-stop input is released');
+  await tab.page.getByRole('group', { name: 'Motion' }).getByRole('button', { name: 'Reset' }).click();
+  const before = named(tab, 'enable').length;
+  await tab.page.keyboard.press('F2');
+  await until(() => named(tab, 'enable').length === before + 1, 'an order enable');
+  await pause(200);
+  if (tab.status.state === 'disabled') await tab.page.keyboard.press('F2');
+  await rest(tab);
+});
+
+test('Ctrl+Home homes, Home alone does not; End touches off the chosen axis', async () => {
+  const tab = await fresh();
+  await tab.page.keyboard.press('Home');
+  await tab.page.keyboard.press('End');
+  await until(() => named(tab, 'set_work_zero').length === 1, 'touch off');
+  assert.deepEqual([named(tab, 'set_work_zero')[0].axis, named(tab, 'set_work_zero')[0].value], ['X', 0]);
+  assert.equal(named(tab, 'home').length, 0);
+  await tab.page.keyboard.press('Control+Home');
+  await until(() => named(tab, 'home').length === 1, 'home');
+  await rest(tab);
+});
+
+test('i is the next jog increment, c continuous', async () => {
+  const tab = await fresh();
+  await chooseStep(tab, '0.01');
+  const pressed = () => tab.page.getByRole('group', { name: 'Jog step' }).locator('[aria-pressed=true]').innerText();
+  await tab.page.keyboard.press('i');
+  assert.equal(await pressed(), '0.1');
+  await tab.page.keyboard.press('c');
+  assert.equal(await pressed(), 'hold');
+  await rest(tab);
+});
+
+test('? shows the table of keys, made from the same declaration', async () => {
+  const tab = await fresh();
+  await tab.page.keyboard.press('?');
+  const help = tab.page.getByRole('dialog', { name: 'Keyboard' });
+  for (const text of ['Esc', 'Space', 'F1', 'F2', 'Ctrl + Home', 'End', 'r or ~', 'p or !', '1 … 9', 'PgDn PgUp']) await help.getByText(text, { exact: true }).waitFor();
+  await tab.page.keyboard.press('?');
+  await help.waitFor({ state: 'detached' });
+  await rest(tab);
+});
+
+test('no jog keys and no letters act while a field is typed in', async () => {
+  const tab = await fresh();
+  await arm(tab);
+  await tab.page.getByLabel('Line of G-code').focus();
+  for (const key of ['ArrowRight', 'r', 't', 'p', 's', '5', 'i', 'c', '[', 'PageUp', 'End']) await tab.page.keyboard.press(key);
+  await pause(200);
+  assert.deepEqual(tab.sent.map((one) => one.order).filter((one) => !['take_control', 'keep_control'].includes(one)), []);
+  await rest(tab);
+});
+
+test('jog keys do nothing until the keyboard is armed', async () => {
+  const tab = await fresh();
+  await chooseStep(tab, '1');
+  await tab.page.keyboard.press('ArrowRight');
+  await pause(200);
+  assert.equal(named(tab, 'jog_by').length + named(tab, 'jog').length, 0);
+  await rest(tab);
+});
+
+test('without control a key says why it does nothing', async () => {
+  const tab = await openTab(all.browser, all.server);
+  await tab.page.keyboard.press('r');
+  await tab.page.getByText('Run: Take control first.').waitFor();
+  assert.equal(named(tab, 'begin').length, 0);
+  await tab.context.close();
+});
