@@ -93,7 +93,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"panel", {"base", "control", "rack", "operate", "authority"}},
     {"grbl", {"base", "control", "rack", "operate"}},
     {"calls", {"base"}},
-    {"frontends", {"base", "calls", "mark", "live", "control", "decode", "trace", "rack", "dds", "grating_bus/map", "grating_bus/model", "c.h"}},
+    {"frontends", {"base", "calls", "journal", "operate", "authority", "panel", "grbl", "mark", "live", "control", "decode", "trace", "rack", "dds", "grating_bus/map", "grating_bus/model", "c.h"}},
     {"flex2pos", {"base", "calls", "rack", "frontends", "flex2pos.h", "ioflex02/map", "ioflex02/driver"}},
     {"mcx314lib", {"base", "calls", "rack", "mcx314/map", "mcx314/driver"}},
     {"rtc5sim", {"base", "calls", "rack", "rtc5/map", "rtc5/model"}},

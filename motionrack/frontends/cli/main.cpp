@@ -14,6 +14,7 @@ constexpr const char* footer = R"(Examples:
   motionrack check part.ngc --rack router.toml   list everything wrong, move nothing
   motionrack home XY --rack router.toml          find the home switches, tell what was found
   motionrack new router > router.toml            a commented rack file to start from
+  motionrack serve router.toml                   operate a rack in a browser
   motionrack decode run.vcd                      count the encoders in a logic capture
   motionrack describe mcx314                     the card's registers, commands and states
 
@@ -42,6 +43,7 @@ int main(int argc, char** argv) {
     add_frames(app, chosen);
     add_mark(app, chosen);
     add_calibrate(app, chosen);
+    add_serve(app, chosen);
     add_bench(app, chosen);
     add_completion(app, chosen);
     add_manual(app, chosen);

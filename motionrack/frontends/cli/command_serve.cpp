@@ -1,0 +1,223 @@
+// serve: a rack that people operate in a browser while it runs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <memory>
+#include <motionrack/authority/control_lease.hpp>
+#include <motionrack/authority/doorkeeper.hpp>
+#include <motionrack/authority/secrets.hpp>
+#include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/stop.hpp>
+#include <motionrack/frontends/cli/system_service.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/frontends/server/door_orders.hpp>
+#include <motionrack/frontends/server/server.hpp>
+#include <motionrack/journal/journal.hpp>
+#include <motionrack/live/clock.hpp>
+#include <motionrack/operate/logbook.hpp>
+#include <motionrack/operate/machine.hpp>
+#include <motionrack/operate/pacer.hpp>
+#include <motionrack/panel/panel.hpp>
+#include <motionrack/rack/counted.hpp>
+#include <nlohmann/json.hpp>
+
+namespace motionrack::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ServeOptions {
+    std::string rack, address = "127.0.0.1", certificate, key, page, users, journal;
+    std::uint16_t port = 8080;
+    std::vector<std::string> hosts, origins;
+    double speed = 1;
+    bool free = false, paused = false, no_pairing = false;
+};
+
+/// The page that was installed or built with this program.
+fs::path page_beside_the_program() {
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    return error ? fs::path() : program.parent_path().parent_path() / "share/motionrack/page";
+}
+
+Result<server::Page> load_page(const std::string& folder) {
+    if (!folder.empty()) return server::Page::read(folder);
+    std::error_code error;
+    const fs::path beside = page_beside_the_program();
+    if (!fs::exists(beside / "index.html", error)) return server::Page();
+    return server::Page::read(beside);
+}
+
+void say(const std::string& line) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+}
+
+/// A rack, its clock, its journal and everybody who may work on it, in the order in which they need each other.
+class Serving {
+  public:
+    explicit Serving(const ServeOptions& options) : options_(options) {}
+
+    int run() {
+        int code = exit_done;
+        const auto config = load_rack(options_.rack, code, BuiltInRack::demonstration);
+        if (!config) return code;
+        if (const Result<void> begun = begin(*config); !begun) return report(begun.error());
+        greet(*config);
+        stop_on_signals();
+        tell_service_manager("READY=1");
+        machine_->run();
+        return end();
+    }
+
+  private:
+    Result<void> begin(const rack::RackConfig& config) {
+        allow_many_files();
+        if (options_.certificate.empty() != options_.key.empty())
+            return fail(Trouble::bad_input, "TLS needs both --tls-cert and --tls-key. Nothing was started.");
+        MOTIONRACK_TRY(server::Page page, load_page(options_.page));
+        MOTIONRACK_CHECK(pacer_.set(options_.paused ? operate::ClockMode::paused : options_.free ? operate::ClockMode::free : operate::ClockMode::real, options_.speed));
+        operate::MachineSettings settings;
+        settings.pace = [this](Instant now) { return pace(now); };
+        if (!options_.journal.empty()) MOTIONRACK_CHECK(open_journal(config, settings));
+        MOTIONRACK_TRY(machine_, operate::Machine::make(config, std::move(settings)));
+        MOTIONRACK_CHECK(open_door());
+        make_panel();
+        return open_server(config, std::move(page));
+    }
+
+    Result<void> open_journal(const rack::RackConfig& config, operate::MachineSettings& settings) {
+        MOTIONRACK_TRY(journal_, journal::Journal::open(options_.journal));
+        if (!journal_->before()) return {};
+        operate::LastStanding last = operate::read_last(*journal_->before(), config);
+        if (!last.sentence.empty()) print_warning(last.sentence);
+        settings.standing = std::move(last.axes);
+        settings.alarm = std::move(last.sentence);
+        return {};
+    }
+
+    Result<void> open_door() {
+        authority::DoorkeeperSettings settings;
+        const fs::path folder = options_.users.empty() ? state_folder() : fs::path();
+        settings.users_file = !options_.users.empty() ? fs::path(options_.users) : folder.empty() ? fs::path() : folder / "users.json";
+        users_file_ = settings.users_file.string();
+        if (!options_.no_pairing)
+            settings.on_start_code = [this](const std::string& code) {
+                if (greeted_) say(fmt::format("A code was used. The next one is {}", code));
+            };
+        MOTIONRACK_TRY(door_, authority::Doorkeeper::open(std::move(settings)));
+        return {};
+    }
+
+    void make_panel() {
+        panel::PanelSettings settings;
+        settings.version = MOTIONRACK_VERSION;
+        settings.boot = boot_;
+        settings.link = [this] { return nlohmann::json{{"sender", "none"}, {"clients", server_ ? server_->load().clients : 0}}; };
+        settings.elsewhere = server::door_orders(*door_);
+        panel_ = std::make_unique<panel::Panel>(*machine_, lease_, std::move(settings));
+    }
+
+    Result<void> open_server(const rack::RackConfig& config, server::Page page) {
+        server::ServerSettings settings;
+        settings.address = options_.address;
+        settings.port = options_.port;
+        if (!options_.certificate.empty()) settings.tls = server::TlsFiles{options_.certificate, options_.key};
+        settings.hosts = options_.hosts;
+        settings.origins = options_.origins;
+        if (options_.no_pairing) settings.loopback_role = authority::Role::maintain;
+        settings.version = MOTIONRACK_VERSION;
+        settings.rack = config.name;
+        settings.boot = boot_;
+        if (journal_) settings.audit = [this](const server::AuditEntry& entry) { write_down(entry); };
+        MOTIONRACK_TRY(server_, server::Server::open(std::move(settings), *panel_, *door_, lease_, std::move(page)));
+        return {};
+    }
+
+    void write_down(const server::AuditEntry& entry) {
+        const nlohmann::json data = {{"user", entry.user}, {"address", entry.address}, {"order", entry.what}, {"status", entry.status}};
+        journal_->write(panel_->picture()->at(), "audit",
+                        fmt::format("{} from {}: {}: {}", entry.user.empty() ? "somebody" : entry.user, entry.address, entry.what, entry.outcome), panel::text_of(data));
+    }
+
+    /// On the motion thread, again and again.
+    bool pace(Instant now) {
+        if (stop_asked && !stopping_) {
+            stopping_ = true;
+            say("Stopping: the axes come to rest.");
+            tell_service_manager("STOPPING=1");
+            // A clock that stands would let nothing come to rest.
+            if (pacer_.mode() != operate::ClockMode::free) (void)pacer_.set(operate::ClockMode::real, std::max(1.0, pacer_.factor()));
+            machine_->quit();
+        }
+        return pacer_.pace(now);
+    }
+
+    void greet(const rack::RackConfig& config) {
+        const std::string code = door_->start_code();
+        say(fmt::format("{} runs ({}, {}; simulated).", config.name, rack::counted(config.axes.size(), "axis", "axes"), rack::counted(config.cards.size(), "card")));
+        say(fmt::format("  page     {}{}", server_->url(), code.empty() ? "" : "#pair=" + code));
+        if (!code.empty()) say(fmt::format("  code     {}   (good once, lets in to maintain; the next one is printed here)", code));
+        if (options_.no_pairing) say("  pairing  none: whoever works on this computer may do everything");
+        say(fmt::format("  users    {}", users_file_.empty() ? "kept in memory only" : users_file_));
+        say(fmt::format("  journal  {}", options_.journal.empty() ? "none; --journal FILE keeps one" : options_.journal));
+        say("Open the page in a browser, take control there, enable the machine. Ctrl-C brings the axes to rest and ends.");
+        greeted_ = true;
+    }
+
+    int end() {
+        server_->stop();
+        std::string places;
+        for (const operate::AxisStatus& axis : machine_->status().axes) places += fmt::format(" {}{:.3f}", axis.letter, axis.commanded);
+        int code = exit_done;
+        if (journal_)
+            if (const Result<void> closed = journal_->close(); !closed) code = report(closed.error());
+        say(fmt::format("Stopped at{}.", places));
+        return code;
+    }
+
+    const ServeOptions& options_;
+    std::string boot_ = authority::random_token().substr(0, 8), users_file_;
+    live::MonotonicClock clock_;
+    operate::Pacer pacer_{clock_, operate::ClockMode::real, 1};
+    authority::ControlLease lease_;
+    std::unique_ptr<journal::Journal> journal_;
+    std::unique_ptr<operate::Machine> machine_;
+    std::unique_ptr<authority::Doorkeeper> door_;
+    std::unique_ptr<panel::Panel> panel_;
+    std::unique_ptr<server::Server> server_;
+    std::atomic<bool> greeted_{false};
+    bool stopping_ = false;
+};
+
+}  // namespace
+
+void add_serve(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<ServeOptions>();
+    CLI::App* command = app.add_subcommand("serve", "Run a rack that people operate in a browser, step for step with real time");
+    command->add_option("RACK", options->rack, "rack file (default: the built-in demonstration, which has all kinds of card)");
+    command->add_option("--port", options->port, "TCP port; 0: any free one")->capture_default_str();
+    command->add_option("--address", options->address, "address to serve; other than this computer's loopback only with TLS")->capture_default_str();
+    command->add_option("--speed", options->speed, "seconds of the rack for a second")->check(CLI::Range(operate::Pacer::least_factor, operate::Pacer::greatest_factor))->capture_default_str();
+    command->add_flag("--free", options->free, "as fast as the computer can");
+    command->add_flag("--paused", options->paused, "the rack's time stands until the page lets it go");
+    command->add_option("--journal", options->journal, "file that keeps what happened (SQLite); the next start reads where the axes stood");
+    command->add_option("--users", options->users, "file that keeps who was paired (default: users.json in ~/.local/state/motionrack)");
+    command->add_flag("--no-pairing", options->no_pairing, "whoever works on this computer may do everything, without a code");
+    command->add_option("--page", options->page, "folder of the page (default: the one that came with the program)");
+    command->add_option("--tls-cert", options->certificate, "PEM file of the certificate, with those that signed it");
+    command->add_option("--tls-key", options->key, "PEM file of its key");
+    command->add_option("--allow-host", options->hosts, "a name by which browsers may call this computer; again for more");
+    command->add_option("--allow-origin", options->origins, "a page from elsewhere that may ask, as http://localhost:5173; again for more");
+    command->footer("Example: motionrack serve router.toml --journal router.journal\nThe address that is printed carries a code that lets its first user in; see docs/howto/serve.md.\n"
+                    "Ctrl-C brings the axes to rest and ends with code 0.");
+    command->callback([options, &chosen] { chosen = [options] { return Serving(*options).run(); }; });
+}
+
+}  // namespace motionrack::cli

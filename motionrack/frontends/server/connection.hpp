@@ -1,0 +1,193 @@
+// A connection on a stream, plain or TLS: HTTP, one request after the other, until one of them asks for a WebSocket.
+//
+//   handshake ─► head ─► admitted? ─no─► answer ──────────────────► close, with the rest of the body read away
+//                 ▲         │ yes
+//                 │       body ─► Service::handle ─► answer ─┐
+//                 └──────────────────────────────────────────┘
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <boost/asio/ssl/stream.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/core/string.hpp>
+#include <motionrack/frontends/server/listener.hpp>
+#include <motionrack/frontends/server/socket.hpp>
+#include <optional>
+
+namespace motionrack::server {
+
+template <class Stream>
+class Connection final : public Open, public std::enable_shared_from_this<Connection<Stream>> {
+  public:
+    static constexpr bool secure = !std::is_same_v<Stream, beast::tcp_stream>;
+
+    Connection(Stream stream, Peer peer, std::shared_ptr<Hall> hall) : stream_(std::move(stream)), peer_(std::move(peer)), hall_(std::move(hall)) {
+        if (peer_.spare) hall_->spare.push_back(this);
+        else hall_->seats.insert(this);
+    }
+    ~Connection() override { hall_->leave(this); }
+
+    void begin() {
+        if constexpr (secure) {
+            expire(limits().header);
+            stream_.async_handshake(asio::ssl::stream_base::server, [self = this->shared_from_this()](error_code error) {
+                if (!error) self->read_head(self->limits().header);
+            });
+        } else {
+            read_head(limits().header);
+        }
+    }
+
+    void end(std::string_view why) override {
+        const auto self = keep_ ? std::move(keep_) : this->shared_from_this();
+        hall_->leave(this);
+        if (std::exchange(ended_, true)) return;
+        auto& socket = beast::get_lowest_layer(stream_);
+        if (!secure && !busy_) {  // it waits for a request: there is room for a last word
+            const std::string text = line_text(http_error(503, "limit", std::string(why)));
+            error_code error;
+            socket.socket().non_blocking(true, error);
+            socket.socket().send(asio::buffer(text), 0, error);
+            socket.socket().shutdown(asio::ip::tcp::socket::shutdown_send, error);
+        }
+        socket.close();
+    }
+
+  private:
+    using Parser = http::request_parser<http::string_body>;
+    static bool is_http(error_code error) { return error.category() == make_error_code(http::error::bad_method).category(); }
+    const Limits& limits() const { return hall_->service->settings().limits; }
+    void expire(std::chrono::milliseconds time) {
+        beast::get_lowest_layer(stream_).expires_after(peer_.spare ? std::min(time, limits().spare_time) : time);
+    }
+
+    void read_head(std::chrono::milliseconds time) {
+        parser_.emplace();
+        parser_->body_limit(boost::none);  // the head decides
+        expire(time);
+        http::async_read_header(stream_, buffer_, *parser_, [self = this->shared_from_this()](error_code error, std::size_t) {
+            if (!self->ended_) self->took_head(error);
+        });
+    }
+
+    void took_head(error_code error) {
+        if (error == http::error::end_of_stream || error == asio::error::eof) return goodbye();
+        if (error == beast::error::timeout) return parser_->got_some() ? answer(http_error(408, "limit", "The request did not come in time."), false) : goodbye();
+        if (error == http::error::header_limit || error == http::error::buffer_overflow)
+            return answer(http_error(431, "limit", "The head of the request is longer than 8 KiB. Nothing was done."), false);
+        if (is_http(error))
+            return answer(http_error(400, "bad_input", fmt::format("This is no HTTP/1.1 request: {}. Nothing was done.", error.message())), false);
+        if (error) return;
+        head_ = head_of(parser_->get(), peer_);
+        if (head_.upgrade) {
+            if (auto refused = hall_->service->refuse_stream(head_)) return answer(std::move(*refused), false);
+            hall_->leave(this);
+            expire_never();
+            return serve_stream(std::move(stream_), parser_->release(), std::move(peer_), hall_);
+        }
+        admission_ = hall_->service->admit(head_);
+        const bool has_body = !parser_->is_done();
+        if (admission_.answer) return answer(std::move(*admission_.answer), parser_->keep_alive() && !has_body);
+        const auto length = parser_->content_length();
+        if (length && *length > admission_.body_limit) return too_large();
+        parser_->body_limit(admission_.body_limit);
+        if (!has_body) return handle();
+        if (beast::iequals(parser_->get()[http::field::expect], "100-continue")) return go_on();
+        read_body();
+    }
+
+    void too_large() {
+        answer(http_error(413, "limit", fmt::format("The body is longer than {} bytes, which is the most for this caller. Nothing was done.", admission_.body_limit)), false);
+    }
+
+    void go_on() {
+        static constexpr std::string_view text = "HTTP/1.1 100 Continue\r\n\r\n";
+        asio::async_write(stream_, asio::buffer(text), [self = this->shared_from_this()](error_code error, std::size_t) {
+            if (!error) self->read_body();
+        });
+    }
+
+    void read_body() {
+        expire(limits().body);
+        http::async_read(stream_, buffer_, *parser_, [self = this->shared_from_this()](error_code error, std::size_t) {
+            if (self->ended_) return;
+            if (error == http::error::body_limit) return self->too_large();
+            if (error == beast::error::timeout) return self->answer(http_error(408, "limit", "The body did not come in time. Nothing was done."), false);
+            if (is_http(error))
+                return self->answer(http_error(400, "bad_input", fmt::format("The body is no HTTP/1.1: {}. Nothing was done.", error.message())), false);
+            if (!error) self->handle();
+        });
+    }
+
+    void handle() {
+        expire_never();
+        busy_ = true;
+        const bool keep_alive = parser_->keep_alive();
+        keep_ = this->shared_from_this();
+        hall_->service->handle(head_, admission_, parser_->get().body(), [weak = this->weak_from_this(), keep_alive](HttpAnswer one) {
+            const auto self = weak.lock();
+            if (!self || self->ended_) return;
+            self->keep_.reset();
+            self->answer(std::move(one), keep_alive);
+        });
+    }
+
+    void expire_never() { beast::get_lowest_layer(stream_).expires_never(); }
+
+    void answer(HttpAnswer one, bool keep_alive) {
+        busy_ = true;
+        response_ = response_of(one, head_.method == "HEAD", keep_alive && !peer_.spare);
+        body_ = one.body;
+        expire(limits().body);
+        http::async_write(stream_, *response_, [self = this->shared_from_this()](error_code error, std::size_t) {
+            self->busy_ = false;
+            if (error) return;
+            if (self->response_->keep_alive() && !self->ended_) return self->read_head(self->limits().idle);
+            self->goodbye();
+        });
+    }
+
+    /// Says that nothing more comes and reads away what still does, so that the answer is not lost with it.
+    void goodbye() {
+        expire(limits().spare_time);
+        if constexpr (secure) {
+            stream_.async_shutdown([self = this->shared_from_this()](error_code) { self->shut(); });
+        } else {
+            shut();
+        }
+    }
+    void shut() {
+        error_code error;
+        beast::get_lowest_layer(stream_).socket().shutdown(asio::ip::tcp::socket::shutdown_send, error);
+        if (!error) drain();
+    }
+    void drain() {
+        beast::get_lowest_layer(stream_).async_read_some(asio::buffer(rest_), [self = this->shared_from_this()](error_code error, std::size_t bytes) {
+            self->drained_ += bytes;
+            if (!error && self->drained_ < self->limits().big_body) self->drain();
+        });
+    }
+
+    Stream stream_;
+    Peer peer_;
+    std::shared_ptr<Hall> hall_;
+    beast::flat_buffer buffer_{16 * 1024};
+    std::optional<Parser> parser_;
+    Head head_;
+    Admission admission_;
+    std::optional<Response> response_;
+    std::shared_ptr<const std::string> body_;
+    std::array<char, 4096> rest_;
+    std::size_t drained_ = 0;
+    bool busy_ = false;   ///< answers
+    bool ended_ = false;
+    std::shared_ptr<Connection> keep_;  ///< itself, while only the panel has something to do for it
+};
+
+}  // namespace motionrack::server

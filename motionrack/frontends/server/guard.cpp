@@ -1,0 +1,58 @@
+// Names are compared without regard to case.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <motionrack/frontends/server/guard.hpp>
+
+namespace motionrack::server {
+
+namespace {
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return out;
+}
+
+/// For a sentence: what came in, without what could disturb a terminal or a journal.
+std::string shown(std::string_view text) {
+    std::string out;
+    for (const char c : text.substr(0, 80)) out += c >= ' ' && c < 127 ? c : '?';
+    return out;
+}
+
+}  // namespace
+
+std::string host_name(std::string_view host) {
+    if (!host.empty() && host.front() == '[') {
+        const std::size_t end = host.find(']');
+        return end == std::string_view::npos ? "" : lower(host.substr(1, end - 1));
+    }
+    std::string name = lower(host.substr(0, host.find(':')));
+    if (!name.empty() && name.back() == '.') name.pop_back();
+    return name;
+}
+
+Guard::Guard(std::vector<std::string> hosts, std::vector<std::string> origins) : hosts_(std::move(hosts)), origins_(std::move(origins)) {
+    for (std::string& host : hosts_) host = host_name(host);
+    for (std::string& origin : origins_) origin = lower(origin);
+}
+
+bool Guard::knows(const std::string& name, const Peer& peer) const {
+    if (name.empty()) return false;
+    if (name == peer.local || std::find(hosts_.begin(), hosts_.end(), name) != hosts_.end()) return true;
+    return peer.loopback && (name == "localhost" || name == "127.0.0.1" || name == "::1");
+}
+
+std::string Guard::problem(const Head& head) const {
+    if (!knows(host_name(head.host), head.peer))
+        return fmt::format("This computer is not known by the name \"{}\". Nothing was done; start the server with --allow-host NAME if it is right.", shown(head.host));
+    if (head.origin.empty()) return "";
+    const std::string origin = lower(head.origin);
+    if (origin == fmt::format("{}://{}", head.peer.secure ? "https" : "http", lower(head.host))) return "";
+    if (std::find(origins_.begin(), origins_.end(), origin) != origins_.end()) return "";
+    return fmt::format("Pages from \"{}\" may not ask here. Nothing was done; start the server with --allow-origin ORIGIN if it is right.", shown(head.origin));
+}
+
+}  // namespace motionrack::server

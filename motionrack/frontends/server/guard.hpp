@@ -1,0 +1,26 @@
+// Which names this computer may be called by, and from which pages it may be asked: what keeps pages from elsewhere out, which a browser
+// would let ask in its user's name.
+#pragma once
+
+#include <motionrack/frontends/server/http.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::server {
+
+/// "Rack.local:8080" -> "rack.local", "[::1]:80" -> "::1"; empty: no name.
+std::string host_name(std::string_view host);
+
+class Guard {
+  public:
+    Guard(std::vector<std::string> hosts, std::vector<std::string> origins);
+    /// Empty, or the sentence why not. A head without Origin is no browser's page.
+    std::string problem(const Head& head) const;
+
+  private:
+    bool knows(const std::string& name, const Peer& peer) const;
+    std::vector<std::string> hosts_, origins_;
+};
+
+}  // namespace motionrack::server

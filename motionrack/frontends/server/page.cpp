@@ -1,0 +1,86 @@
+// Reads the page's folder.
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <motionrack/frontends/server/page.hpp>
+#include <utility>
+
+namespace motionrack::server {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t greatest_size = 64 << 20;
+constexpr std::size_t most_files = 2000;
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 14> types = {{
+    {".html", "text/html; charset=utf-8"},
+    {".js", "text/javascript; charset=utf-8"},
+    {".mjs", "text/javascript; charset=utf-8"},
+    {".css", "text/css; charset=utf-8"},
+    {".json", "application/json"},
+    {".map", "application/json"},
+    {".webmanifest", "application/manifest+json"},
+    {".svg", "image/svg+xml"},
+    {".png", "image/png"},
+    {".ico", "image/x-icon"},
+    {".woff2", "font/woff2"},
+    {".wasm", "application/wasm"},
+    {".txt", "text/plain; charset=utf-8"},
+    {".md", "text/plain; charset=utf-8"},
+}};
+
+std::string type_of(const std::string& extension) {
+    for (const auto& [name, type] : types)
+        if (name == extension) return std::string(type);
+    return "application/octet-stream";
+}
+
+constexpr std::string_view no_page = R"(<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>Motionrack</title></head><body>
+<h1>Motionrack</h1>
+<p>The rack runs; its page has not been built. Start it with <code>./run serve</code>, which builds the page,
+or name its folder with <code>--page FOLDER</code>.</p>
+<p>Programs can ask at once: <a href="/api/openapi.json">/api/openapi.json</a> says what there is.</p>
+</body></html>
+)";
+
+}  // namespace
+
+Page::Page() { files_["/"] = {type_of(".html"), "no-store", std::make_shared<const std::string>(no_page)}; }
+
+Result<Page> Page::read(const fs::path& folder) {
+    Page page;
+    page.files_.clear();
+    std::error_code error;
+    std::uintmax_t size = 0;
+    for (auto it = fs::recursive_directory_iterator(folder, error); !error && it != fs::recursive_directory_iterator(); it.increment(error)) {
+        if (!fs::is_regular_file(it->symlink_status())) continue;
+        std::ifstream in(it->path(), std::ios::binary);
+        std::string text((std::istreambuf_iterator<char>(in)), {});
+        if (!in) return fail(Trouble::io, "This file of the page could not be read. Nothing was started.", {}, it->path().string());
+        size += text.size();
+        if (size > greatest_size || page.files_.size() >= most_files)
+            return fail(Trouble::bad_input, fmt::format("This folder has more than {} MiB or {} files, so it is no page. Nothing was started.", greatest_size >> 20, most_files),
+                        {}, folder.string());
+        const std::string name = fmt::format("/{}", it->path().lexically_relative(folder).generic_string());
+        // Files in assets/ carry a hash of what is in them in their names.
+        const bool for_ever = name.rfind("/assets/", 0) == 0;
+        page.files_[name == "/index.html" ? "/" : name] = {type_of(it->path().extension().string()),
+                                                           for_ever ? "public, max-age=31536000, immutable" : "no-cache",
+                                                           std::make_shared<const std::string>(std::move(text))};
+    }
+    if (error) return fail(Trouble::io, fmt::format("The page's folder could not be read: {}. Nothing was started.", error.message()), {}, folder.string());
+    if (page.find("/") == nullptr) return fail(Trouble::bad_input, "There is no index.html in this folder, so it is no page. Nothing was started.", {}, folder.string());
+    return page;
+}
+
+const PageFile* Page::find(std::string_view path) const {
+    const auto found = files_.find(path);
+    return found == files_.end() ? nullptr : &found->second;
+}
+
+}  // namespace motionrack::server

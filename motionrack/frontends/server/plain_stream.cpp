@@ -1,0 +1,10 @@
+// WebSockets without TLS.
+#include <motionrack/frontends/server/stream_connection.hpp>
+
+namespace motionrack::server {
+
+void serve_stream(PlainStream stream, Request request, Peer peer, std::shared_ptr<Hall> hall) {
+    std::make_shared<StreamConnection<PlainStream>>(std::move(stream), std::move(request), std::move(peer), std::move(hall))->begin();
+}
+
+}  // namespace motionrack::server

@@ -1,0 +1,140 @@
+// Opening the port, the network thread, the end.
+#include <fmt/format.h>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <motionrack/frontends/server/listener.hpp>
+#include <motionrack/frontends/server/server.hpp>
+#include <thread>
+
+namespace motionrack::server {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+namespace {
+
+constexpr std::chrono::seconds longest_goodbye{1};
+
+Result<std::unique_ptr<asio::ssl::context>> read_tls(const TlsFiles& files) {
+    auto tls = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_server);
+    error_code error;
+    ::SSL_CTX_set_min_proto_version(tls->native_handle(), TLS1_2_VERSION);
+    tls->use_certificate_chain_file(files.certificate, error);
+    if (error) return fail(Trouble::io, fmt::format("The certificate cannot be used: {}. It is a PEM file, yours first. Nothing was started.", error.message()), {}, files.certificate);
+    tls->use_private_key_file(files.key, asio::ssl::context::pem, error);
+    if (error)
+        return fail(Trouble::io, fmt::format("The key cannot be used, or is not that of the certificate: {}. It is a PEM file without a password. Nothing was started.", error.message()),
+                    {}, files.key);
+    return tls;
+}
+
+Result<tcp::acceptor> take_port(asio::io_context& io, const asio::ip::address& address, std::uint16_t port) {
+    tcp::acceptor acceptor(io);
+    error_code error;
+    const tcp::endpoint endpoint(address, port);
+    acceptor.open(endpoint.protocol(), error);
+    if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+    if (!error) acceptor.bind(endpoint, error);
+    if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+    if (error == asio::error::address_in_use)
+        return fail(Trouble::io, fmt::format("Port {} of {} is taken by another program. Nothing was started; choose another with --port, or 0 for any free one.", port, address.to_string()));
+    if (error == asio::error::access_denied)
+        return fail(Trouble::io, fmt::format("Port {} may not be used by this user: those below 1024 are root's. Nothing was started; choose another with --port.", port));
+    if (error) return fail(Trouble::io, fmt::format("{} port {} cannot be served: {}. Nothing was started.", address.to_string(), port, error.message()));
+    return acceptor;
+}
+
+}  // namespace
+
+class Server::Inside {
+  public:
+    Inside(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door, authority::ControlLease& lease, Page page)
+        : post_(std::make_shared<Post>([this](std::function<void()> work) { asio::post(io_, std::move(work)); })),
+          hall_(std::make_shared<Hall>(std::make_shared<Service>(std::move(settings), panel, door, lease, std::move(page), post_))) {}
+    ~Inside() { stop(); }
+
+    Result<void> open() {
+        const ServerSettings& settings = this->settings();
+        error_code error;
+        const asio::ip::address address = asio::ip::make_address(settings.address, error);
+        if (error) return fail(Trouble::bad_input, fmt::format("\"{}\" is no IPv4 or IPv6 address. Nothing was started.", settings.address));
+        if (!address.is_loopback() && !settings.tls)
+            return fail(Trouble::refused, fmt::format("{} can be reached from other computers, which is served with TLS only. Nothing was started; "
+                                                      "add --tls-cert and --tls-key, or serve 127.0.0.1.", settings.address));
+        std::unique_ptr<asio::ssl::context> tls;
+        if (settings.tls) {
+            MOTIONRACK_TRY(tls, read_tls(*settings.tls));
+        }
+        MOTIONRACK_TRY(tcp::acceptor acceptor, take_port(io_, address, settings.port));
+        port_ = acceptor.local_endpoint().port();
+        listener_ = std::make_unique<Listener>(io_, hall_, std::move(acceptor), std::move(tls));
+        hall_->service->panel().on_event([post = post_, hall = std::weak_ptr<Hall>(hall_)](const panel::Event& event) {
+            (*post)([hall, event] {
+                if (const auto there = hall.lock()) there->clients.tell(event);
+            });
+        });
+        listener_->begin();
+        thread_ = std::thread([this] { io_.run(); });
+        return {};
+    }
+
+    void stop() {
+        if (!thread_.joinable()) return;
+        stopped_ = std::chrono::steady_clock::now();
+        asio::post(io_, [this] {
+            listener_->end();
+            wait_for_the_last();
+        });
+        thread_.join();
+        post_->end();
+    }
+
+    const ServerSettings& settings() const { return hall_->service->settings(); }
+    std::uint16_t port() const { return port_; }
+    Load load() const { return {hall_->clients.count(), hall_->clients.pictures()}; }
+
+  private:
+    /// Looks every few ms whether all are gone.
+    void wait_for_the_last() {
+        if (listener_->empty() || std::chrono::steady_clock::now() - stopped_ > longest_goodbye) return io_.stop();
+        goodbye_.expires_after(std::chrono::milliseconds(5));
+        goodbye_.async_wait([this](error_code) { wait_for_the_last(); });
+    }
+
+    asio::io_context io_{1};
+    std::shared_ptr<Post> post_;
+    std::shared_ptr<Hall> hall_;
+    std::unique_ptr<Listener> listener_;
+    asio::steady_timer goodbye_{io_};
+    std::chrono::steady_clock::time_point stopped_;
+    std::uint16_t port_ = 0;
+    std::thread thread_;
+};
+
+Server::Server(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
+
+Server::~Server() = default;
+
+Result<std::unique_ptr<Server>> Server::open(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door, authority::ControlLease& lease, Page page) {
+    auto inside = std::make_unique<Inside>(std::move(settings), panel, door, lease, std::move(page));
+    MOTIONRACK_CHECK(inside->open());
+    return std::unique_ptr<Server>(new Server(std::move(inside)));
+}
+
+void Server::stop() { inside_->stop(); }
+
+std::uint16_t Server::port() const { return inside_->port(); }
+
+std::string Server::url() const {
+    const ServerSettings& settings = inside_->settings();
+    const bool six = settings.address.find(':') != std::string::npos;
+    return fmt::format("{}://{}:{}/", settings.tls ? "https" : "http", six ? fmt::format("[{}]", settings.address) : settings.address, port());
+}
+
+Server::Load Server::load() const { return inside_->load(); }
+
+}  // namespace motionrack::server

@@ -1,0 +1,103 @@
+// What all connections share: who may, where things are, how much. It knows neither sockets nor motion.
+//
+//   head ──admit──► an answer at once (refused, page, STOP)  or  how long the body may be ──handle──► the panel's answer
+//
+// The network thread's, but for post().
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <motionrack/authority/control_lease.hpp>
+#include <motionrack/authority/doorkeeper.hpp>
+#include <motionrack/authority/rate_limit.hpp>
+#include <motionrack/frontends/server/guard.hpp>
+#include <motionrack/frontends/server/http.hpp>
+#include <motionrack/frontends/server/page.hpp>
+#include <motionrack/frontends/server/settings.hpp>
+#include <motionrack/panel/panel.hpp>
+#include <motionrack/panel/tables.hpp>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace motionrack::server {
+
+/// Work for the network thread from any other; nothing after the network has ended.
+class Post {
+  public:
+    explicit Post(std::function<void(std::function<void()>)> post) : post_(std::move(post)) {}
+    void operator()(std::function<void()> work) const {
+        const std::lock_guard<std::mutex> alone(lock_);
+        if (post_) post_(std::move(work));
+    }
+    void end() {
+        const std::lock_guard<std::mutex> alone(lock_);
+        post_ = nullptr;
+    }
+
+  private:
+    mutable std::mutex lock_;
+    std::function<void(std::function<void()>)> post_;
+};
+
+/// What was found out about a request from its head.
+struct Admission {
+    std::optional<HttpAnswer> answer;  ///< all there is to say, and the body does not matter
+    std::size_t body_limit = 0;
+    const panel::AskRow* row = nullptr;  ///< nullptr: pairing
+    panel::Caller caller;
+};
+
+bool is_query(const panel::AskRow& row);
+
+class Service {
+  public:
+    Service(ServerSettings settings, panel::Panel& panel, authority::Doorkeeper& door, authority::ControlLease& lease, Page page,
+            std::shared_ptr<Post> post);
+
+    // ---- HTTP ----
+    Admission admit(const Head& head);
+    /// `reply` is called once, on the network thread.
+    void handle(const Head& head, const Admission& admission, const std::string& body, std::function<void(HttpAnswer)> reply);
+    /// Whether a head may become a WebSocket; else the answer.
+    std::optional<HttpAnswer> refuse_stream(const Head& head);
+
+    // ---- WebSocket ----
+    /// Asks the panel; `reply` is called once, on the network thread. Written into the audit unless it is a query.
+    void ask(const panel::Caller& caller, const std::string& address, const panel::AskRow& row, const nlohmann::json& fields,
+             std::function<void(panel::Answer)> reply);
+    /// STOP. Never refused, never counted.
+    void stop(const panel::Caller& caller, const std::string& address);
+    /// The role of who comes without a token.
+    authority::Role role_without_token(const Peer& peer) const {
+        return peer.loopback ? settings_.loopback_role : authority::Role::nobody;
+    }
+    authority::Admitted<authority::Identity> who(const std::string& token, const Peer& peer);
+
+    void audit(const std::string& user, const std::string& address, std::string what, const panel::Answer& answer);
+    const ServerSettings& settings() const { return settings_; }
+    authority::Now now() const { return settings_.clock(); }
+    panel::Panel& panel() { return panel_; }
+    authority::Doorkeeper& door() { return door_; }
+    authority::ControlLease& lease() { return lease_; }
+    const std::shared_ptr<Post>& post() const { return post_; }
+
+  private:
+    std::optional<HttpAnswer> refuse(const Head& head);
+    Admission admit_api(const Head& head, const Target& target);
+    HttpAnswer page_answer(const Head& head, const std::string& path) const;
+    HttpAnswer pair(const Head& head, const std::string& body);
+
+    ServerSettings settings_;
+    panel::Panel& panel_;
+    authority::Doorkeeper& door_;
+    authority::ControlLease& lease_;
+    Page page_;
+    Guard guard_;
+    std::shared_ptr<Post> post_;
+    authority::RateLimit requests_, told_;
+    std::string openapi_;
+};
+
+}  // namespace motionrack::server

@@ -1,0 +1,56 @@
+// Heads and answers as Boost has them.
+#include <boost/beast/http/serializer.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+#include <motionrack/frontends/server/socket.hpp>
+#include <sstream>
+
+namespace motionrack::server {
+
+namespace {
+
+std::string field(const Request& request, http::field name) {
+    const auto text = request[name];
+    return {text.data(), text.size()};
+}
+
+}  // namespace
+
+Head head_of(const Request& request, const Peer& peer) {
+    Head head;
+    head.peer = peer;
+    head.method = std::string(request.method_string());
+    head.target = std::string(request.target());
+    // Two of them: which one holds is not known, so none does.
+    head.host = request.count(http::field::host) == 1 ? field(request, http::field::host) : "";
+    head.origin = field(request, http::field::origin);
+    head.authorization = field(request, http::field::authorization);
+    head.upgrade = beast::websocket::is_upgrade(request);
+    return head;
+}
+
+Response response_of(const HttpAnswer& answer, bool head_only, bool keep_alive) {
+    Response response(static_cast<http::status>(answer.status), 11);
+    response.set(http::field::server, "motionrack");
+    response.set(http::field::content_type, answer.type);
+    response.set(http::field::cache_control, answer.cache);
+    response.set("Content-Security-Policy", "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+    response.set("X-Content-Type-Options", "nosniff");
+    response.set("Referrer-Policy", "no-referrer");
+    response.set("Cross-Origin-Opener-Policy", "same-origin");
+    response.set("Cross-Origin-Resource-Policy", "same-origin");
+    for (const auto& [name, value] : answer.more) response.set(name, value);
+    const std::string& body = *answer.body;
+    if (!head_only) response.body() = beast::span<const char>(body.data(), body.size());
+    response.content_length(body.size());
+    response.keep_alive(keep_alive);
+    return response;
+}
+
+std::string line_text(const HttpAnswer& answer) {
+    std::ostringstream out;
+    out << response_of(answer, false, false);
+    return out.str();
+}
+
+}  // namespace motionrack::server

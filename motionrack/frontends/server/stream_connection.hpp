@@ -1,0 +1,97 @@
+// A WebSocket below a client.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+#include <motionrack/frontends/server/socket.hpp>
+#include <optional>
+
+namespace motionrack::server {
+
+namespace websocket = boost::beast::websocket;
+
+template <class Stream>
+class StreamConnection final : public Open, public Wire, public std::enable_shared_from_this<StreamConnection<Stream>> {
+  public:
+    StreamConnection(Stream stream, Request request, Peer peer, std::shared_ptr<Hall> hall)
+        : socket_(std::move(stream)),
+          request_(std::move(request)),
+          hall_(std::move(hall)),
+          client_(std::make_shared<Client>(*hall_->service, std::move(peer), fmt::format("w{}", hall_->next_session++), *this)) {
+        hall_->seats.insert(this);
+    }
+    ~StreamConnection() override { leave(); }
+
+    void begin() {
+        const Limits& limits = hall_->service->settings().limits;
+        socket_.set_option(websocket::stream_base::timeout{limits.header, limits.silence, true});
+        socket_.read_message_max(limits.frame);
+        socket_.auto_fragment(false);
+        socket_.text(true);
+        socket_.async_accept(request_, [self = this->shared_from_this()](error_code error) {
+            if (error || self->left_) return;
+            self->hall_->clients.add(self->client_);
+            self->client_->opened();
+            self->read();
+        });
+    }
+
+    // ---- Wire ----
+    void write(const Outgoing& message) override {
+        writes_ = true;
+        std::array<asio::const_buffer, 2> pieces = {asio::buffer(message.own), {}};
+        if (message.shared) pieces[1] = asio::buffer(*message.shared);
+        socket_.async_write(pieces, [self = this->shared_from_this()](error_code error, std::size_t) {
+            self->writes_ = false;
+            if (error) return self->leave();
+            if (self->reason_) return self->say_goodbye();
+            self->client_->written();
+        });
+    }
+
+    void close(int code, std::string_view reason) override {
+        reason_.emplace(static_cast<websocket::close_code>(code), beast::string_view(reason.data(), reason.size()));
+        if (!writes_) return say_goodbye();
+        // Who does not read gets no reason either.
+        if (code == websocket::close_code::try_again_later) beast::get_lowest_layer(socket_).close();
+    }
+
+    // ---- Open ----
+    void end(std::string_view why) override { client_->goodbye(websocket::close_code::going_away, why); }
+
+  private:
+    void say_goodbye() {
+        socket_.async_close(*reason_, [self = this->shared_from_this()](error_code) { self->leave(); });
+    }
+
+    void read() {
+        socket_.async_read(buffer_, [self = this->shared_from_this()](error_code error, std::size_t) {
+            if (error) return self->leave();
+            const auto bytes = self->buffer_.cdata();
+            self->client_->message({static_cast<const char*>(bytes.data()), bytes.size()}, self->socket_.got_text());
+            self->buffer_.consume(bytes.size());
+            self->read();
+        });
+    }
+
+    void leave() {
+        if (std::exchange(left_, true)) return;
+        client_->closed();
+        hall_->clients.remove(client_.get());
+        hall_->leave(this);
+    }
+
+    websocket::stream<Stream> socket_;
+    Request request_;
+    std::shared_ptr<Hall> hall_;
+    std::shared_ptr<Client> client_;
+    beast::flat_buffer buffer_;
+    std::optional<websocket::close_reason> reason_;
+    bool writes_ = false, left_ = false;
+};
+
+}  // namespace motionrack::server
