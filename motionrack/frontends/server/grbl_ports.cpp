@@ -1,0 +1,337 @@
+#include <motionrack/frontends/server/grbl_ports.hpp>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/write.hpp>
+#include <deque>
+#include <motionrack/frontends/server/pseudo_terminal.hpp>
+#include <motionrack/grbl/session.hpp>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace motionrack::server {
+
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using boost::system::error_code;
+using Text = std::shared_ptr<const std::string>;
+
+/// A page in a browser can send a request to any port of this computer, but not choose how it begins. No line of a sender begins so.
+bool is_http(std::string_view bytes) {
+    constexpr std::array<std::string_view, 8> methods = {"GET ", "POST ", "PUT ", "HEAD ", "OPTIONS ", "DELETE ", "PATCH ", "CONNECT "};
+    return std::any_of(methods.begin(), methods.end(), [&](std::string_view method) { return bytes.substr(0, method.size()) == method; });
+}
+
+/// One of the two ports: its Grbl, which lives on the motion thread, and who writes to it.
+class Port : public std::enable_shared_from_this<Port> {
+  public:
+    Port(operate::Machine& machine, authority::ControlLease& lease, const GrblPortSettings& settings) : machine_(machine), lease_(lease) {
+        grbl::SessionSettings session;
+        session.axes = settings.axes;
+        session.take_control = [this] { return take_control(); };
+        if (settings.on_setting) session.on_setting = [this, call = settings.on_setting](const std::string& text) { call(user_, text); };
+        session_ = std::make_unique<grbl::Session>(machine, std::move(session));
+    }
+
+    /// Where output goes; on the motion thread. Set before Machine::run.
+    std::function<void(Text)> send;
+
+    // ---- from the network thread ----
+    void came(const std::string& user, const std::string& id) {
+        machine_.post([self = shared_from_this(), user, id] {
+            self->user_ = user;
+            self->id_ = id;
+            self->session_->greet();
+            self->flush();
+        });
+    }
+    void left() {
+        machine_.post([self = shared_from_this()] { self->lease_.left(self->id_); });
+    }
+    /// `then`: on the motion thread, when these bytes were heard.
+    void hear(std::string bytes, bool writer, std::function<void()> then) {
+        machine_.post([self = shared_from_this(), bytes = std::move(bytes), writer, then = std::move(then)] {
+            if (writer) {
+                (void)self->lease_.keep(self->id_);
+                self->session_->receive(bytes);
+            } else {
+                self->session_->observe(bytes);
+            }
+            self->flush();
+            then();
+        });
+    }
+
+    // ---- the motion thread ----
+    void tick() {
+        session_->tick();
+        flush();
+    }
+
+  private:
+    void flush() {
+        if (std::string out = session_->take_output(); !out.empty()) send(std::make_shared<const std::string>(std::move(out)));
+    }
+    Result<void> take_control() {
+        if (lease_.check(id_)) return {};
+        const operate::MachineState state = machine_.state();
+        const bool stands = state == operate::MachineState::standstill || state == operate::MachineState::disabled || state == operate::MachineState::error_stop;
+        return lease_.take(user_, id_, true, stands);
+    }
+
+    operate::Machine& machine_;
+    authority::ControlLease& lease_;
+    std::unique_ptr<grbl::Session> session_;
+    std::string user_, id_;  ///< of who writes
+};
+
+/// One end of a line to a client: reads while somebody listens to it, writes in order, and keeps so much for a client that is slow.
+template <class Stream>
+class Line : public std::enable_shared_from_this<Line<Stream>> {
+  public:
+    Line(Stream stream, std::size_t most_waiting) : stream_(std::move(stream)), most_waiting_(most_waiting) {}
+
+    std::function<void(std::string)> on_bytes;  ///< read_on() asks for more
+    std::function<void()> on_end;
+
+    void read_on() {
+        stream_.async_read_some(asio::buffer(in_), [self = this->shared_from_this()](error_code trouble, std::size_t got) {
+            if (trouble) return self->end();
+            if (self->on_bytes) self->on_bytes(std::string(self->in_.data(), got));
+        });
+    }
+    /// False: too much waits already.
+    bool write(const Text& text) {
+        if (waiting_ + text->size() > most_waiting_) return false;
+        waiting_ += text->size();
+        out_.push_back(text);
+        if (out_.size() == 1) write_on();
+        return true;
+    }
+    /// Of what waits, only what is on its way.
+    void forget_waiting() {
+        if (out_.size() > 1) out_.erase(out_.begin() + 1, out_.end());
+        waiting_ = out_.empty() ? 0 : out_.front()->size();
+    }
+    void end() {
+        error_code ignored;
+        stream_.close(ignored);
+        on_bytes = nullptr;
+        if (const auto call = std::exchange(on_end, nullptr)) call();
+    }
+
+  private:
+    void write_on() {
+        asio::async_write(stream_, asio::buffer(*out_.front()), [self = this->shared_from_this()](error_code trouble, std::size_t) {
+            if (trouble) return self->end();
+            self->waiting_ -= self->out_.front()->size();
+            self->out_.pop_front();
+            if (!self->out_.empty()) self->write_on();
+        });
+    }
+
+    Stream stream_;
+    std::size_t most_waiting_, waiting_ = 0;
+    std::array<char, 4096> in_{};
+    std::deque<Text> out_;
+};
+using TcpLine = Line<tcp::socket>;
+using TerminalLine = Line<asio::posix::stream_descriptor>;
+
+}  // namespace
+
+/// Everything but construction happens on the network thread.
+class GrblPorts::Inside {
+  public:
+    Inside(const GrblPortSettings& settings, operate::Machine& machine, authority::ControlLease& lease)
+        : settings_(settings), machine_(machine), lease_(lease) {}
+    ~Inside() {
+        io_->stop();
+        if (thread_.joinable()) thread_.join();
+    }
+
+    Result<void> open() {
+        if (settings_.port) MOTIONRACK_CHECK(open_tcp(*settings_.port));
+        if (!settings_.link.empty()) MOTIONRACK_CHECK(open_terminal());
+        thread_ = std::thread([io = io_] { io->run(); });
+        return {};
+    }
+    std::uint16_t port() const { return port_number_; }
+    std::string sender() const {
+        const std::lock_guard<std::mutex> alone(lock_);
+        std::string out = tcp_sender_;
+        if (terminal_sender_) out += out.empty() ? "pty" : ", pty";
+        return out.empty() ? "none" : out;
+    }
+
+  private:
+    /// Output comes from the motion thread, which may outlive the network.
+    std::shared_ptr<Port> make_port(std::function<void(const Text&)> send) {
+        auto port = std::make_shared<Port>(machine_, lease_, settings_);
+        port->send = [io = io_, send = std::move(send)](Text text) { asio::post(*io, [send, text = std::move(text)] { send(text); }); };
+        machine_.listen([port](const operate::Status&) { port->tick(); });
+        return port;
+    }
+    /// Reads on when the motion thread has heard what came.
+    template <class Wire>
+    std::function<void()> reading_on(const std::shared_ptr<Wire>& wire) {
+        return [io = io_, wire = std::weak_ptr<Wire>(wire)] {
+            asio::post(*io, [wire] {
+                if (const auto there = wire.lock(); there && there->on_bytes) there->read_on();
+            });
+        };
+    }
+
+    // ---- TCP ----
+    Result<void> open_tcp(std::uint16_t port) {
+        const tcp::endpoint place(asio::ip::address_v4::loopback(), port);
+        error_code trouble;
+        acceptor_.open(place.protocol(), trouble);
+        if (!trouble) acceptor_.set_option(tcp::acceptor::reuse_address(true), trouble);
+        if (!trouble) acceptor_.bind(place, trouble);
+        if (!trouble) acceptor_.listen(16, trouble);
+        if (trouble)
+            return fail(Trouble::io, fmt::format("The Grbl port 127.0.0.1:{} was not opened: {}. Give another port, or end the program that has it.", port,
+                                                 trouble.message()));
+        port_number_ = acceptor_.local_endpoint().port();
+        tcp_port_ = make_port([this](const Text& text) { broadcast(text); });
+        accept_on();
+        return {};
+    }
+    void accept_on() {
+        acceptor_.async_accept([this](error_code trouble, tcp::socket socket) {
+            if (trouble == asio::error::operation_aborted) return;
+            if (!trouble) accept(std::move(socket));
+            accept_on();
+        });
+    }
+    void accept(tcp::socket socket) {
+        error_code trouble;
+        const tcp::endpoint from = socket.remote_endpoint(trouble);
+        if (trouble || lines_.size() > settings_.observers) return;
+        socket.set_option(tcp::no_delay(true), trouble);
+        auto line = std::make_shared<TcpLine>(std::move(socket), settings_.waiting);
+        lines_.push_back(line);
+        line->on_end = [this, raw = line.get()] { gone(raw); };
+        line->on_bytes = [this, raw = line.get(), first = true](std::string bytes) mutable {
+            if (std::exchange(first, false) && is_http(bytes)) return raw->end();
+            tcp_port_->hear(std::move(bytes), raw == writer_, reading_on(raw->shared_from_this()));
+        };
+        if (writer_ == nullptr) {
+            writer_ = line.get();
+            name_tcp_sender(fmt::format("tcp {}:{}", from.address().to_string(), from.port()));
+            tcp_port_->came(fmt::format("sender {}:{}", from.address().to_string(), from.port()), fmt::format("grbl-tcp-{}", ++connections_));
+        } else {
+            line->write(std::make_shared<const std::string>("[MSG:Another sender writes here. This one looks on; of it only ? ! and resets are heard]\r\n"));
+        }
+        line->read_on();
+    }
+    void gone(TcpLine* line) {
+        if (line == writer_) {
+            writer_ = nullptr;
+            name_tcp_sender("");
+            tcp_port_->left();
+        }
+        lines_.erase(std::remove_if(lines_.begin(), lines_.end(), [&](const auto& one) { return one.get() == line; }), lines_.end());
+    }
+    void broadcast(const Text& text) {
+        for (const auto& line : std::vector<std::shared_ptr<TcpLine>>(lines_))
+            if (!line->write(text)) line->end();
+    }
+    void name_tcp_sender(std::string name) {
+        const std::lock_guard<std::mutex> alone(lock_);
+        tcp_sender_ = std::move(name);
+    }
+
+    // ---- pseudo-terminal ----
+    Result<void> open_terminal() {
+        auto made = PseudoTerminal::open(settings_.link);
+        if (!made) return tl::unexpected<Error>(made.error());
+        terminal_.emplace(std::move(*made));
+        terminal_port_ = make_port([this](const Text& text) {
+            if (clients_ > 0 || unseen_) terminal_line_->write(text);  // a line that nobody reads loses what does not fit
+        });
+        terminal_line_ = std::make_shared<TerminalLine>(asio::posix::stream_descriptor(*io_, terminal_->take_master().give()), settings_.waiting);
+        terminal_line_->on_bytes = [this](std::string bytes) {
+            look_for_clients();
+            if (clients_ == 0 && !std::exchange(unseen_, true)) begin_client();
+            terminal_port_->hear(std::move(bytes), true, reading_on(terminal_line_));
+        };
+        watch_.assign(::dup(terminal_->watch()));
+        watch_on();
+        terminal_line_->read_on();
+        return {};
+    }
+    void watch_on() {
+        watch_.async_wait(asio::posix::stream_descriptor::wait_read, [this](error_code trouble) {
+            if (trouble) return;
+            look_for_clients();
+            watch_on();
+        });
+    }
+    void look_for_clients() {
+        bool came = false;
+        const int before = clients_;
+        clients_ = std::max(0, clients_ + terminal_->clients_change(came));
+        if (came && before == 0) begin_client();
+        if (came) unseen_ = false;
+        if (clients_ > 0 || (before == 0 && !came)) return;
+        name_terminal_sender(false);
+        terminal_port_->left();
+    }
+    void begin_client() {
+        terminal_line_->forget_waiting();
+        terminal_->forget_unread();
+        name_terminal_sender(true);
+        terminal_port_->came("sender on " + settings_.link, fmt::format("grbl-pty-{}", ++connections_));
+    }
+    void name_terminal_sender(bool there) {
+        const std::lock_guard<std::mutex> alone(lock_);
+        terminal_sender_ = there;
+    }
+
+    const GrblPortSettings settings_;
+    operate::Machine& machine_;
+    authority::ControlLease& lease_;
+    std::shared_ptr<asio::io_context> io_ = std::make_shared<asio::io_context>(1);
+    tcp::acceptor acceptor_{*io_};
+    asio::posix::stream_descriptor watch_{*io_};
+    std::shared_ptr<Port> tcp_port_, terminal_port_;
+    std::vector<std::shared_ptr<TcpLine>> lines_;
+    TcpLine* writer_ = nullptr;
+    std::optional<PseudoTerminal> terminal_;
+    std::shared_ptr<TerminalLine> terminal_line_;
+    int clients_ = 0;      ///< that have the terminal open
+    bool unseen_ = false;  ///< bytes came from one who has closed it already
+    std::int64_t connections_ = 0;
+    std::uint16_t port_number_ = 0;
+    mutable std::mutex lock_;
+    std::string tcp_sender_;
+    bool terminal_sender_ = false;
+    std::thread thread_;
+};
+
+GrblPorts::GrblPorts(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
+GrblPorts::~GrblPorts() = default;
+
+Result<std::unique_ptr<GrblPorts>> GrblPorts::open(const GrblPortSettings& settings, operate::Machine& machine, authority::ControlLease& lease) {
+    auto inside = std::make_unique<Inside>(settings, machine, lease);
+    MOTIONRACK_CHECK(inside->open());
+    return std::unique_ptr<GrblPorts>(new GrblPorts(std::move(inside)));
+}
+
+std::uint16_t GrblPorts::port() const { return inside_->port(); }
+std::string GrblPorts::sender() const { return inside_->sender(); }
+
+}  // namespace motionrack::server

@@ -1,0 +1,103 @@
+#include <motionrack/frontends/server/pseudo_terminal.hpp>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/inotify.h>
+#include <sys/stat.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+namespace motionrack::server {
+
+namespace fs = std::filesystem;
+
+OpenFile& OpenFile::operator=(OpenFile&& other) noexcept {
+    if (this != &other) {
+        if (file_ >= 0) ::close(file_);
+        file_ = other.give();
+    }
+    return *this;
+}
+
+OpenFile::~OpenFile() {
+    if (file_ >= 0) ::close(file_);
+}
+
+int OpenFile::give() { return std::exchange(file_, -1); }
+
+namespace {
+
+tl::unexpected<Error> failed(const std::string& what) {
+    return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: {}: {}.", what, std::strerror(errno)));
+}
+
+/// The link is there or not at every instant, never half.
+Result<void> lead(const std::string& link, const std::string& target) {
+    std::error_code trouble;
+    const fs::file_status there = fs::symlink_status(link, trouble);
+    if (fs::exists(there) && !fs::is_symlink(there))
+        return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: {} is there and no symbolic link. Give another path, or take it away.", link));
+    const std::string beside = fmt::format("{}.{}", link, ::getpid());
+    fs::remove(beside, trouble);
+    fs::create_symlink(target, beside, trouble);
+    if (!trouble) fs::rename(beside, link, trouble);
+    if (!trouble) return {};
+    std::error_code ignored;
+    fs::remove(beside, ignored);
+    return fail(Trouble::io, fmt::format("The pseudo-terminal was not made: the link {} to {}: {}.", link, target, trouble.message()));
+}
+
+}  // namespace
+
+Result<PseudoTerminal> PseudoTerminal::open(const std::string& link) {
+    PseudoTerminal out;
+    out.master_ = OpenFile(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
+    if (out.master_.number() < 0 || ::grantpt(out.master_.number()) != 0 || ::unlockpt(out.master_.number()) != 0) return failed("posix_openpt");
+    std::array<char, 128> name{};
+    if (::ptsname_r(out.master_.number(), name.data(), name.size()) != 0) return failed("ptsname");
+    out.name_ = name.data();
+    out.slave_ = OpenFile(::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
+    if (out.slave_.number() < 0) return failed(out.name_);
+    termios line{};
+    if (::tcgetattr(out.slave_.number(), &line) != 0) return failed(out.name_);
+    ::cfmakeraw(&line);
+    ::cfsetspeed(&line, B115200);
+    if (::tcsetattr(out.slave_.number(), TCSANOW, &line) != 0) return failed(out.name_);
+    out.watch_ = OpenFile(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC));
+    if (out.watch_.number() < 0 || ::inotify_add_watch(out.watch_.number(), name.data(), IN_OPEN | IN_CLOSE) < 0) return failed("inotify");
+    MOTIONRACK_CHECK(lead(link, out.name_));
+    out.link_ = link;
+    return out;
+}
+
+PseudoTerminal::~PseudoTerminal() {
+    std::error_code trouble;
+    if (slave_.number() >= 0 && !link_.empty() && fs::read_symlink(link_, trouble) == name_) fs::remove(link_, trouble);
+}
+
+void PseudoTerminal::forget_unread() { ::tcflush(slave_.number(), TCIFLUSH); }
+
+int PseudoTerminal::clients_change(bool& came) {
+    int change = 0;
+    alignas(inotify_event) std::array<char, 4096> events{};
+    for (;;) {
+        const ssize_t got = ::read(watch_.number(), events.data(), events.size());
+        if (got <= 0) return change;
+        for (ssize_t at = 0; at < got;) {
+            inotify_event event{};
+            std::memcpy(&event, events.data() + at, sizeof event);
+            change += (event.mask & IN_OPEN) != 0 ? 1 : (event.mask & IN_CLOSE) != 0 ? -1 : 0;
+            came = came || (event.mask & IN_OPEN) != 0;
+            at += static_cast<ssize_t>(sizeof event + event.len);
+        }
+    }
+}
+
+}  // namespace motionrack::server

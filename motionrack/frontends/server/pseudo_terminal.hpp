@@ -1,0 +1,48 @@
+// A pseudo-terminal under a name of its own.
+#pragma once
+
+#include <motionrack/base/result.hpp>
+#include <string>
+
+namespace motionrack::server {
+
+/// Closes a file when it goes.
+class OpenFile {
+  public:
+    explicit OpenFile(int file = -1) : file_(file) {}
+    OpenFile(OpenFile&& other) noexcept : file_(other.give()) {}
+    OpenFile& operator=(OpenFile&& other) noexcept;
+    ~OpenFile();
+    int number() const { return file_; }
+    int give();
+
+  private:
+    int file_;
+};
+
+/// The master's end is ours; the other is held open too, or who comes after the first client would find the line hung up. It is raw: no
+/// echo, no line ends changed; a baud rate that is set means nothing.
+class PseudoTerminal {
+  public:
+    /// `link`: a symbolic link to the other end, replaced if there is one. Errors: io, also where something else is in its place.
+    static Result<PseudoTerminal> open(const std::string& link);
+    PseudoTerminal(PseudoTerminal&&) = default;
+    PseudoTerminal& operator=(PseudoTerminal&&) = default;
+    /// Takes the link away, if it is still the one that leads here.
+    ~PseudoTerminal();
+
+    OpenFile take_master() { return std::move(master_); }
+    /// Throws away what no client has read.
+    void forget_unread();
+    /// How many clients have opened it or closed it since the last call: 1, -1, 0 ..; `came`: somebody has opened it.
+    int clients_change(bool& came);
+    /// Readable when clients_change() has something to tell.
+    int watch() const { return watch_.number(); }
+
+  private:
+    PseudoTerminal() = default;
+    OpenFile master_, slave_, watch_;
+    std::string name_, link_;
+};
+
+}  // namespace motionrack::server

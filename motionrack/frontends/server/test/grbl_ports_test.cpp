@@ -1,0 +1,240 @@
+// Senders at the TCP port and at the pseudo-terminal of a machine that runs as fast as it can.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <arpa/inet.h>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <motionrack/frontends/server/grbl_ports.hpp>
+#include <motionrack/frontends/server/pseudo_terminal.hpp>
+#include <motionrack/rack/config.hpp>
+#include <thread>
+
+namespace motionrack::server {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string banner = "\r\nGrbl 1.1h ['$' for help]\r\n";
+
+/// A client's end: what it says, and what it hears until a text comes (10 s at most).
+class Client {
+  public:
+    static Client tcp(std::uint16_t port) {
+        Client out(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+        sockaddr_in place{};
+        place.sin_family = AF_INET;
+        place.sin_port = htons(port);
+        place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        EXPECT_EQ(::connect(out.file_.number(), reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
+        return out;
+    }
+    static Client terminal(const std::string& path) { return Client(::open(path.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC)); }
+
+    void say(const std::string& text) { ASSERT_EQ(::write(file_.number(), text.data(), text.size()), static_cast<ssize_t>(text.size())); }
+    /// Up to and with `end`; what comes behind it is kept.
+    std::string hear(const std::string& end) {
+        const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+        while (heard_.find(end) == std::string::npos) {
+            pollfd ready{file_.number(), POLLIN, 0};
+            std::array<char, 4096> in{};
+            if (std::chrono::steady_clock::now() > until) return std::exchange(heard_, {}) + "(nothing more)";
+            if (::poll(&ready, 1, 1000) <= 0) continue;
+            const ssize_t got = ::read(file_.number(), in.data(), in.size());
+            if (got <= 0) return std::exchange(heard_, {}) + "(closed)";
+            heard_.append(in.data(), static_cast<std::size_t>(got));
+        }
+        const std::size_t at = heard_.find(end) + end.size();
+        std::string out = heard_.substr(0, at);
+        heard_.erase(0, at);
+        return out;
+    }
+    std::string ask(const std::string& text, const std::string& end = "ok\r\n") {
+        say(text);
+        return hear(end);
+    }
+    /// Asks for the status until it has `state`.
+    std::string until(const std::string& state) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+        std::string report;
+        while (report.find("<" + state) == std::string::npos && std::chrono::steady_clock::now() < end) report = ask("?", ">\r\n");
+        return report;
+    }
+    int file() const { return file_.number(); }
+
+  private:
+    explicit Client(int file) : file_(file) { EXPECT_GE(file, 0); }
+    OpenFile file_;
+    std::string heard_;
+};
+
+class SenderPorts : public testing::Test {
+  protected:
+    void SetUp() override {
+        const std::string axes = "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n";
+        machine_ = *operate::Machine::make(*rack::read_rack_text(axes).config, {});
+        settings_.port = 0;
+        settings_.link = (folder_ / "grbl").string();
+        settings_.on_setting = [this](const std::string& sender, const std::string& text) { told_ = sender + ": " + text; };
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override {
+        machine_->quit();
+        if (thread_.joinable()) thread_.join();
+        ports_.reset();
+        std::filesystem::remove_all(folder_);
+    }
+    void start() {
+        auto opened = GrblPorts::open(settings_, *machine_, lease_);
+        ASSERT_TRUE(opened) << opened.error().message;
+        ports_ = std::move(*opened);
+        thread_ = std::thread([this] { machine_->run(); });
+    }
+    Client tcp() { return Client::tcp(ports_->port()); }
+    Client terminal() { return Client::terminal(settings_.link); }
+
+    const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("motionrack-ports-" + std::to_string(::getpid()));
+    GrblPortSettings settings_;
+    authority::ControlLease lease_;
+    std::unique_ptr<operate::Machine> machine_;
+    std::unique_ptr<GrblPorts> ports_;
+    std::thread thread_;
+    std::string told_;
+};
+
+TEST_F(SenderPorts, GreetAndDriveOverTcp) {
+    start();
+    EXPECT_EQ(ports_->sender(), "none");
+    Client client = tcp();
+    EXPECT_EQ(client.hear(banner), banner);
+    EXPECT_THAT(ports_->sender(), StartsWith("tcp 127.0.0.1:"));
+    EXPECT_EQ(client.ask("G1 X10 F1200\n"), "ok\r\n");
+    EXPECT_THAT(client.until("Idle"), HasSubstr("MPos:10.000,0.000,0.000"));
+}
+
+TEST_F(SenderPorts, GiveEachTerminalClientAFreshStart) {
+    start();
+    for (int i = 0; i < 3; ++i) {
+        Client client = terminal();
+        EXPECT_EQ(client.hear(banner), banner);
+        EXPECT_EQ(ports_->sender(), "pty");
+        client.say("G0 X1");  // never ended: the next client's line must not begin with it
+        client.say("?");
+        EXPECT_THAT(client.hear(">\r\n"), StartsWith("<Idle|"));
+        client.say("?");  // never read
+    }
+    Client client = terminal();
+    EXPECT_EQ(client.hear(banner), banner);
+    EXPECT_THAT(client.ask("$I\n"), StartsWith("[VER:1.1h"));
+}
+
+TEST_F(SenderPorts, KeepTheTerminalRaw) {
+    start();
+    Client client = terminal();
+    client.hear(banner);
+    termios line{};
+    ASSERT_EQ(::tcgetattr(client.file(), &line), 0);
+    EXPECT_EQ(line.c_lflag & (ICANON | ECHO | ISIG), 0u);
+    EXPECT_EQ(line.c_oflag & OPOST, 0u);
+    EXPECT_EQ(client.ask("\r\n", "ok\r\nok\r\n"), "ok\r\nok\r\n");  // each of the two ends a line
+}
+
+TEST_F(SenderPorts, LetOthersLookOnAndStopButNotWrite) {
+    start();
+    Client writer = tcp();
+    writer.hear(banner);
+    Client other = tcp();
+    EXPECT_THAT(other.hear("]\r\n"), StartsWith("[MSG:Another sender writes here."));
+    other.say("G1 X50 F60\n$X\n");
+    EXPECT_THAT(other.ask("?", ">\r\n"), HasSubstr("<Idle|MPos:0.000"));
+    EXPECT_THAT(writer.hear(">\r\n"), HasSubstr("<Idle|MPos:0.000"));
+    EXPECT_EQ(writer.ask("G1 X300 F600\n"), "ok\r\n");
+    EXPECT_EQ(other.hear("ok\r\n"), "ok\r\n");
+    other.say("\x18");
+    EXPECT_THAT(writer.hear("help]\r\n"), HasSubstr("Grbl 1.1h"));
+}
+
+TEST_F(SenderPorts, LetTheNextOneWriteWhenTheWriterHasGone) {
+    start();
+    { Client first = tcp(); first.hear(banner); }
+    std::string greeting;
+    for (int i = 0; i < 100 && greeting != banner; ++i) {
+        Client next = tcp();
+        greeting = next.hear("]\r\n");
+    }
+    EXPECT_EQ(greeting, banner);
+}
+
+TEST_F(SenderPorts, ThrowOutABrowser) {
+    start();
+    Client browser = tcp();
+    browser.hear(banner);
+    browser.say("POST / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\nG1 X5 F600\n");
+    EXPECT_EQ(browser.hear("ok"), "(closed)");
+}
+
+TEST_F(SenderPorts, RefuseLinesOfASenderWhileAnotherHoldsControlOfAMachineThatMoves) {
+    start();
+    Client first = tcp();
+    first.hear(banner);
+    Client second = terminal();
+    second.hear(banner);
+    first.say("G4 P100000\n");
+    EXPECT_THAT(second.until("Run"), StartsWith("<Run|"));
+    EXPECT_THAT(second.ask("G1 X1 F600\n", "error:9\r\n"), AllOf(StartsWith("[MSG:"), HasSubstr("sender 127.0.0.1:")));
+    EXPECT_THAT(second.ask("\x18", "help]\r\n"), HasSubstr("ALARM:3\r\n"));
+}
+
+TEST_F(SenderPorts, TellWhichSettingASenderHasChanged) {
+    start();
+    Client client = terminal();
+    client.hear(banner);
+    EXPECT_EQ(client.ask("$32=1\n"), "ok\r\n");
+    client.ask("$G\n");
+    EXPECT_THAT(told_, AllOf(HasSubstr("sender on"), HasSubstr("$32 is 1")));
+}
+
+TEST_F(SenderPorts, TakeALineOfAMegabyteWithoutHarm) {
+    start();
+    Client client = tcp();
+    client.hear(banner);
+    EXPECT_EQ(client.ask("G1 X1 F600\n"), "ok\r\n");
+    EXPECT_EQ(client.ask("G1 X" + std::string(1 << 20, '1') + "\n", "\r\n"), "error:11\r\n");
+    EXPECT_EQ(client.ask("G1 X2\n"), "ok\r\n");
+    EXPECT_THAT(client.until("Idle"), HasSubstr("MPos:2.000"));
+}
+
+TEST_F(SenderPorts, DoNotOverwriteAFile) {
+    std::ofstream(settings_.link) << "mine";
+    const auto opened = GrblPorts::open(settings_, *machine_, lease_);
+    ASSERT_FALSE(opened);
+    EXPECT_THAT(opened.error().message, HasSubstr("no symbolic link"));
+}
+
+TEST_F(SenderPorts, ReplaceAnOldLinkAndTakeTheirOwnAway) {
+    std::filesystem::create_symlink("/dev/pts/of-yesterday", settings_.link);
+    start();
+    EXPECT_THAT(std::filesystem::read_symlink(settings_.link).string(), StartsWith("/dev/pts/"));
+    ports_.reset();
+    EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(settings_.link)));
+}
+
+TEST_F(SenderPorts, SayThatThePortIsTaken) {
+    start();
+    GrblPortSettings same;
+    same.port = ports_->port();
+    auto machine = *operate::Machine::make(*rack::read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n").config, {});
+    const auto opened = GrblPorts::open(same, *machine, lease_);
+    ASSERT_FALSE(opened);
+    EXPECT_THAT(opened.error().message, HasSubstr("Give another port"));
+}
+
+}  // namespace
+}  // namespace motionrack::server
