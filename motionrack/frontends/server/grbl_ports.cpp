@@ -25,7 +25,12 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
-using Text = std::shared_ptr<const std::string>;
+
+/// What a port says; `greets`: it begins with the banner for a new client, who is not to see what comes before it.
+struct Said {
+    std::shared_ptr<const std::string> text;
+    bool greets = false;
+};
 
 /// A page in a browser can send a request to any port of this computer, but not choose how it begins. No line of a sender begins so.
 bool is_http(std::string_view bytes) {
@@ -45,15 +50,16 @@ class Port : public std::enable_shared_from_this<Port> {
     }
 
     /// Where output goes; on the motion thread. Set before Machine::run.
-    std::function<void(Text)> send;
+    std::function<void(Said)> send;
 
     // ---- from the network thread ----
     void came(const std::string& user, const std::string& id) {
         machine_.post([self = shared_from_this(), user, id] {
             self->user_ = user;
             self->id_ = id;
-            self->session_->greet();
             self->flush();
+            self->session_->greet();
+            self->flush(true);
         });
     }
     void left() {
@@ -80,8 +86,8 @@ class Port : public std::enable_shared_from_this<Port> {
     }
 
   private:
-    void flush() {
-        if (std::string out = session_->take_output(); !out.empty()) send(std::make_shared<const std::string>(std::move(out)));
+    void flush(bool greets = false) {
+        if (std::string out = session_->take_output(); !out.empty()) send({std::make_shared<const std::string>(std::move(out)), greets});
     }
     Result<void> take_control() {
         if (lease_.check(id_)) return {};
@@ -102,6 +108,8 @@ class Line : public std::enable_shared_from_this<Line<Stream>> {
   public:
     Line(Stream stream, std::size_t most_waiting) : stream_(std::move(stream)), most_waiting_(most_waiting) {}
 
+    bool awaits_greeting = false;  ///< hears nothing before it
+
     std::function<void(std::string)> on_bytes;  ///< read_on() asks for more
     std::function<void()> on_end;
 
@@ -112,10 +120,12 @@ class Line : public std::enable_shared_from_this<Line<Stream>> {
         });
     }
     /// False: too much waits already.
-    bool write(const Text& text) {
-        if (waiting_ + text->size() > most_waiting_) return false;
-        waiting_ += text->size();
-        out_.push_back(text);
+    bool write(const Said& said) {
+        if (said.greets) awaits_greeting = false;
+        if (awaits_greeting) return true;
+        if (waiting_ + said.text->size() > most_waiting_) return false;
+        waiting_ += said.text->size();
+        out_.push_back(said.text);
         if (out_.size() == 1) write_on();
         return true;
     }
@@ -143,8 +153,8 @@ class Line : public std::enable_shared_from_this<Line<Stream>> {
 
     Stream stream_;
     std::size_t most_waiting_, waiting_ = 0;
-    std::array<char, 4096> in_{};
-    std::deque<Text> out_;
+    std::array<char, 65536> in_{};
+    std::deque<std::shared_ptr<const std::string>> out_;
 };
 using TcpLine = Line<tcp::socket>;
 using TerminalLine = Line<asio::posix::stream_descriptor>;
@@ -177,9 +187,9 @@ class GrblPorts::Inside {
 
   private:
     /// Output comes from the motion thread, which may outlive the network.
-    std::shared_ptr<Port> make_port(std::function<void(const Text&)> send) {
+    std::shared_ptr<Port> make_port(std::function<void(const Said&)> send) {
         auto port = std::make_shared<Port>(machine_, lease_, settings_);
-        port->send = [io = io_, send = std::move(send)](Text text) { asio::post(*io, [send, text = std::move(text)] { send(text); }); };
+        port->send = [io = io_, send = std::move(send)](Said said) { asio::post(*io, [send, said = std::move(said)] { send(said); }); };
         machine_.listen([port](const operate::Status&) { port->tick(); });
         return port;
     }
@@ -205,7 +215,7 @@ class GrblPorts::Inside {
             return fail(Trouble::io, fmt::format("The Grbl port 127.0.0.1:{} was not opened: {}. Give another port, or end the program that has it.", port,
                                                  trouble.message()));
         port_number_ = acceptor_.local_endpoint().port();
-        tcp_port_ = make_port([this](const Text& text) { broadcast(text); });
+        tcp_port_ = make_port([this](const Said& said) { broadcast(said); });
         accept_on();
         return {};
     }
@@ -230,10 +240,11 @@ class GrblPorts::Inside {
         };
         if (writer_ == nullptr) {
             writer_ = line.get();
+            line->awaits_greeting = true;
             name_tcp_sender(fmt::format("tcp {}:{}", from.address().to_string(), from.port()));
             tcp_port_->came(fmt::format("sender {}:{}", from.address().to_string(), from.port()), fmt::format("grbl-tcp-{}", ++connections_));
         } else {
-            line->write(std::make_shared<const std::string>("[MSG:Another sender writes here. This one looks on; of it only ? ! and resets are heard]\r\n"));
+            line->write({std::make_shared<const std::string>("[MSG:Another sender writes here. This one looks on; of it only ? ! and resets are heard]\r\n")});
         }
         line->read_on();
     }
@@ -245,9 +256,9 @@ class GrblPorts::Inside {
         }
         lines_.erase(std::remove_if(lines_.begin(), lines_.end(), [&](const auto& one) { return one.get() == line; }), lines_.end());
     }
-    void broadcast(const Text& text) {
+    void broadcast(const Said& said) {
         for (const auto& line : std::vector<std::shared_ptr<TcpLine>>(lines_))
-            if (!line->write(text)) line->end();
+            if (!line->write(said)) line->end();
     }
     void name_tcp_sender(std::string name) {
         const std::lock_guard<std::mutex> alone(lock_);
@@ -259,13 +270,14 @@ class GrblPorts::Inside {
         auto made = PseudoTerminal::open(settings_.link);
         if (!made) return tl::unexpected<Error>(made.error());
         terminal_.emplace(std::move(*made));
-        terminal_port_ = make_port([this](const Text& text) {
-            if (clients_ > 0 || unseen_) terminal_line_->write(text);  // a line that nobody reads loses what does not fit
+        terminal_port_ = make_port([this](const Said& said) {
+            if (terminal_->clients() > 0 || unseen_) terminal_line_->write(said);  // a line that nobody reads loses what does not fit
         });
         terminal_line_ = std::make_shared<TerminalLine>(asio::posix::stream_descriptor(*io_, terminal_->take_master().give()), settings_.waiting);
         terminal_line_->on_bytes = [this](std::string bytes) {
-            look_for_clients();
-            if (clients_ == 0 && !std::exchange(unseen_, true)) begin_client();
+            const PseudoTerminal::Look seen = look_for_clients();
+            if (seen.left && seen.came) bytes.clear();  // of the one before
+            if (terminal_->clients() == 0 && !std::exchange(unseen_, true)) begin_client();
             terminal_port_->hear(std::move(bytes), true, reading_on(terminal_line_));
         };
         watch_.assign(::dup(terminal_->watch()));
@@ -280,20 +292,23 @@ class GrblPorts::Inside {
             watch_on();
         });
     }
-    void look_for_clients() {
-        bool came = false;
-        const int before = clients_;
-        clients_ = std::max(0, clients_ + terminal_->clients_change(came));
-        if (came && before == 0) begin_client();
-        if (came) unseen_ = false;
-        if (clients_ > 0 || (before == 0 && !came)) return;
-        name_terminal_sender(false);
-        terminal_port_->left();
+    PseudoTerminal::Look look_for_clients() {
+        const PseudoTerminal::Look seen = terminal_->look();
+        if (seen.left) {
+            name_terminal_sender(false);
+            terminal_port_->left();
+        }
+        if (seen.came && terminal_->clients() > 0) {
+            unseen_ = false;
+            begin_client();
+        }
+        return seen;
     }
     void begin_client() {
         terminal_line_->forget_waiting();
+        terminal_line_->awaits_greeting = true;
         terminal_->forget_unread();
-        name_terminal_sender(true);
+        name_terminal_sender(terminal_->clients() > 0);
         terminal_port_->came("sender on " + settings_.link, fmt::format("grbl-pty-{}", ++connections_));
     }
     void name_terminal_sender(bool there) {
@@ -312,7 +327,6 @@ class GrblPorts::Inside {
     TcpLine* writer_ = nullptr;
     std::optional<PseudoTerminal> terminal_;
     std::shared_ptr<TerminalLine> terminal_line_;
-    int clients_ = 0;      ///< that have the terminal open
     bool unseen_ = false;  ///< bytes came from one who has closed it already
     std::int64_t connections_ = 0;
     std::uint16_t port_number_ = 0;

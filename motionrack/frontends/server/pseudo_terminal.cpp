@@ -82,22 +82,23 @@ PseudoTerminal::~PseudoTerminal() {
     if (slave_.number() >= 0 && !link_.empty() && fs::read_symlink(link_, trouble) == name_) fs::remove(link_, trouble);
 }
 
-void PseudoTerminal::forget_unread() { ::tcflush(slave_.number(), TCIFLUSH); }
+void PseudoTerminal::forget_unread() { ::tcflush(slave_.number(), TCIOFLUSH); }
 
-int PseudoTerminal::clients_change(bool& came) {
-    int change = 0;
+PseudoTerminal::Look PseudoTerminal::look() {
+    Look out;
     alignas(inotify_event) std::array<char, 4096> events{};
-    for (;;) {
-        const ssize_t got = ::read(watch_.number(), events.data(), events.size());
-        if (got <= 0) return change;
+    for (ssize_t got; (got = ::read(watch_.number(), events.data(), events.size())) > 0;) {
         for (ssize_t at = 0; at < got;) {
             inotify_event event{};
             std::memcpy(&event, events.data() + at, sizeof event);
-            change += (event.mask & IN_OPEN) != 0 ? 1 : (event.mask & IN_CLOSE) != 0 ? -1 : 0;
-            came = came || (event.mask & IN_OPEN) != 0;
             at += static_cast<ssize_t>(sizeof event + event.len);
+            if ((event.mask & IN_OPEN) != 0)
+                out.came = clients_++ == 0 || out.came;
+            else if ((event.mask & IN_CLOSE) != 0 && clients_ > 0)
+                out.left = --clients_ == 0 || out.left;
         }
     }
+    return out;
 }
 
 }  // namespace motionrack::server

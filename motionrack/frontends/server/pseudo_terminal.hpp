@@ -32,17 +32,23 @@ class PseudoTerminal {
     ~PseudoTerminal();
 
     OpenFile take_master() { return std::move(master_); }
-    /// Throws away what no client has read.
+    /// Throws away what is under way in both directions.
     void forget_unread();
-    /// How many clients have opened it or closed it since the last call: 1, -1, 0 ..; `came`: somebody has opened it.
-    int clients_change(bool& came);
-    /// Readable when clients_change() has something to tell.
+    /// What clients have done since the last look.
+    struct Look {
+        bool left = false;  ///< the last one has closed it
+        bool came = false;  ///< and, or before that, one has opened it as the only one
+    };
+    Look look();
+    int clients() const { return clients_; }
+    /// Readable when there is something to look at.
     int watch() const { return watch_.number(); }
 
   private:
     PseudoTerminal() = default;
     OpenFile master_, slave_, watch_;
     std::string name_, link_;
+    int clients_ = 0;
 };
 
 }  // namespace motionrack::server

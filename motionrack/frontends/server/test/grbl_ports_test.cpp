@@ -122,6 +122,7 @@ TEST_F(SenderPorts, GreetAndDriveOverTcp) {
 TEST_F(SenderPorts, GiveEachTerminalClientAFreshStart) {
     start();
     for (int i = 0; i < 3; ++i) {
+        while (ports_->sender() != "none") std::this_thread::yield();
         Client client = terminal();
         EXPECT_EQ(client.hear(banner), banner);
         EXPECT_EQ(ports_->sender(), "pty");
@@ -130,6 +131,7 @@ TEST_F(SenderPorts, GiveEachTerminalClientAFreshStart) {
         EXPECT_THAT(client.hear(">\r\n"), StartsWith("<Idle|"));
         client.say("?");  // never read
     }
+    while (ports_->sender() != "none") std::this_thread::yield();
     Client client = terminal();
     EXPECT_EQ(client.hear(banner), banner);
     EXPECT_THAT(client.ask("$I\n"), StartsWith("[VER:1.1h"));
