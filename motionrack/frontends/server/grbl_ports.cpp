@@ -10,7 +10,9 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
+#include <chrono>
 #include <deque>
 #include <motionrack/frontends/server/pseudo_terminal.hpp>
 #include <motionrack/grbl/session.hpp>
@@ -99,7 +101,7 @@ class Port : public std::enable_shared_from_this<Port> {
     operate::Machine& machine_;
     authority::ControlLease& lease_;
     std::unique_ptr<grbl::Session> session_;
-    std::string user_, id_;  ///< of who writes
+    std::string user_ = "a sender", id_ = "grbl";  ///< of who writes
 };
 
 /// One end of a line to a client: reads while somebody listens to it, writes in order, and keeps so much for a client that is slow.
@@ -271,13 +273,12 @@ class GrblPorts::Inside {
         if (!made) return tl::unexpected<Error>(made.error());
         terminal_.emplace(std::move(*made));
         terminal_port_ = make_port([this](const Said& said) {
-            if (terminal_->clients() > 0 || unseen_) terminal_line_->write(said);  // a line that nobody reads loses what does not fit
+            if (terminal_->clients() > 0) terminal_line_->write(said);  // a line that nobody reads loses what does not fit
         });
         terminal_line_ = std::make_shared<TerminalLine>(asio::posix::stream_descriptor(*io_, terminal_->take_master().give()), settings_.waiting);
         terminal_line_->on_bytes = [this](std::string bytes) {
-            const PseudoTerminal::Look seen = look_for_clients();
-            if (seen.left && seen.came) bytes.clear();  // of the one before
-            if (terminal_->clients() == 0 && !std::exchange(unseen_, true)) begin_client();
+            look_for_clients();
+            if (deaf_ && terminal_->clients() > 0) bytes.clear();
             terminal_port_->hear(std::move(bytes), true, reading_on(terminal_line_));
         };
         watch_.assign(::dup(terminal_->watch()));
@@ -292,23 +293,26 @@ class GrblPorts::Inside {
             watch_on();
         });
     }
-    PseudoTerminal::Look look_for_clients() {
+    void look_for_clients() {
         const PseudoTerminal::Look seen = terminal_->look();
         if (seen.left) {
             name_terminal_sender(false);
             terminal_port_->left();
+            deaf_ = true;
+            timer_.expires_after(settling);
+            timer_.async_wait([this](error_code trouble) {
+                if (trouble) return;
+                deaf_ = false;
+                if (terminal_->clients() > 0) begin_client();
+            });
         }
-        if (seen.came && terminal_->clients() > 0) {
-            unseen_ = false;
-            begin_client();
-        }
-        return seen;
+        if (seen.came && terminal_->clients() > 0 && !deaf_) begin_client();
     }
     void begin_client() {
         terminal_line_->forget_waiting();
         terminal_line_->awaits_greeting = true;
         terminal_->forget_unread();
-        name_terminal_sender(terminal_->clients() > 0);
+        name_terminal_sender(true);
         terminal_port_->came("sender on " + settings_.link, fmt::format("grbl-pty-{}", ++connections_));
     }
     void name_terminal_sender(bool there) {
@@ -325,9 +329,13 @@ class GrblPorts::Inside {
     std::shared_ptr<Port> tcp_port_, terminal_port_;
     std::vector<std::shared_ptr<TcpLine>> lines_;
     TcpLine* writer_ = nullptr;
+    /// What a client wrote may come a little after it has gone. Nobody is heard or greeted so soon after another,
+    /// who may still write into the void.
+    static constexpr std::chrono::milliseconds settling{50};
     std::optional<PseudoTerminal> terminal_;
+    asio::steady_timer timer_{*io_};
+    bool deaf_ = false;
     std::shared_ptr<TerminalLine> terminal_line_;
-    bool unseen_ = false;  ///< bytes came from one who has closed it already
     std::int64_t connections_ = 0;
     std::uint16_t port_number_ = 0;
     mutable std::mutex lock_;

@@ -137,6 +137,13 @@ TEST_F(SenderPorts, GiveEachTerminalClientAFreshStart) {
     EXPECT_THAT(client.ask("$I\n"), StartsWith("[VER:1.1h"));
 }
 
+TEST_F(SenderPorts, HearALineOfWhoHasGoneAtOnce) {
+    start();
+    { Client client = terminal(); client.say("G1 X7 F600\n"); }
+    Client client = tcp();
+    EXPECT_THAT(client.until("Idle|MPos:7.000"), HasSubstr("7.000"));
+}
+
 TEST_F(SenderPorts, KeepTheTerminalRaw) {
     start();
     Client client = terminal();
