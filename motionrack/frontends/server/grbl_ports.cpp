@@ -298,6 +298,7 @@ class GrblPorts::Inside {
         if (seen.left) {
             name_terminal_sender(false);
             terminal_port_->left();
+            terminal_line_->awaits_greeting = true;
             deaf_ = true;
             timer_.expires_after(settling);
             timer_.async_wait([this](error_code trouble) {
@@ -309,8 +310,8 @@ class GrblPorts::Inside {
         if (seen.came && terminal_->clients() > 0 && !deaf_) begin_client();
     }
     void begin_client() {
-        terminal_line_->forget_waiting();
         terminal_line_->awaits_greeting = true;
+        terminal_line_->forget_waiting();
         terminal_->forget_unread();
         name_terminal_sender(true);
         terminal_port_->came("sender on " + settings_.link, fmt::format("grbl-pty-{}", ++connections_));
