@@ -2,6 +2,7 @@
 import { signal } from '@preact/signals';
 import { axes, machineState, status } from './link/state';
 import { mayOperate, notice, order, stop, whyNot } from './link/orders';
+import { typed } from './parts/numbers';
 import * as text from './program/text';
 
 export interface Action {
@@ -11,8 +12,9 @@ export interface Action {
   run(): void;
 }
 
-/** The axis that touch off is for. */
+/** The axis that touch off is for, and what its place is called then. */
 export const chosenAxis = signal('X');
+export const placeText = signal('0');
 
 function startText(): void {
   if (machineState.value === 'hold') void order('resume');
@@ -25,9 +27,19 @@ async function oneStep(): Promise<void> {
   startText();
 }
 
+/** The chosen axis; the first one where the machine has no such axis. */
+export const axisLetter = (): string => (axes.value.some((axis) => axis.letter === chosenAxis.value) ? chosenAxis.value : (axes.value[0]?.letter ?? ''));
+
+function declare(): void {
+  const position = typed(placeText.value);
+  if (position === null) notice('refused', `"${placeText.value}" is no position. Nothing was changed.`);
+  else void order('declare_position', { axis: axisLetter(), position });
+}
+
 function touchOff(): void {
-  const letter = axes.value.some((axis) => axis.letter === chosenAxis.value) ? chosenAxis.value : axes.value[0]?.letter;
-  if (letter !== undefined) void order('set_work_zero', { axis: letter, value: 0 });
+  const place = typed(placeText.value);
+  if (place === null) notice('refused', `"${placeText.value}" is no position. Nothing was changed.`);
+  else void order('set_work_zero', { axis: axisLetter(), value: place });
 }
 
 const enabled = (): boolean => machineState.value !== 'disabled';
@@ -45,6 +57,7 @@ export const actions = {
   },
   home: { label: 'Home all', why: mayOperate, run: () => void order('home') },
   touchOff: { label: 'Touch off', why: mayOperate, run: touchOff },
+  declare: { label: 'Declare', why: mayOperate, run: declare },
   run: { label: 'Run', why: mayOperate, run: startText },
   step: { label: 'Single step', why: mayOperate, run: () => void oneStep() },
 } satisfies Record<string, Action>;

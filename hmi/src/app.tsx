@@ -12,7 +12,7 @@ import { Faults } from './panels/faults';
 import { Jog } from './panels/jog';
 import { Mdi } from './panels/mdi';
 import { Overrides } from './panels/overrides';
-import { Pairing } from './panels/pairing';
+import { Inviting, Pairing } from './panels/pairing';
 import { Program, Progress } from './panels/program';
 import { AlarmBanner, StateBar } from './panels/state_bar';
 import { ToolBar } from './panels/tool_bar';
@@ -100,6 +100,7 @@ export function App(): JSX.Element {
       </footer>
       <Notices />
       <Pairing />
+      <Inviting />
       <Help />
     </>
   );

@@ -94,7 +94,7 @@ test('F1 toggles the E-stop input, F2 enables; the browser shows no help', async
   await tab.page.evaluate(() => window.addEventListener('keydown', (event) => (window.prevented = event.defaultPrevented), true));
   await tab.page.keyboard.press('F1');
   await until(() => tab.status.estop.pressed, 'the E-stop input is pressed');
-  await tab.page.getByText('PRESSED').waitFor();
+  await tab.page.getByText('PRESSED', { exact: true }).waitFor();
   await tab.page.keyboard.press('F1');
   await until(() => !tab.status.estop.pressed, 'the E-stop input is released');
   await tab.page.getByRole('group', { name: 'Motion' }).getByRole('button', { name: 'Reset' }).click();

@@ -1,13 +1,26 @@
 // Pairing and roles: a code in the address, a code typed, a wrong one; what one may not do is disabled and says why.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { openTab, suite, tabOf, until } from './support.mjs';
+import { openTab, RACKS, suite, tabOf, until } from './support.mjs';
 
-const all = suite(test);
+const all = suite(test, RACKS.axes, { pairing: true });
+let token = '';
+
+async function post(path, fields) {
+  const answer = await fetch(all.server.address + path, { method: 'POST', headers: { 'content-type': 'application/json', ...(token && { authorization: `Bearer ${token}` }) }, body: JSON.stringify(fields) });
+  const body = await answer.json();
+  assert.equal(answer.status, 200, JSON.stringify(body));
+  return body;
+}
+
+/** A pairing code of the program for somebody of that role. */
+async function invite(role) {
+  if (token === '') token = (await post('api/pair', { code: all.server.code, name: 'test' })).token;
+  return (await post('api/invite', { role })).code;
+}
 
 test('a code in the address pairs by itself and is removed from the address', async () => {
-  const code = await all.server.invite('maintain');
-  const tab = await openTab(all.browser, all.server, { hash: `#pair=${code}` });
+  const tab = await openTab(all.browser, all.server, { hash: `#pair=${await invite('maintain')}` });
   await tab.page.getByText('This browser is paired.').waitFor();
   assert.ok(!tab.page.url().includes('pair'), tab.page.url());
   assert.ok(await tab.page.evaluate(() => localStorage.getItem('motionrack.token')));
@@ -18,7 +31,7 @@ test('a code in the address pairs by itself and is removed from the address', as
 });
 
 test('a code is typed into a small dialog; a wrong one is refused with a sentence', async () => {
-  const code = await all.server.invite('operate');
+  const code = await invite('operate');
   const tab = await openTab(all.browser, all.server);
   await tab.page.getByRole('button', { name: 'Pair', exact: true }).click();
   const dialog = tab.page.getByRole('dialog', { name: 'Pair this browser' });
@@ -40,7 +53,7 @@ test('who only observes sees controls disabled with the reason, and STOP enabled
   assert.match(await hold.getAttribute('title'), /needs the role operate/);
   await hold.focus();
   await tab.page.keyboard.press('Enter');
-  await tab.page.getByText(/needs the role operate/).first().waitFor();
+  await tab.page.locator('.notice').getByText(/needs the role operate/).waitFor();
   const stopped = tab.page.waitForResponse((response) => response.url().endsWith('/api/stop'));
   await tab.page.getByRole('button', { name: 'STOP', exact: true }).click();
   assert.equal((await stopped).status(), 200);
@@ -53,4 +66,23 @@ test('a token that is not known any more is forgotten', async () => {
   const tab = await tabOf(context, all.server);
   await until(() => tab.page.evaluate(() => localStorage.getItem('motionrack.token') === null), 'the token is gone');
   await context.close();
+});
+
+test('somebody who may maintain makes a code for others', async () => {
+  const tab = await openTab(all.browser, all.server, { hash: `#pair=${await invite('maintain')}` });
+  await tab.page.getByRole('button', { name: 'Invite' }).click();
+  await tab.page.getByRole('button', { name: 'Make a code' }).click();
+  await tab.page.getByRole('dialog').getByText(/^[A-Z0-9]{4}-[A-Z0-9]{4}$/).waitFor();
+  await tab.context.close();
+});
+
+test('a user who reloads takes control again without waiting', async () => {
+  const tab = await openTab(all.browser, all.server, { hash: `#pair=${await invite('operate')}` });
+  await tab.page.getByText('This browser is paired.').waitFor();
+  await tab.page.getByRole('button', { name: 'Take control' }).click();
+  await tab.page.getByText('You hold control').waitFor();
+  await tab.page.reload();
+  await tab.page.getByRole('button', { name: /Take/ }).click();
+  await tab.page.getByText('You hold control').waitFor();
+  await tab.context.close();
 });

@@ -1,18 +1,44 @@
-// What all browser tests need: a program that serves the page, a browser, what the page sent, and the ways of a user.
+// What all browser tests need: the program that serves the page, a browser, what the page sent, and the ways of a user.
 import assert from 'node:assert/strict';
-import { mkdirSync } from 'node:fs';
+import { spawn } from 'node:child_process';
+import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { chromium } from 'playwright-core';
-import { Fake } from './fake_server.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const PAGE = process.env.MOTIONRACK_PAGE ?? join(here, '../../build/test/share/motionrack/page');
-export const PICTURES = process.env.MOTIONRACK_PICTURES ?? join(here, '../../build/pictures');
+const BUILD = process.env.MOTIONRACK_BUILD ?? join(here, '../../build/test');
 const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
+export const PICTURES = join(BUILD, 'pictures');
+/** Four axes whose positions are known at once; all kinds of card. */
+export const RACKS = { axes: join(here, 'rack.toml'), all: join(here, '../../examples/15_panel/demonstration.toml') };
 
-export async function startServer() {
-  return new Fake().start(PAGE);
+/** Runs `motionrack serve`. Without pairing whoever comes may do everything. */
+export async function startServer(rack = RACKS.axes, { pairing = false } = {}) {
+  const folder = mkdtempSync(join(tmpdir(), 'motionrack-page-'));
+  const program = spawn(join(BUILD, 'bin/motionrack'), ['serve', rack, '--port', '0', '--page', join(BUILD, 'share/motionrack/page'), '--users', join(folder, 'users.json'), ...(pairing ? [] : ['--no-pairing'])]);
+  let said = '';
+  program.stderr.on('data', (text) => (said += text));
+  const server = { address: '', code: '', said: () => said };
+  await new Promise((done, failed) => {
+    program.once('error', failed);
+    program.once('exit', (code) => failed(new Error(`the program ended with ${code}: ${said}`)));
+    program.stdout.on('data', (text) => {
+      said += text;
+      const found = /page +(http:\/\/[^\s#]+)(?:#pair=(\S+))?/.exec(said);
+      if (found === null || !said.includes('Ctrl-C')) return;
+      [server.address, server.code] = [found[1], found[2] ?? ''];
+      done();
+    });
+  });
+  server.stop = async () => {
+    const ended = new Promise((done) => program.once('exit', done));
+    program.kill('SIGTERM');
+    await ended;
+    rmSync(folder, { recursive: true, force: true });
+  };
+  return server;
 }
 
 export const openBrowser = () => chromium.launch({ executablePath: CHROMIUM, args: ['--no-sandbox'] });
@@ -60,9 +86,14 @@ export const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 export const named = (tab, order) => tab.sent.filter((one) => one.order === order);
 export const state = (tab, ...names) => until(() => names.includes(tab.status?.state), `state ${names.join(' or ')}, it is ${tab.status?.state}`);
 
+/** Takes control and enables the drives. */
 export async function takeControl(tab) {
   await tab.page.getByRole('button', { name: /Take control|Take over/ }).click();
   await tab.page.getByText('You hold control').waitFor();
+  if (tab.status.state === 'error stop') await tab.page.getByRole('group', { name: 'Motion' }).getByRole('button', { name: 'Reset' }).click();
+  await state(tab, 'disabled', 'standstill');
+  if (tab.status.state === 'disabled') await tab.page.getByRole('button', { name: 'Enable drives' }).click();
+  await state(tab, 'standstill');
 }
 
 export const arm = (tab) => tab.page.getByRole('switch', { name: 'Keyboard' }).click();
@@ -74,10 +105,10 @@ export async function picture(tab, name, whole = false) {
 }
 
 /** Starts a server and a browser for the tests of a file, and a tab for each test. */
-export function suite(test) {
+export function suite(test, rack, options) {
   const all = {};
   test.before(async () => {
-    all.server = await startServer();
+    all.server = await startServer(rack, options);
     all.browser = await openBrowser();
   });
   test.after(async () => {

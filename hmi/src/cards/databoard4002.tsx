@@ -38,7 +38,7 @@ function Slope({ card }: { card: CardInfo }): JSX.Element {
     <Panel title="Slope" class="slope">
       {!loaded ? <Empty>{why.value || 'No slope has been loaded into the card (command S).'}</Empty> : (
         <>
-          <Chart data={picture} names={NAMES} xName="counts" label="Slope table: speed in Hz over the way in counts" height={240} stepped />
+          <Chart data={picture} names={NAMES} xName="counts" label="Slope table: speed in Hz over the way in counts" height={240} stepped={() => true} />
           <Legend names={NAMES} />
           <p class="hint tabular">Hz over counts; {data.value?.moving === true ? `it moves at ${fixed(data.value.hz, 0)} Hz` : 'it stands'}</p>
         </>

@@ -68,7 +68,6 @@ function Moves({ card }: { card: CardInfo }): JSX.Element {
   const chosen = useSignal('');
   const distance = useSignal('10');
   const speed = useSignal('20');
-  const place = useSignal('0');
   const letter = letters.includes(chosen.value) ? chosen.value : letters[0];
   const why = mayOperate() || (letter === undefined ? 'No axis is on this card.' : '');
   const unit = unitName(letter === undefined ? 'mm' : (axisOf(letter)?.unit ?? 'mm'));
@@ -76,11 +75,6 @@ function Moves({ card }: { card: CardInfo }): JSX.Element {
     const [by, at] = [typed(distance.value), typed(speed.value)];
     if (by === null || at === null) notice('refused', 'Distance and speed must be numbers. Nothing was moved.');
     else void order('jog_by', { axis: letter, distance: direction * by, speed: at });
-  };
-  const declare = (): void => {
-    const position = typed(place.value);
-    if (position === null) notice('refused', 'The position must be a number. Nothing was changed.');
-    else void order('declare_position', { axis: letter, position });
   };
   return (
     <Panel title="Moves and homing" class="moves">
@@ -93,8 +87,6 @@ function Moves({ card }: { card: CardInfo }): JSX.Element {
       </div>
       <div class="row">
         <Button machine icon="home" why={why} onClick={() => void order('home', { axes: letter })}>Home {letter}</Button>
-        <Field label="Stands at" value={place.value} unit={unit} mode="decimal" onInput={(text) => (place.value = text)} />
-        <Button machine why={why} onClick={declare}>Declare</Button>
       </div>
     </Panel>
   );

@@ -2,6 +2,7 @@
 import { useSignal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { cardNamed, rack, type CardInfo, type RegisterInfo } from '../link/rack';
+import { Icon } from '../parts/icons';
 import { fixed, hex, whole } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
 import { Empty, Field, Panel } from '../parts/ui';
@@ -25,12 +26,15 @@ function Bits({ register, word }: { register: RegisterInfo; word: number }): JSX
 
 function Row({ name, register, word, open, onOpen }: { name: string; register: RegisterInfo | undefined; word: number | null; open: boolean; onOpen(): void }): JSX.Element {
   const has = (register?.fields.length ?? 0) > 0;
+  const setBits = register === undefined || word === null ? '' : fieldValues(register, word).filter((one) => one.value !== 0).map((one) => one.field.name).join(' ');
   return (
     <li class={`register ${open ? 'open' : ''}`}>
       <button type="button" aria-expanded={has ? open : undefined} onClick={onOpen}>
         <code class="name">{name}</code>
         <span class="word tabular">{hex(word, register?.width ?? 16)}</span>
         <span class="meaning">{register?.meaning ?? ''}</span>
+        <span class="setbits">{setBits}</span>
+        {has && <Icon name={open ? 'up' : 'down'} size={14} />}
       </button>
       {open && has && register !== undefined && word !== null && <Bits register={register} word={word} />}
     </li>

@@ -4,6 +4,7 @@ import { rack, type CardInfo } from '../link/rack';
 import { fixed, unitName } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
 import { Empty, Panel } from '../parts/ui';
+import { Marking } from './marking';
 import { Flags, Quantities, wordOf, type CardAnswer } from './peek';
 
 type Place = [number, number];
@@ -74,7 +75,8 @@ export function Laser({ card }: { card: CardInfo }): JSX.Element {
   return (
     <>
       {(rack.value?.scanners ?? []).filter((one) => one.card === card.name).map((one) => <WorkPiece key={one.name} scanner={one.name} />)}
-      <Panel title={`${card.name}: ${card.title}`} class="wide">
+      <Marking card={card} />
+      <Panel title={`${card.name}: ${card.title}`}>
         {shown.map((one) => <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />)}
         <Quantities card={card} />
       </Panel>

@@ -45,12 +45,6 @@ export interface Alarm {
   acknowledged: boolean;
 }
 
-export interface HomingAxis {
-  axis: string;
-  phase: string;
-  [more: string]: unknown;
-}
-
 export interface Status {
   at: number;
   sequence: number;
@@ -59,12 +53,12 @@ export interface Status {
   simulation: boolean;
   clock: { mode: 'real' | 'free' | 'paused'; factor: number; late_ms: number };
   estop: { wired: boolean; pressed: boolean };
-  control: { holder: string | null; holder_session?: string; session_is_mine?: boolean; since?: number };
+  control: { holder: string | null; holder_session?: string; since?: number };
   axes: AxisStatus[];
   program: { name: string; runs: boolean; line: number; lines: number; remaining_s: number | null; single_step: boolean };
   overrides: { feed: number; rapid: number };
   alarms: Alarm[];
-  homing?: unknown;
+  homing?: { runs: boolean; phases: Record<string, string> };
   link?: { sender: string; clients: number };
 }
 

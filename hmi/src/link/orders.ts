@@ -70,8 +70,7 @@ export function whyNot(needed: Role, control = false): string {
   if (!hasRole(needed))
     return `This needs the role ${needed}; you ${state.role.value === 'nobody' ? 'are not paired' : `have the role ${state.role.value}`}. Pair this browser with a code of that role.`;
   if (control && !state.inControl.value) {
-    const holder = state.status.value?.control.holder;
-    return holder ? `${holder} holds control.` : 'Take control first.';
+    return state.holder.value !== '' ? `${state.holder.value} holds control.` : 'Take control first.';
   }
   return '';
 }

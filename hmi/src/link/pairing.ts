@@ -5,6 +5,13 @@ import { notice, sentence } from './orders';
 import { showToken, TOKEN_KEY } from './socket';
 
 export const dialogOpen = signal(false);
+/** What is in the dialog. */
+export const codeText = signal('');
+export const nameText = signal(localStorage.getItem('motionrack.name') ?? '');
+export const whyNotPaired = signal('');
+
+/** A name that nobody else has, for who did not say one. */
+const freshName = (): string => `browser-${crypto.getRandomValues(new Uint16Array(1))[0]?.toString(16) ?? ''}`;
 
 export async function pair(code: string, name: string): Promise<void> {
   const answer = await fetch('api/pair', {
@@ -29,10 +36,13 @@ export async function pairFromAddress(): Promise<void> {
   const found = /(?:^#|&)pair=([^&]+)/.exec(location.hash);
   if (found === null) return;
   history.replaceState(null, '', location.pathname + location.search);
+  const code = decodeURIComponent(found[1] ?? '');
   try {
-    await pair(decodeURIComponent(found[1] ?? ''), localStorage.getItem('motionrack.name') ?? 'browser');
+    await pair(code, nameText.value || freshName());
     notice('done', 'This browser is paired.');
   } catch (why) {
-    notice('refused', sentence(why));
+    codeText.value = code;
+    whyNotPaired.value = sentence(why);
+    dialogOpen.value = true;
   }
 }

@@ -42,9 +42,12 @@ export const standsStill = computed(() => ['standstill', 'disabled', 'error stop
 /** This tab holds control. */
 export const inControl = computed(() => {
   const control = status.value?.control;
-  if (!control?.holder) return false;
-  if (control.session_is_mine !== undefined) return control.session_is_mine;
-  return control.holder_session !== undefined && control.holder_session === hello.value?.session;
+  return control?.holder_session !== undefined && control.holder_session === hello.value?.session;
+});
+/** Who holds control, as others see it; empty: nobody. */
+export const holder = computed(() => {
+  const control = status.value?.control;
+  return control?.holder == null ? '' : control.holder || 'another browser';
 });
 
 export const axisOf = (letter: string): AxisStatus | undefined => axes.value.find((axis) => axis.letter === letter);

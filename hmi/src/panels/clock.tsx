@@ -7,15 +7,19 @@ import { status } from '../link/state';
 import { fixed, typed } from '../parts/numbers';
 import { ActionButton, Button, Choice, Field, Panel } from '../parts/ui';
 
-const FACTORS = [0.1, 0.5, 1, 2, 10];
+/** Modes by name, factors of real time as numbers. */
+const MODES = [
+  { value: 'paused', text: 'Pause' },
+  ...[0.1, 0.5, 1, 2, 10].map((one) => ({ value: String(one), text: one === 1 ? 'Real' : `${one} ×` })),
+  { value: 'free', text: 'Free' },
+];
 
 export function Clock(): JSX.Element {
   const clock = status.value?.clock;
   const step = useSignal('0.002');
   const why = mayMaintain();
   const set = (mode: string): void => {
-    if (why !== '') notice('refused', why);
-    else if (mode === 'free' || mode === 'paused') void order('set_clock', { mode });
+    if (mode === 'free' || mode === 'paused') void order('set_clock', { mode });
     else void order('set_clock', { mode: 'real', factor: Number(mode) });
   };
   const stepBy = (): void => {
@@ -27,7 +31,7 @@ export function Clock(): JSX.Element {
   return (
     <Panel title="Clock and E-stop input" class="clockpanel" tools={<span class="tabular">{fixed(status.value?.at, 3)} s</span>}>
       <Choice label="Clock" value={now} onChange={set}
-        options={[{ value: 'paused', text: 'Pause' }, ...FACTORS.map((one) => ({ value: String(one), text: one === 1 ? 'Real' : `${one} ×` })), { value: 'free', text: 'Free' }]} />
+        options={MODES.map((one) => ({ ...one, why }))} />
       <div class="row">
         <Field label="Step" value={step.value} unit="s" mode="decimal" onInput={(text) => (step.value = text)} onEnter={stepBy} />
         <Button icon="step" why={why || (clock?.mode === 'paused' ? '' : 'The clock is stepped while it is paused.')} onClick={stepBy}>Step</Button>

@@ -1,13 +1,15 @@
 // Where the axes are: commanded, actual, following error, speed; lamps; enable and home.
 import type { JSX } from 'preact';
-import { actions, chosenAxis } from '../actions';
+import { actions, axisLetter, chosenAxis, placeText } from '../actions';
 import { LEDS, type AxisStatus, type LedName } from '../link/contract';
 import { mayOperate, order } from '../link/orders';
 import * as state from '../link/state';
+
 import { Icon } from '../parts/icons';
 import { fixed, position, unitName } from '../parts/numbers';
-import { ActionButton, Button, Led, Panel, type LedKind } from '../parts/ui';
+import { ActionButton, Button, Field, Led, Panel, type LedKind } from '../parts/ui';
 import { largeNumbers, narrow } from '../view';
+import { Homing } from './homing';
 
 const LAMPS: Record<LedName, { letter: string; text: string; kind: LedKind }> = {
   soft_minus: { letter: 'S−', text: 'software limit −', kind: 'warn' },
@@ -79,7 +81,13 @@ export function Dro(): JSX.Element {
         <div class="row">
           <ActionButton action={actions.enable} icon="power" kind={disabled ? 'main' : 'plain'}>{disabled ? 'Enable drives' : 'Disable drives'}</ActionButton>
           <ActionButton action={actions.home} icon="home" />
-          <ActionButton action={actions.touchOff} icon="zero">Touch off {chosenAxis.value}</ActionButton>
+        </div>
+      )}
+      {!narrow.value && (
+        <div class="row">
+          <Field label={`${axisLetter()} stands at`} value={placeText.value} mode="decimal" unit={unitName(state.axisOf(axisLetter())?.unit ?? '')} onInput={(text) => (placeText.value = text)} />
+          <span title="In work coordinates (G10 L20)"><ActionButton action={actions.touchOff} icon="zero">Touch off {axisLetter()}</ActionButton></span>
+          <span title="In machine coordinates; the position is trusted then"><ActionButton action={actions.declare} icon="check">Declare {axisLetter()}</ActionButton></span>
         </div>
       )}
       <Homing />
@@ -91,19 +99,4 @@ export function Dro(): JSX.Element {
 function Age(): JSX.Element | null {
   if (!state.stale.value || state.received.value === 0) return null;
   return <span class="age">these values are {(state.age.value / 1000).toFixed(1)} s old</span>;
-}
-
-/** Phases while axes home, and what was found. */
-function Homing(): JSX.Element | null {
-  const homing = state.status.value?.homing as { axes?: { axis: string; phase: string }[]; report?: string | { text?: string } } | null | undefined;
-  if (homing === null || homing === undefined) return null;
-  const report = typeof homing.report === 'string' ? homing.report : homing.report?.text;
-  if ((homing.axes ?? []).length === 0 && !report) return null;
-  return (
-    <details class="homing" open={state.machineState.value === 'homing'}>
-      <summary>Homing</summary>
-      {(homing.axes ?? []).map((one) => <p key={one.axis}><strong>{one.axis}</strong> {one.phase}</p>)}
-      {report && <pre>{report}</pre>}
-    </details>
-  );
 }

@@ -2,10 +2,11 @@
 import type { JSX } from 'preact';
 import { releaseControl, takeControl } from '../link/control';
 import { forget, dialogOpen } from '../link/pairing';
-import { whyNot } from '../link/orders';
+import { hasRole, whyNot } from '../link/orders';
 import * as state from '../link/state';
 import { Icon, type IconName } from '../parts/icons';
 import { Button } from '../parts/ui';
+import { inviteOpen } from './pairing';
 import { address, dark, helpOpen, largeNumbers, setTheme, view, type View } from '../view';
 
 const TABS: readonly { view: View; text: string; icon: IconName }[] = [
@@ -18,9 +19,10 @@ const TABS: readonly { view: View; text: string; icon: IconName }[] = [
 ];
 
 function Control(): JSX.Element {
-  const holder = state.status.value?.control.holder ?? '';
+  const holder = state.holder.value;
+  const own = holder !== '' && holder === state.user.value;
   const mine = state.inControl.value;
-  const why = whyNot('operate') || (holder !== '' && !mine && !state.standsStill.value ? `${holder} holds control and the machine moves. It can be taken over at standstill.` : '');
+  const why = whyNot('operate') || (holder !== '' && !mine && !own && !state.standsStill.value ? `${holder} holds control and the machine moves. It can be taken over at standstill.` : '');
   return (
     <div class="control" role="group" aria-label="Control">
       <span class={`holder ${mine ? 'mine' : ''}`}>
@@ -30,7 +32,7 @@ function Control(): JSX.Element {
       {mine ? (
         <Button kind="quiet" onClick={releaseControl}>Release</Button>
       ) : (
-        <Button kind={why === '' && holder === '' ? 'main' : 'plain'} why={why} onClick={() => takeControl(holder !== '')}>
+        <Button kind={why === '' && holder === '' ? 'main' : 'plain'} why={why} onClick={() => takeControl(holder !== '' && !(own && !state.standsStill.value))}>
           {holder === '' ? 'Take control' : 'Take over'}
         </Button>
       )}
@@ -44,6 +46,7 @@ function User(): JSX.Element {
   return (
     <div class="user" role="group" aria-label="This browser">
       <span class="who"><Icon name="user" size={16} />{name !== '' ? `${name}, ${role}` : role}</span>
+      {hasRole('maintain') && <Button kind="quiet" onClick={() => (inviteOpen.value = true)}>Invite</Button>}
       {name === '' ? (
         <Button kind="quiet" onClick={() => (dialogOpen.value = true)}>Pair</Button>
       ) : (

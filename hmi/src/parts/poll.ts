@@ -17,7 +17,6 @@ export function usePoll<T>(name: string, fields: Fields, every_ms: number): Poll
   const key = JSON.stringify(fields);
   useEffect(() => {
     if (name === '') return undefined;
-    data.value = null;
     let live = true;
     let timer: ReturnType<typeof setTimeout> | undefined;
     const look = async (): Promise<void> => {

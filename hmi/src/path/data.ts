@@ -1,14 +1,16 @@
 // The planned and the driven path, as both views of it read them.
 import { computed, signal } from '@preact/signals';
 import { query } from '../link/orders';
-import { whenPicture } from '../link/socket';
 import * as state from '../link/state';
 import { checked, type Polyline } from './checked';
 
-/** `driven`: time, then places by the letters of `axes`; oldest first. */
+/** `driven`: time, then places by the letters of `axes`; oldest first. `planned` only when it is another than the one asked about. */
 interface PathAnswer {
+  number: number;
+  axes: string;
   planned?: Polyline | null;
-  driven?: { axes: string; points: number[][]; errors?: number[] };
+  driven: number[][];
+  errors?: number[];
 }
 
 export const letters = computed(() => state.axisLetters.value.slice(0, 4));
@@ -19,23 +21,24 @@ export interface Driven {
   place: number[];
   error: number;
 }
+/** Oldest first. */
 export const driven = signal<Driven[]>([]);
 export const plannedIs = signal<'none' | 'checked' | 'running'>('none');
 
 const KEPT = 6000;
-const EVERY_MS = 400;
+const EVERY_MS = 200;
 
-/** Without the program's own list the page keeps what it saw pass by. */
-function note(): void {
-  const status = state.status.peek();
-  if (status === null) return;
-  const place = status.axes.map((axis) => axis.actual);
-  const error = Math.hypot(...status.axes.map((axis) => axis.error));
-  const list = driven.peek();
-  const last = list[list.length - 1];
-  if (last !== undefined && last.place.every((value, i) => Math.abs(value - (place[i] ?? 0)) < 1e-6)) return;
-  driven.value = [...list, { at: status.at, place, error }].slice(-KEPT);
-}
+/** Number of the plan that is shown, and until when what was driven is not. */
+let have = 0;
+let since = -1;
+let boot: string | undefined;
+state.hello.subscribe((now) => {
+  if (now === null || now.boot === boot) return;
+  boot = now.boot;
+  have = 0;
+  since = -1;
+  driven.value = [];
+});
 
 /** Places in the order of the page's axes. */
 function inOrder(axes: string, points: readonly number[][]): number[][] {
@@ -51,16 +54,15 @@ function show(path: Polyline | null | undefined, is: 'checked' | 'running'): voi
 
 async function look(): Promise<void> {
   try {
-    const answer = await query<PathAnswer>('path');
-    if ((answer.planned?.points.length ?? 0) > 1) show(answer.planned, 'running');
-    else show(checked.peek()?.path, 'checked');
-    const list = answer.driven;
-    if (list !== undefined && list.points.length > 0) {
-      const places = inOrder(list.axes, list.points.map(([, ...place]) => place));
-      driven.value = places.map((place, i) => ({ at: list.points[i]?.[0] ?? 0, place, error: list.errors?.[i] ?? 0 }));
-    }
+    const list = driven.peek();
+    const answer = await query<PathAnswer>('path', { have, since: list[list.length - 1]?.at ?? since });
+    if (answer.number !== have) show(answer.planned, 'running');
+    have = answer.number;
+    if (answer.driven.length === 0) return;
+    const places = inOrder(answer.axes, answer.driven.map(([, ...place]) => place));
+    driven.value = [...list, ...places.map((place, i) => ({ at: answer.driven[i]?.[0] ?? 0, place, error: answer.errors?.[i] ?? 0 }))].slice(-KEPT);
   } catch {
-    // The view then shows what the stream told.
+    // Asked again soon.
   }
 }
 
@@ -73,16 +75,17 @@ export function follow(): () => void {
     if (live) timer = setTimeout(() => void again(), EVERY_MS);
   };
   void again();
-  const stopNoting = whenPicture(note);
   const stopShowing = checked.subscribe((result) => show(result?.path, 'checked'));
   return () => {
     live = false;
     clearTimeout(timer);
-    stopNoting();
     stopShowing();
   };
 }
 
-export const clearDriven = (): void => void (driven.value = []);
+export function clearDriven(): void {
+  since = state.status.peek()?.at ?? since;
+  driven.value = [];
+}
 /** The greatest error of the driven points, at least so much that a good path is all of one colour. */
 export const greatestError = computed(() => Math.max(0.001, ...driven.value.slice(-KEPT).map((one) => one.error)));

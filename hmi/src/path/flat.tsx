@@ -86,7 +86,7 @@ class Painter {
     }
     pen.stroke();
     pen.textAlign = 'right';
-    pen.fillText(unit, this.width - 6, this.height - 6);
+    pen.fillText(unit, this.width - 8, 16);
   }
 
   limits(a: { min: number; max: number } | undefined, b: { min: number; max: number } | undefined): void {

@@ -17,7 +17,8 @@ interface ChartProps {
   xName: string;
   label: string;
   marks?: readonly Mark[];
-  stepped?: boolean;
+  /** Whether a line holds its value until the next one. */
+  stepped?(name: string): boolean;
   height?: number;
   onPick?(x: number): void;
 }
@@ -50,7 +51,7 @@ function options(box: HTMLElement, props: ChartProps, marks: () => readonly Mark
   const style = getComputedStyle(box);
   const get = (name: string): string => style.getPropertyValue(name).trim();
   const axis: uPlot.Axis = { stroke: get('--muted'), grid: { stroke: get('--line'), width: 1 }, ticks: { stroke: get('--line'), width: 1 }, font: '11px Inter Variable, sans-serif' };
-  const steps = props.stepped === true && uPlot.paths.stepped !== undefined ? { paths: uPlot.paths.stepped({ align: 1 }) } : {};
+  const paths = uPlot.paths.stepped?.({ align: 1 });
   return {
     width: Math.max(100, box.clientWidth),
     height: Math.max(80, box.clientHeight),
@@ -58,10 +59,13 @@ function options(box: HTMLElement, props: ChartProps, marks: () => readonly Mark
     cursor: { drag: { x: true, y: false } },
     scales: { x: { time: false } },
     axes: [{ ...axis, size: 34 }, { ...axis, size: 62 }],
-    series: [{ label: props.xName }, ...props.names.map((name, i) => ({ label: name, stroke: lineColour(style, i), width: 1.8, dash: [...dashOf(i)], points: { show: false }, ...steps }))],
+    series: [{ label: props.xName }, ...props.names.map((name, i) => ({ label: name, stroke: lineColour(style, i), width: 1.8, dash: [...dashOf(i)], points: { show: false }, spanGaps: true, ...(props.stepped?.(name) === true && paths !== undefined ? { paths } : {}) }))],
     hooks: { draw: [(plot) => drawMarks(plot, marks(), get('--amber'))] },
   };
 }
+
+/** uPlot draws its axes only where there are two places at least. */
+const drawable = (data: (number | null)[][]): uPlot.AlignedData => ((data[0]?.length ?? 0) < 2 ? [[0, 1], ...data.slice(1).map(() => [null, null])] : data) as uPlot.AlignedData;
 
 export function Chart(props: ChartProps): JSX.Element {
   const box = useRef<HTMLDivElement>(null);
@@ -70,11 +74,11 @@ export function Chart(props: ChartProps): JSX.Element {
   const pick = useRef(props.onPick);
   marks.current = props.marks ?? [];
   pick.current = props.onPick;
-  const made = `${props.names.join(' ')}|${dark.value}|${props.stepped}`;
+  const made = `${props.names.join(' ')}|${dark.value}|${props.names.map((name) => props.stepped?.(name) === true)}`;
   useEffect(() => {
     const element = box.current;
     if (element === null) return undefined;
-    const one = new uPlot(options(element, props, () => marks.current), props.data as uPlot.AlignedData, element);
+    const one = new uPlot(options(element, props, () => marks.current), drawable(props.data), element);
     plot.current = one;
     one.over.addEventListener('click', (event) => pick.current?.(one.posToVal(event.offsetX, 'x')));
     const watch = new ResizeObserver(() => one.setSize({ width: Math.max(100, element.clientWidth), height: Math.max(80, element.clientHeight) }));
@@ -85,8 +89,8 @@ export function Chart(props: ChartProps): JSX.Element {
       plot.current = null;
     };
   }, [made]);
-  useEffect(() => plot.current?.setData(props.data as uPlot.AlignedData), [props.data]);
-  useEffect(() => plot.current?.redraw(false), [props.marks]);
+  useEffect(() => plot.current?.setData(drawable(props.data)), [props.data]);
+  useEffect(() => plot.current?.redraw(false, true), [JSON.stringify(props.marks)]);
   return <div ref={box} class="chart" style={props.height === undefined ? undefined : { height: `${props.height}px` }} role="img" aria-label={props.label} />;
 }
 

@@ -1,5 +1,5 @@
 // The scope: channels, trigger, what comes before it; run, single, stop; two cursors; export.
-import { computed, signal } from '@preact/signals';
+import { signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { notice, order, whyNot } from '../link/orders';
 import { fixed, typed } from '../parts/numbers';
@@ -7,17 +7,9 @@ import { usePoll } from '../parts/poll';
 import { Button, Empty, Field, Panel, Select } from '../parts/ui';
 import { Chart, Legend } from './chart';
 import { Picker } from './picker';
+import { keep, recorded, type ScopeAnswer } from './recorded';
 
-interface ScopeAnswer {
-  state?: string;
-  channels?: string[];
-  period_us?: number;
-  trigger_index?: number | null;
-  at?: number;
-  data?: (number | null)[][];
-}
-
-const MOST = 8;
+const MOST = 16;
 const KEY = 'motionrack.scope';
 
 interface Settings {
@@ -25,12 +17,15 @@ interface Settings {
   trigger: string;
   edge: string;
   level: string;
+  /** us */
   period: string;
+  /** ms */
   length: string;
+  /** ms */
   pre: string;
 }
 
-const EMPTY: Settings = { channels: [], trigger: '', edge: 'rise', level: '0', period: '1000', length: '2000', pre: '500' };
+const EMPTY: Settings = { channels: [], trigger: '', edge: 'rise', level: '0.5', period: '100', length: '100', pre: '20' };
 const settings = signal<Settings>({ ...EMPTY, ...(JSON.parse(localStorage.getItem(KEY) ?? '{}') as Partial<Settings>) });
 const cursors = signal<[number, number]>([0, 0]);
 const moving = signal<0 | 1>(0);
@@ -44,11 +39,17 @@ function arm(mode: 'run' | 'single'): void {
   const now = settings.value;
   const [level, period_us, length, pre] = [now.level, now.period, now.length, now.pre].map(typed);
   if (level == null || period_us == null || length == null || pre == null) {
-    notice('refused', 'Level, period, samples and pre-trigger must be numbers. The scope was not armed.');
+    notice('refused', 'Level and times must be numbers. The scope was not armed.');
     return;
   }
-  const trigger = now.trigger === '' ? {} : { trigger: { channel: now.trigger, edge: now.edge, level } };
-  void order('scope_arm', { channels: now.channels, ...trigger, period_us, length, pre, mode });
+  const trigger = now.trigger === '' ? {} : { trigger: now.trigger, edge: now.edge, level };
+  void order('scope_arm', { channels: now.channels, ...trigger, period_us, length: length / 1000, pre: pre / 1000, mode });
+}
+
+/** A channel that did not change there has its value from before. */
+function valueAt(values: (number | null)[], at: number): number | null {
+  for (let i = at; i >= 0; --i) if (values[i] != null) return values[i] ?? null;
+  return null;
 }
 
 function Cursors({ data, names }: { data: (number | null)[][]; names: readonly string[] }): JSX.Element {
@@ -81,7 +82,7 @@ function Cursors({ data, names }: { data: (number | null)[][]; names: readonly s
         <tbody>
           <tr><td>time</td><td class="tabular">{fixed(at(a), 3)}</td><td class="tabular">{fixed(at(b), 3)}</td><td class="tabular">{fixed(at(b) - at(a), 3)} ms</td></tr>
           {names.map((name, i) => {
-            const [va, vb] = [data[i + 1]?.[a] ?? null, data[i + 1]?.[b] ?? null];
+            const [va, vb] = [valueAt(data[i + 1] ?? [], a), valueAt(data[i + 1] ?? [], b)];
             return <tr key={name}><td><code>{name}</code></td><td class="tabular">{fixed(va, 4)}</td><td class="tabular">{fixed(vb, 4)}</td><td class="tabular">{va === null || vb === null ? '–' : fixed(vb - va, 4)}</td></tr>;
           })}
         </tbody>
@@ -101,18 +102,10 @@ function save(names: readonly string[], data: (number | null)[][]): void {
 }
 
 const WORDS: Record<string, string> = { idle: 'stopped', armed: 'waits for its trigger', triggered: 'triggered, records', done: 'recorded' };
-const answer = signal<ScopeAnswer | null>(null);
-const shown = computed(() => {
-  const now = answer.value;
-  const length = now?.data?.[0]?.length ?? 0;
-  const period = (now?.period_us ?? 1000) / 1000;
-  return [Array.from({ length }, (_, i) => (i - (now?.trigger_index ?? 0)) * period), ...(now?.data ?? [])];
-});
-
 export function Scope(): JSX.Element {
-  const { data } = usePoll<ScopeAnswer>('scope', {}, 300);
-  if (data.value !== null && JSON.stringify(data.value) !== JSON.stringify(answer.peek())) answer.value = data.value;
-  const names = answer.value?.channels ?? [];
+  const { data: answer } = usePoll<ScopeAnswer>('scope', { since: recorded.value.number }, 300);
+  if (answer.value !== null) keep(answer.value);
+  const { names, rows, stepped } = recorded.value;
   const why = whyNot('operate') || (settings.value.channels.length === 0 ? 'Choose a channel first.' : '');
   const now = settings.value;
   const pick = (x: number): void => {
@@ -126,18 +119,18 @@ export function Scope(): JSX.Element {
     <div class="scopeview">
       <Panel title="Scope" class="scope" tools={
         <>
-          <span class={`word ${answer.value?.state ?? 'idle'}`} role="status">{WORDS[answer.value?.state ?? 'idle'] ?? answer.value?.state}</span>
+          <span class={`word ${answer.value?.state ?? 'idle'}`} role="status">{WORDS[answer.value?.state ?? 'idle'] ?? ''}</span>
           <Button icon="run" why={why} onClick={() => arm('run')}>Run</Button>
           <Button icon="step" why={why} onClick={() => arm('single')}>Single</Button>
           <Button icon="standstill" why={whyNot('operate')} onClick={() => void order('scope_stop')}>Stop</Button>
-          <Button icon="save" why={names.length === 0 ? 'There is nothing recorded yet.' : ''} onClick={() => save(names, shown.value)}>CSV</Button>
+          <Button icon="save" why={names.length === 0 ? 'There is nothing recorded yet.' : ''} onClick={() => save(names, rows)}>CSV</Button>
         </>
       }>
-        {names.length > 0 && (shown.value[0]?.length ?? 0) > 0 ? (
+        {names.length > 0 && (rows[0]?.length ?? 0) > 1 ? (
           <>
-            <Chart data={shown.value} names={names} xName="ms" label={`Recording of ${names.join(', ')}`} marks={marks} onPick={pick} />
+            <Chart data={rows} names={names} xName="ms" label={`Recording of ${names.join(', ')}`} marks={marks} stepped={(name) => stepped.includes(name)} onPick={pick} />
             <Legend names={names} />
-            <Cursors data={shown.value} names={names} />
+            <Cursors data={rows} names={names} />
           </>
         ) : (
           <Empty>Choose channels, set a trigger, and press Run or Single. Without a trigger it records at once.</Empty>
@@ -150,8 +143,8 @@ export function Scope(): JSX.Element {
           <Select label="Edge" value={now.edge} onChange={(edge) => set({ edge })} options={['rise', 'fall', 'either'].map((one) => ({ value: one, text: one }))} />
           <Field label="Level" value={now.level} mode="decimal" onInput={(level) => set({ level })} />
           <Field label="Sample every" value={now.period} unit="us" mode="decimal" onInput={(period) => set({ period })} />
-          <Field label="Samples" value={now.length} mode="decimal" onInput={(length) => set({ length })} />
-          <Field label="Before the trigger" value={now.pre} mode="decimal" onInput={(pre) => set({ pre })} />
+          <Field label="Length" value={now.length} unit="ms" mode="decimal" onInput={(length) => set({ length })} />
+          <Field label="Before the trigger" value={now.pre} unit="ms" mode="decimal" onInput={(pre) => set({ pre })} />
         </Panel>
       </div>
     </div>
