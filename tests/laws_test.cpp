@@ -90,7 +90,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"journal", {"base"}},
     {"operate", {"base", "control", "rack", "live", "journal"}},
     {"authority", {"base"}},
-    {"panel", {"base", "control", "rack", "operate", "authority"}},
+    {"panel", {"base", "sim", "control", "rack", "operate", "authority", "journal", "mark", "databoard4002/map", "rtc5/map"}},
     {"grbl", {"base", "control", "rack", "operate"}},
     {"calls", {"base"}},
     {"frontends", {"base", "calls", "journal", "operate", "authority", "panel", "grbl", "mark", "live", "control", "decode", "trace", "rack", "dds", "grating_bus/map", "grating_bus/model", "c.h"}},

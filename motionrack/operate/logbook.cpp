@@ -57,13 +57,18 @@ void Logbook::see(const Status& status) {
     if (!stands(status.state) && status.at - kept_ >= keep_every) keep(status);
 }
 
+void Logbook::write(Instant at, const std::string& kind, const std::string& text, const std::string& data) {
+    if (journal_ != nullptr) journal_->write(at, kind, text, data);
+    if (told_) told_(at, kind, text, data);
+}
+
 void Logbook::see_state(const Status& status) {
     const MachineState before = std::exchange(state_, status.state);
     if (before == state_) return;
-    journal_.write(status.at, "state", sentence(fmt::format("{}{}{}", name_of(state_), status.why.empty() ? "" : ": ", status.why)),
-                   json{{"state", name_of(state_)}, {"before", name_of(before)}}.dump());
+    write(status.at, "state", sentence(fmt::format("{}{}{}", name_of(state_), status.why.empty() ? "" : ": ", status.why)),
+          json{{"state", name_of(state_)}, {"before", name_of(before)}}.dump());
     if (stands(state_) && !stands(before))
-        journal_.write(status.at, "position", fmt::format("Stands at {}.", places(status.axes)), json{{"axes", axes_json(status.axes)}}.dump());
+        write(status.at, "position", fmt::format("Stands at {}.", places(status.axes)), json{{"axes", axes_json(status.axes)}}.dump());
     keep(status);
 }
 
@@ -82,13 +87,13 @@ void Logbook::see_job(const Status& status) {
         event = "ended";
         text = fmt::format("{} ended.", status.program);
     }
-    journal_.write(status.at, "job", text, json{{"name", status.program}, {"event", event}, {"line", status.line}, {"lines", status.lines}}.dump());
+    write(status.at, "job", text, json{{"name", status.program}, {"event", event}, {"line", status.line}, {"lines", status.lines}}.dump());
     keep(status);
 }
 
 void Logbook::see_alarms(const Status& status) {
     const auto tell = [&](const Alarm& alarm, const char* event, const std::string& text) {
-        journal_.write(status.at, "alarm", text, json{{"number", alarm.number}, {"event", event}}.dump());
+        write(status.at, "alarm", text, json{{"number", alarm.number}, {"event", event}}.dump());
     };
     for (const Alarm& alarm : status.alarms) {
         if (alarm.number > last_alarm_) {
@@ -105,12 +110,12 @@ void Logbook::see_alarms(const Status& status) {
 void Logbook::see_settings(const Status& status) {
     const auto percent = [&](const char* what, double& before, double value) {
         if (std::exchange(before, value) == value) return;
-        journal_.write(status.at, "setting", fmt::format("{} override {:g} %.", what, value * 100), json{{"name", what}, {"value", value}}.dump());
+        write(status.at, "setting", fmt::format("{} override {:g} %.", what, value * 100), json{{"name", what}, {"value", value}}.dump());
     };
     percent("Feed", feed_, status.feed_override);
     percent("Rapid", rapid_, status.rapid_override);
     if (std::exchange(single_step_, status.single_step) != status.single_step)
-        journal_.write(status.at, "setting", fmt::format("Single step {}.", single_step_ ? "on" : "off"), json{{"name", "single step"}, {"value", single_step_}}.dump());
+        write(status.at, "setting", fmt::format("Single step {}.", single_step_ ? "on" : "off"), json{{"name", "single step"}, {"value", single_step_}}.dump());
 }
 
 void Logbook::see_positions(const Status& status) {
@@ -118,7 +123,7 @@ void Logbook::see_positions(const Status& status) {
         const AxisStatus& axis = status.axes[i];
         if (axis.trusted == trusted_[i]) continue;
         trusted_[i] = axis.trusted;
-        journal_.write(status.at, "position", fmt::format("Axis {}: its position, {:.4f} {}, is {}.", axis.letter, axis.commanded, axis.rotary ? "deg" : "mm", axis.trusted ? "trusted" : "not trusted any more"),
+        write(status.at, "position", fmt::format("Axis {}: its position, {:.4f} {}, is {}.", axis.letter, axis.commanded, axis.rotary ? "deg" : "mm", axis.trusted ? "trusted" : "not trusted any more"),
                        json{{"axes", axes_json({axis})}}.dump());
         keep(status);
     }
@@ -126,7 +131,8 @@ void Logbook::see_positions(const Status& status) {
 
 void Logbook::keep(const Status& status) {
     kept_ = status.at;
-    journal_.keep(kept_key, json{{"state", name_of(status.state)}, {"program", status.program_runs ? status.program : ""}, {"line", status.line}, {"axes", axes_json(status.axes)}}.dump());
+    if (journal_ == nullptr) return;
+    journal_->keep(kept_key, json{{"state", name_of(status.state)}, {"program", status.program_runs ? status.program : ""}, {"line", status.line}, {"axes", axes_json(status.axes)}}.dump());
 }
 
 LastStanding read_last(const journal::LastRun& last, const rack::RackConfig& config) {

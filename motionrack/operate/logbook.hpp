@@ -4,6 +4,7 @@
 //   LastRun ──read_last──► where the axes stood, a sentence about how it ended     (killed: nothing is trusted)
 #pragma once
 
+#include <functional>
 #include <motionrack/journal/journal.hpp>
 #include <motionrack/operate/status.hpp>
 #include <motionrack/rack/config.hpp>
@@ -17,7 +18,11 @@ namespace motionrack::operate {
 /// Only the motion thread uses it; the journal must outlive it.
 class Logbook {
   public:
-    explicit Logbook(journal::Journal& journal) : journal_(journal) {}
+    /// Hears every entry, too. `data`: JSON.
+    using Told = std::function<void(Instant at, const std::string& kind, const std::string& text, const std::string& data)>;
+    explicit Logbook(journal::Journal& journal) : Logbook(&journal, {}) {}
+    /// `journal` may be nullptr, `told` empty.
+    Logbook(journal::Journal* journal, Told told) : journal_(journal), told_(std::move(told)) {}
     /// Of every picture; writes what is another than in the one before.
     void see(const Status& status);
 
@@ -28,8 +33,10 @@ class Logbook {
     void see_settings(const Status& status);
     void see_positions(const Status& status);
     void keep(const Status& status);
+    void write(Instant at, const std::string& kind, const std::string& text, const std::string& data);
 
-    journal::Journal& journal_;
+    journal::Journal* journal_;
+    Told told_;
     bool first_ = true;
     MachineState state_ = MachineState::disabled;
     bool program_runs_ = false, single_step_ = false;

@@ -35,7 +35,10 @@ rack::RackConfig placed(rack::RackConfig config, const std::vector<Standing>& st
 }  // namespace
 
 Machine::Machine(const rack::RackConfig& config, MachineSettings settings)
-    : settings_(std::move(settings)), rack_(placed(config, settings_.standing)), desk_(rack_) {}
+    : settings_(std::move(settings)), rack_(placed(config, settings_.standing)), desk_(rack_), tap_(rack_.kernel()), probe_(rack_.kernel()) {
+    if (rack::grating_bus_of(rack_) != nullptr) frames_.emplace(rack_);
+    rack_.input_log().keep_no_more();
+}
 
 Machine::~Machine() = default;
 

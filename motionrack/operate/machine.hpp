@@ -18,8 +18,11 @@
 #include <motionrack/control/gcode/reader.hpp>
 #include <motionrack/control/stream.hpp>
 #include <motionrack/operate/status.hpp>
+#include <motionrack/rack/frame_watch.hpp>
 #include <motionrack/rack/homing.hpp>
+#include <motionrack/rack/probe.hpp>
 #include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/wave_recorder.hpp>
 #include <motionrack/rack/wire_desk.hpp>
 #include <mutex>
 #include <optional>
@@ -94,6 +97,18 @@ class Machine {
     Result<void> forget_offsets();
     /// False: there is no such alarm.
     bool acknowledge(std::int64_t alarm);
+    /// What this place of an axis is called in the active work coordinates, as G10 L20 does; mm or degrees.
+    Result<void> set_work_zero(char axis, double value);
+    /// One access of the host to a card, done by the loop while the machine stands; `ready` hears what was read, later. A card that moves
+    /// axes is not trusted after a write: they must be homed, or declared. Refused: the machine does not stand still, the access is none
+    /// of this card.
+    struct BusAccess {
+        std::string card;
+        int bits = 16;               ///< a width of the card's bus
+        std::uint32_t address = 0;   ///< on the host's bus
+        std::optional<std::uint32_t> value;  ///< written; without one it is read, with all effects
+    };
+    Result<void> access(const BusAccess& access, std::function<void(std::uint32_t)> ready);
 
     // ---- looking, on the motion thread -------------------------------------------------------------------------------------------------
     const Status& status() const { return status_; }
@@ -110,6 +125,10 @@ class Machine {
     const control::Stream& stream() const { return *stream_; }
     rack::Rack& rack() { return rack_; }
     rack::WireDesk& wires() { return desk_; }
+    /// For recordings of pins that are driven on demand; for numbers at equal distances of time; of the grating bus, if there is one.
+    rack::WireTap& tap() { return tap_; }
+    rack::Probe& probe() { return probe_; }
+    const rack::FrameWatch* frames() const { return frames_ ? &*frames_ : nullptr; }
     Instant now() const { return rack_.kernel().now(); }
 
   private:
@@ -132,6 +151,7 @@ class Machine {
     void feed_program();
     void jog_all();
     void home_all();
+    void access_bus();
     void change_positions();
     void failed(const Error& error);
     void raise(std::string text);
@@ -150,6 +170,9 @@ class Machine {
     MachineSettings settings_;
     rack::Rack rack_;
     rack::WireDesk desk_;
+    rack::WireTap tap_;
+    rack::Probe probe_;
+    std::optional<rack::FrameWatch> frames_;
     std::unique_ptr<control::Stream> stream_;
     bool group_holds_ = false;  ///< the card's axes; else each by itself
     std::array<bool, control::axis_count> trusted_ = {};
@@ -170,6 +193,7 @@ class Machine {
     std::vector<std::pair<char, double>> positions_wanted_;  ///< until all of them are declared
     std::optional<rack::HomingOutcome> homed_;
     std::atomic<bool> home_stop_{false};
+    std::vector<std::pair<BusAccess, std::function<void(std::uint32_t)>>> accesses_;
     // told
     Status status_;
     std::vector<std::function<void(const Status&)>> listeners_;

@@ -93,6 +93,7 @@ void Machine::hear() {
 }
 
 void Machine::step() {
+    if (!accesses_.empty()) return access_bus();
     if (!jogs_.empty() || !jogging_.empty()) return jog_all();
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
@@ -204,6 +205,7 @@ void Machine::home_all() {
     rack::HomingSettings settings;
     settings.axes = *std::exchange(home_wanted_, std::nullopt);
     settings.stop = &home_stop_;
+    settings.progress = [this](const rack::HomingProgress& progress) { status_.homing = progress.states; };
     group_holds_ = false;
     const rack::HomingOutcome& homed = homed_.emplace(rack::home_axes(rack_, settings));
     for (const rack::HomedAxis& axis : homed.axes)

@@ -66,6 +66,7 @@ struct Status {
     double spindle_rpm = 0;
     bool mist = false, flood = false;
     double feed_override = 1, rapid_override = 1;
+    std::string homing;         ///< "X SLOW_WAIT, Y HOMED": how far the last homing came
     std::vector<Alarm> alarms;  ///< oldest first
 };
 

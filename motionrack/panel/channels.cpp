@@ -25,16 +25,32 @@ std::string_view unit_of(std::string_view name) {
 
 }  // namespace
 
+std::string_view name_of(ChannelLooks looks) {
+    switch (looks) {
+        case ChannelLooks::edges: return "edges";
+        case ChannelLooks::anytime: return "anytime";
+        case ChannelLooks::slices: return "slices";
+    }
+    return "";
+}
+
+std::vector<std::string> register_names(const rack::CardType& type, const RegisterInfo& reg) {
+    if (!reg.per_axis) return {std::string(reg.name)};
+    std::vector<std::string> out;
+    for (int channel = 0; channel < type.channel_count(); ++channel) out.push_back(fmt::format("{}.{}", type.channel_name(channel), reg.name));
+    return out;
+}
+
 ChannelBook::ChannelBook(operate::Machine& machine) {
     add_axes(machine);
+    add_wires(machine);  // before the quantities: where a switch and its wire have one name, it is the wire's
     add_quantities(machine.rack());
-    add_wires(machine);
     add_cards(machine.rack());
 }
 
-void ChannelBook::add(std::string name, std::string_view unit, std::string_view text, std::function<double()> read) {
+void ChannelBook::add(std::string name, std::string_view unit, std::string_view text, ChannelLooks looks, std::function<double()> read) {
     std::string key = name;
-    channels_.try_emplace(std::move(key), Channel{std::move(name), std::string(unit), std::string(text), std::move(read)});
+    channels_.try_emplace(std::move(key), Channel{std::move(name), std::string(unit), std::string(text), looks, std::move(read)});
 }
 
 void ChannelBook::add_axes(operate::Machine& machine) {
@@ -52,39 +68,58 @@ void ChannelBook::add_axes(operate::Machine& machine) {
     const auto& axes = machine.rack().axes();
     for (std::size_t i = 0; i < axes.size(); ++i)
         for (const Shown& one : shown)
-            add(fmt::format("{}.{}", axes[i].config.letter, one.name), rack::with_unit(one.unit, axes[i].config.unit()), one.text,
+            add(fmt::format("{}.{}", axes[i].config.letter, one.name), rack::with_unit(one.unit, axes[i].config.unit()), one.text, ChannelLooks::slices,
                 [&machine, i, get = one.get] { return i < machine.status().axes.size() ? get(machine.status().axes[i]) : unknown; });
 }
 
 void ChannelBook::add_quantities(rack::Rack& rack) {
-    const auto put = [&](const std::string& part, const std::string& name, std::string_view text) {
-        const std::string full = part + "." + name;
-        add(full, unit_of(name), text, [&rack, full] { return rack::get_quantity(rack, full).value_or(unknown); });
+    const sim::Kernel& kernel = rack.kernel();
+    const auto put = [this](const std::string& part, const std::string& name, std::string_view text, std::function<double()> read) {
+        add(part + "." + name, unit_of(name), text, ChannelLooks::anytime, std::move(read));
     };
-    for (const rack::RunningAxis& axis : rack.axes())
+    for (rack::RunningAxis& axis : rack.axes())
         for (const rack::Quantity& one : rack::quantities())
-            if (one.present(axis)) put(std::string(1, axis.config.letter), rack::with_unit(one.name, axis.config.unit()), one.doc);
-    for (const rack::RunningStage& stage : rack.stages())
+            if (one.present(axis))
+                put(std::string(1, axis.config.letter), rack::with_unit(one.name, axis.config.unit()), one.doc, [&axis, &kernel, get = one.get] { return get(axis, kernel.now()); });
+    for (rack::RunningStage& stage : rack.stages())
         for (const rack::StageQuantity& one : rack::stage_quantities())
-            if (!one.of_loop || stage.config.servo) put(stage.config.name, std::string(one.name), one.doc);
-    for (const rack::RunningTrack& track : rack.tracks())
+            if (!one.of_loop || stage.loop() != nullptr) put(stage.config.name, std::string(one.name), one.doc, [&stage, &kernel, get = one.get] { return get(stage, kernel.now()); });
+    for (rack::RunningTrack& track : rack.tracks())
         for (const rack::TrackQuantity& one : rack::track_quantities())
-            if (one.present(track)) put(track.config.name, rack::with_unit(one.name, track.config.unit()), one.doc);
-    for (const rack::RunningScanner& scanner : rack.scanners())
-        for (const rack::ScannerQuantity& one : rack::scanner_quantities()) put(scanner.config.name, std::string(one.name), one.doc);
+            if (one.present(track))
+                put(track.config.name, rack::with_unit(one.name, track.config.unit()), one.doc, [&track, &kernel, get = one.get] { return get(track, kernel.now()); });
+    for (rack::RunningScanner& scanner : rack.scanners())
+        for (const rack::ScannerQuantity& one : rack::scanner_quantities())
+            put(scanner.config.name, std::string(one.name), one.doc, [&scanner, get = one.get] { return get(scanner); });
 }
 
 void ChannelBook::add_wires(operate::Machine& machine) {
     rack::WireDesk& wires = machine.wires();
-    for (const rack::WireDesk::Named& wire : wires.names())
-        add(std::string(wire.name), wire.volts ? "V" : "", wire.volts ? "voltage of a wire" : "level of a wire", [&wires, name = std::string(wire.name)] { return wires.get(name).value_or(unknown); });
+    for (const rack::WireDesk::Named& wire : wires.names()) {
+        const std::string name(wire.name);
+        const ChannelLooks looks = wire.volts || !wire.recorded ? ChannelLooks::anytime : ChannelLooks::edges;
+        add(name, wire.volts ? "V" : "", wire.volts ? "voltage of a wire" : "level of a wire", looks, [&wires, name] { return wires.get(name).value_or(unknown); });
+    }
 }
 
 void ChannelBook::add_cards(rack::Rack& rack) {
     for (const auto& card : rack.cards()) {
+        const auto inspected = [&](const std::string& name, std::string_view text) {
+            add(card->name() + "." + name, "", text, ChannelLooks::slices, [&one = *card, name] {
+                const Result<std::int64_t> value = one.inspect(name);
+                return value ? static_cast<double>(*value) : unknown;
+            });
+        };
         for (const std::string_view name : card->quantity_names())
-            add(fmt::format("{}.{}", card->name(), name), unit_of(name), "a number of the card",
+            add(fmt::format("{}.{}", card->name(), name), unit_of(name), "a number of the card", ChannelLooks::slices,
                 [&one = *card, name] { return one.quantity(name).value_or(unknown); });
+        for (const std::string& name : card->value_names()) inspected(name, "a value of the card");
+        const rack::CardType& type = *rack::find_card_type(rack.config().card(card->name())->type);
+        for (const RegisterInfo& reg : card->map().registers) {
+            if (reg.access == Access::write) continue;
+            for (const std::string& name : register_names(type, reg))
+                if (card->inspect(name)) inspected(name, reg.meaning);
+        }
     }
 }
 

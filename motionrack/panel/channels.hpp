@@ -9,18 +9,31 @@
 #include <memory>
 #include <motionrack/operate/machine.hpp>
 #include <motionrack/panel/panel.hpp>
+#include <motionrack/rack/card_types.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace motionrack::panel {
 
+/// When a channel can be looked at.
+enum class ChannelLooks : std::uint8_t {
+    edges,    ///< a digital wire: a recording has every change
+    anytime,  ///< also within a run of the kernel: reading it does not allocate
+    slices    ///< between runs
+};
+std::string_view name_of(ChannelLooks looks);
+
 struct Channel {
     std::string name;
     std::string unit;
     std::string text;  ///< one sentence
-    std::function<double()> read;  ///< on the motion thread, between runs; without effects
+    ChannelLooks looks = ChannelLooks::slices;
+    std::function<double()> read;  ///< on the motion thread; without effects
 };
+
+/// Names by which a card's inspect knows a register: one, or one a channel.
+std::vector<std::string> register_names(const rack::CardType& type, const RegisterInfo& reg);
 
 class ChannelBook {
   public:
@@ -36,7 +49,7 @@ class ChannelBook {
     void show(std::int64_t sequence, Instant at);
 
   private:
-    void add(std::string name, std::string_view unit, std::string_view text, std::function<double()> read);
+    void add(std::string name, std::string_view unit, std::string_view text, ChannelLooks looks, std::function<double()> read);
     void add_axes(operate::Machine& machine);
     void add_quantities(rack::Rack& rack);
     void add_wires(operate::Machine& machine);

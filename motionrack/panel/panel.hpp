@@ -12,7 +12,9 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <motionrack/journal/journal.hpp>
 #include <motionrack/operate/machine.hpp>
+#include <motionrack/operate/pacer.hpp>
 #include <motionrack/panel/answer.hpp>
 #include <motionrack/panel/picture.hpp>
 #include <mutex>
@@ -31,10 +33,11 @@ using Handler = std::function<Answer(const Caller& caller, const nlohmann::json&
 
 struct PanelSettings {
     std::string version = {}, boot = {};
-    std::function<nlohmann::json()> link = {};  ///< status' "link"; called on the motion thread, never waits
+    std::string rack_text = {};                  ///< the rack file, for the query rack
+    operate::Pacer* pacer = nullptr;             ///< of the machine; nullptr: its clock cannot be changed
+    journal::Journal* journal = nullptr;         ///< orders and what the machine does are written to it, and orders are answered when they are safe
+    std::function<nlohmann::json()> link = {};   ///< status' "link"; called on the motion thread, never waits
     std::map<std::string, Handler, std::less<>> elsewhere = {};
-    /// Writes an event or order into the journal and calls `safe`, on any thread, when it cannot be lost any more. Empty: there is none.
-    std::function<void(const Event& event, const Caller& caller, std::function<void()> safe)> journal = {};
     std::chrono::microseconds picture_every{5'000};  ///< of real time; 0: every slice
 };
 

@@ -55,6 +55,7 @@ class Mcx314Card final : public MotionCard {
         kernel_.settle();
     }
     Result<std::int64_t> inspect(std::string_view name) const override;
+    std::vector<std::string> value_names() const override;
     std::vector<CardCounter> counters() const override {
         std::vector<CardCounter> out;
         for (int channel = 0; channel < mcx314::channel_count; ++channel)
@@ -196,6 +197,19 @@ Result<std::int64_t> Mcx314Card::inspect(std::string_view name) const {
                 fmt::format("Card {} has no value {}; it has {}, and with x. y. z. or u. in front {}. Nothing was done.", name_,
                             in_quotes(name), fmt::join(mcx314::Chip::inspected_names(false), ", "),
                             fmt::join(mcx314::Chip::inspected_names(true), ", ")));
+}
+
+std::vector<std::string> Mcx314Card::value_names() const {
+    std::vector<std::string> out;
+    const auto is_register = [this](std::string_view name) {
+        return std::any_of(map().registers.begin(), map().registers.end(), [&](const RegisterInfo& reg) { return reg.name == name; });
+    };
+    for (const char channel : std::string_view("xyzu"))
+        for (const std::string_view name : mcx314::Chip::inspected_names(true))
+            if (!is_register(name)) out.push_back(fmt::format("{}.{}", channel, name));
+    for (const std::string_view name : mcx314::Chip::inspected_names(false))
+        if (!is_register(name)) out.emplace_back(name);
+    return out;
 }
 
 std::unique_ptr<Card> make_mcx314(sim::Kernel& kernel, const RackCard& config, sim::InputLog& log,

@@ -53,6 +53,8 @@ class Card {
     /// A value by its name, without effects: a register or value of the card ("RR0"), of one channel with the channel's
     /// name and a dot in front ("x.RR1", "x.LP"). Counts are signed. Errors: bad_input with the names that there are.
     virtual Result<std::int64_t> inspect(std::string_view name) const = 0;
+    /// The names of the values that inspect knows, registers left out where the map has them.
+    virtual std::vector<std::string> value_names() const = 0;
     /// What a recording shows as numbers, and one of them.
     virtual std::vector<CardCounter> counters() const = 0;
     virtual std::int64_t counter(const CardCounter& which) = 0;

@@ -8,7 +8,7 @@
 #include <motionrack/cards/databoard4002/map.hpp>
 #include <motionrack/cards/databoard4002/model/bus.hpp>
 #include <motionrack/cards/databoard4002/model/card.hpp>
-#include <motionrack/rack/catalogue.hpp>
+#include <motionrack/rack/databoard4002_card.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
 namespace motionrack::rack {
@@ -89,6 +89,7 @@ class Databoard4002Card final : public MotionCard {
     }
 
     const std::shared_ptr<db::Bus>& bus() const { return bus_; }
+    const db::Card& card() const { return card_; }
 
     const std::string& name() const override { return name_; }
     sim::DeviceId device() const override { return card_.id(); }
@@ -111,6 +112,11 @@ class Databoard4002Card final : public MotionCard {
         for (const RegisterInfo& reg : map().registers)
             if (reg.name == name && reg.access != Access::write && reg.bank.empty()) return card_.peek(static_cast<std::uint8_t>(reg.offset));
         return no_such_value(*this, name, more);
+    }
+    std::vector<std::string> value_names() const override {
+        std::vector<std::string> out;
+        for (const Value& value : inspected) out.emplace_back(value.name);
+        return out;
     }
     std::optional<double> quantity(std::string_view name) const override {
         for (const Value& value : quantities_of_card)
@@ -185,6 +191,11 @@ std::unique_ptr<Card> make_databoard4002(sim::Kernel& kernel, const RackCard& co
     for (const auto& other : before)
         if (const auto* same = dynamic_cast<const Databoard4002Card*>(other.get())) bus = same->bus();
     return std::make_unique<Databoard4002Card>(kernel, config, log, std::move(bus));
+}
+
+const db::Card* databoard4002_card_of(Rack& rack, std::string_view name) {
+    const auto* found = dynamic_cast<const Databoard4002Card*>(rack.card(name));
+    return found != nullptr ? &found->card() : nullptr;
 }
 
 }  // namespace motionrack::rack

@@ -120,6 +120,22 @@ std::vector<std::string_view> fault_names() {
     return out;
 }
 
+std::vector<FaultTarget> fault_targets(Rack& rack) {
+    std::vector<FaultTarget> out;
+    for (RunningAxis& axis : rack.axes()) {
+        FaultTarget& target = out.emplace_back(FaultTarget{std::string(1, axis.config.letter), {}});
+        for (const std::string_view name : fault_names())
+            if (has_part(axis, name)) target.faults.push_back(name);
+    }
+    const auto add = [&out](const std::string& name, const Found& found) {
+        if (auto names = names_of(found); !names.empty()) out.push_back({name, std::move(names)});
+    };
+    for (const auto& card : rack.cards()) add(card->name(), {nullptr, card.get(), nullptr, nullptr, {}, 1});
+    for (RunningStage& stage : rack.stages()) add(stage.config.name, {nullptr, nullptr, &stage, nullptr, {}, 1});
+    for (RunningTrack& track : rack.tracks()) add(track.config.name, {nullptr, nullptr, nullptr, &track, {}, 1});
+    return out;
+}
+
 Result<void> check_fault(Rack& rack, std::string_view fault, std::string_view target) {
     MOTIONRACK_CHECK(find(rack, fault, target));
     return {};

@@ -25,4 +25,11 @@ inline constexpr double greatest_push = 1e7;
 /// Names of the faults that an axis can have, whatever turns it.
 std::vector<std::string_view> fault_names();
 
+/// Everything in the rack that can be broken, and how.
+struct FaultTarget {
+    std::string name;  ///< of inject_fault
+    std::vector<std::string_view> faults;
+};
+std::vector<FaultTarget> fault_targets(Rack& rack);
+
 }  // namespace motionrack::rack

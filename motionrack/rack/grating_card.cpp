@@ -37,6 +37,11 @@ class Member : public Card {
         for (int n = 0; n < scales; ++n) out.push_back({"scale" + std::to_string(n), n, true});
         return out;
     }
+    static std::vector<std::string> scale_values(int scales) {
+        std::vector<std::string> out;
+        for (int n = 0; n < scales; ++n) out.push_back(std::to_string(n) + ".COUNT");
+        return out;
+    }
     /// A register that can be read, by its name; else an error that lists them and `more`.
     Result<std::int64_t> register_value(const sim::RegisterDevice& device, std::string_view name, std::span<const std::string_view> more) const {
         for (const RegisterInfo& reg : map().registers)
@@ -79,6 +84,11 @@ class GratingCard final : public Member {
         if (name == "TIME") return frame ? frame->time : 0;
         if (const int n = scale_of(name, card_.settings().scales); n >= 0) return count(n);
         return register_value(card_, name, more);
+    }
+    std::vector<std::string> value_names() const override {
+        std::vector<std::string> out = scale_values(card_.settings().scales);
+        out.insert(out.end(), {"SEQUENCE", "TIME"});
+        return out;
     }
     std::vector<CardCounter> counters() const override { return scale_counters(card_.settings().scales); }
     std::int64_t counter(const CardCounter& which) override { return count(which.channel); }
@@ -148,6 +158,7 @@ class DecoderCard final : public Member {
         if (const int n = scale_of(name, decoder_.settings().scales); n >= 0) return decoder_.position(n, kernel_.now());
         return register_value(decoder_, name, more);
     }
+    std::vector<std::string> value_names() const override { return scale_values(decoder_.settings().scales); }
     std::vector<CardCounter> counters() const override { return scale_counters(decoder_.settings().scales); }
     std::int64_t counter(const CardCounter& which) override { return decoder_.position(which.channel, kernel_.now()); }
     std::span<const std::string_view> fault_names() const override {

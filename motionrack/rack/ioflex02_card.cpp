@@ -62,6 +62,12 @@ class Ioflex02Card final : public Card {
             if (reg.name == name && reg.access != Access::write) return card_.peek(reg.offset);
         return no_such_value(*this, name, more);
     }
+    std::vector<std::string> value_names() const override {
+        std::vector<std::string> out;
+        for (const char axis : std::string_view("0123"))
+            for (const AxisValue& value : of_axes) out.push_back(std::string(1, axis) + "." + std::string(value.name));
+        return out;
+    }
     std::vector<CardCounter> counters() const override { return {{"position0", 0, true}, {"position1", 1, true}, {"position2", 2, true}, {"position3", 3, true}}; }
     std::int64_t counter(const CardCounter& which) override { return card_.position(which.channel); }
 

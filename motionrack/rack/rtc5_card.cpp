@@ -89,6 +89,12 @@ class Rtc5Card final : public Card {
         }
         return no_such_value(*this, name, more);
     }
+    std::vector<std::string> value_names() const override {
+        std::vector<std::string> out;
+        for (const Value& value : values)
+            if (std::none_of(map().registers.begin(), map().registers.end(), [&](const RegisterInfo& reg) { return reg.name == value.name; })) out.emplace_back(value.name);
+        return out;
+    }
     std::vector<CardCounter> counters() const override { return {{"encoder0", 0, true}, {"encoder1", 1, true}}; }
     std::int64_t counter(const CardCounter& which) override { return card_.caught_up().encoder(which.channel); }
     std::optional<double> quantity(std::string_view name) const override {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <motionrack/rack/bus_access.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/quantities.hpp>
 #include <motionrack/rack/session.hpp>
@@ -70,44 +71,8 @@ void Session::look() {
 
 // ---- the bus ----------------------------------------------------------------------------------------------------------
 
-Result<Card*> Session::find_card(std::string_view name) {
-    if (Card* card = rack_.card(name)) return card;
-    std::string known;
-    for (const auto& card : rack_.cards()) known += (known.empty() ? "" : ", ") + card->name();
-    return fail(Trouble::bad_input, fmt::format("There is no card {} in this rack; its cards are: {}. Nothing was done.",
-                                                in_quotes(name), known));
-}
-
-Result<Card*> Session::bus_of(std::string_view name, int bits, std::uint32_t address, bool writing) {
-    MOTIONRACK_TRY(Card * card, find_card(name));
-    const std::span<const int> widths = card->bus_widths();
-    if (widths.empty())
-        return fail(Trouble::refused, fmt::format("Card {} is an {}: it has no registers on a bus. Nothing was done; use its own commands.",
-                                                  card->name(), card->map().name));
-    if (std::find(widths.begin(), widths.end(), bits) == widths.end())
-        return fail(Trouble::refused,
-                    fmt::format("Card {} is a {}: its bus makes accesses of {} bits, not of {}. Nothing was done.",
-                                card->name(), card->map().name, fmt::join(widths, ", "), bits));
-    const auto bytes = static_cast<std::uint32_t>(bits) / 8;
-    const std::uint32_t base = card->bus_base();
-    if (!writing && address >= base && address % bytes == 0 && card->in_window(address - base)) return card;
-    std::uint32_t first = ~0u, last = 0;
-    for (const RegisterInfo& reg : card->map().registers) {
-        if ((reg.access == Access::write) != writing) continue;
-        const std::uint32_t begin = base + reg.offset, end = begin + static_cast<std::uint32_t>(reg.width) / 8;
-        if (address >= begin && address < end && (address - begin) % bytes == 0) return card;
-        first = std::min(first, begin);
-        last = std::max(last, end - bytes);
-    }
-    return fail(Trouble::refused,
-                fmt::format("Card {} has nothing to {} with {} bits at offset 0x{:02x}; its registers are from 0x{:02x} to "
-                            "0x{:02x}{}. Nothing was done.",
-                            card->name(), writing ? "write" : "read", bits, address, first, last,
-                            bytes > 1 ? fmt::format(", {} bytes apart", bytes) : ""));
-}
-
 Result<std::uint32_t> Session::read(std::string_view card, int bits, std::uint32_t address) {
-    MOTIONRACK_TRY(Card * on, bus_of(card, bits, address, false));
+    MOTIONRACK_TRY(Card * on, card_for_access(rack_, card, bits, address, false));
     MOTIONRACK_CHECK(room_for(milliseconds(1)));
     const std::uint32_t value = on->bus_read(bits, address);
     look();
@@ -115,7 +80,7 @@ Result<std::uint32_t> Session::read(std::string_view card, int bits, std::uint32
 }
 
 Result<void> Session::write(std::string_view card, int bits, std::uint32_t address, std::uint32_t value) {
-    MOTIONRACK_TRY(Card * on, bus_of(card, bits, address, true));
+    MOTIONRACK_TRY(Card * on, card_for_access(rack_, card, bits, address, true));
     MOTIONRACK_CHECK(room_for(milliseconds(1)));
     on->bus_write(bits, address, value);
     look();
@@ -123,7 +88,7 @@ Result<void> Session::write(std::string_view card, int bits, std::uint32_t addre
 }
 
 Result<std::int64_t> Session::peek(std::string_view card, std::string_view name) {
-    MOTIONRACK_TRY(const Card* on, find_card(card));
+    MOTIONRACK_TRY(const Card* on, card_named(rack_, card));
     return on->inspect(name);
 }
 

@@ -72,8 +72,6 @@ class Session {
   private:
     explicit Session(const RackConfig& config);
     Instant now() const { return rack_.kernel().now(); }
-    Result<Card*> find_card(std::string_view name);
-    Result<Card*> bus_of(std::string_view card, int bits, std::uint32_t address, bool writing);
     Result<void> room_for(Duration time) const;
     void run_to(Instant until);
     void run_slice(Instant until);

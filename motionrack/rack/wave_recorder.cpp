@@ -113,8 +113,11 @@ Result<std::unique_ptr<WaveRecorder>> WaveRecorder::create(Rack& rack, const Wav
                     fmt::format("No signal fits '{}'; nothing was recorded. Signals are called like X.step, X.enc_a or "
                                 "motion.xlmtp; * and ? stand for anything.",
                                 fmt::join(settings.signals, "', '")));
-    MOTIONRACK_TRY(out->sink_, make_wave_sink({settings.path, settings.format, settings.timescale, rack.kernel().now()},
-                                              out->signals_));
+    if (settings.sink) {
+        out->sink_ = settings.sink(out->signals_);
+    } else {
+        MOTIONRACK_TRY(out->sink_, make_wave_sink({settings.path, settings.format, settings.timescale, rack.kernel().now()}, out->signals_));
+    }
     if (!rack.started()) {
         out->id_ = rack.kernel().add(*out, sim::Phase::observers, "wave recorder");
         out->is_device_ = true;

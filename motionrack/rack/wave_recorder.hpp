@@ -10,6 +10,7 @@
 // there is a WireTap.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/wave_sink.hpp>
@@ -39,6 +40,8 @@ struct WaveSettings {
     Duration timescale{1000};                    ///< VCD; 100 ns: fine for viewers and sigrok; 100 ps ticks are exact
     Duration register_period = milliseconds(1);  ///< how often LP and EP are looked at
     WireTap* tap = nullptr;                      ///< pins driven on demand are recorded through it
+    /// Makes what takes the changes, instead of the file; may be empty.
+    std::function<std::unique_ptr<WaveSink>(const std::vector<WaveSignal>& signals)> sink = {};
 };
 
 class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver {

@@ -105,7 +105,10 @@ tl::unexpected<Error> WireDesk::unknown(std::string_view name) const {
 
 std::vector<WireDesk::Named> WireDesk::names() const {
     std::vector<Named> out;
-    for (const auto& [name, wire] : wires_) out.push_back({name, wire.unit != 1, wire.refused.empty(), wire.bits});
+    for (const auto& [name, wire] : wires_) {
+        const bool recorded = wire.kind == Kind::plain ? wire.id != sim::WireId::none : wire.kind != Kind::counted;
+        out.push_back({name, wire.unit != 1, wire.refused.empty(), recorded, wire.bits});
+    }
     return out;
 }
 

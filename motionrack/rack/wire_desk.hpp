@@ -32,6 +32,7 @@ class WireDesk {
         std::string_view name;
         bool volts = false;      ///< a voltage, else a level
         bool drivable = false;   ///< set takes it
+        bool recorded = false;   ///< a recording has its changes, by this name
         int bits = 1;
     };
     /// All wires in the order of their names.

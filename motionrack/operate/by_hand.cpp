@@ -1,0 +1,48 @@
+// What a person does to a machine that stands: touching off, and accesses to the cards' own buses.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <motionrack/operate/machine.hpp>
+#include <motionrack/rack/bus_access.hpp>
+
+namespace motionrack::operate {
+
+Result<void> Machine::set_work_zero(char axis, double value) {
+    const rack::RackAxis* found = rack_.config().axis(axis);
+    if (found == nullptr) return fail(Trouble::bad_input, fmt::format("The work zero was not set: the machine has no axis {}.", axis));
+    if (!std::isfinite(value)) return fail(Trouble::bad_input, "The work zero was not set: the value is not a number.");
+    if (stream_->has_work()) return fail(Trouble::refused, "The work zero was not set: the machine moves. Stop it, or wait until it stands.");
+    const bool inches = stream_->interpreter().modes().inch && found->kind == rack::AxisKind::linear;
+    if (const auto read = line(fmt::format("G10 L20 P0 {}{:.9f}", axis, inches ? value / 25.4 : value), 1); !read) return tl::unexpected<Error>(read.error());
+    return {};
+}
+
+Result<void> Machine::access(const BusAccess& access, std::function<void(std::uint32_t)> ready) {
+    const bool stands = state_ == MachineState::disabled || state_ == MachineState::standstill || state_ == MachineState::error_stop;
+    if (!stands || stream_->has_work())
+        return fail(Trouble::refused, fmt::format("The card was not accessed: the machine is in state '{}'. Stop it, or wait until it stands.", name_of(state_)));
+    MOTIONRACK_CHECK(rack::card_for_access(rack_, access.card, access.bits, access.address, access.value.has_value()));
+    if (access.value && access.bits < 32 && *access.value >> access.bits != 0)
+        return fail(Trouble::refused, fmt::format("{} does not fit into {} bits. Nothing was done.", *access.value, access.bits));
+    accesses_.push_back({access, std::move(ready)});
+    return {};
+}
+
+/// The world runs on meanwhile, and orders come.
+void Machine::access_bus() {
+    for (auto& [access, ready] : std::exchange(accesses_, {})) {
+        rack::Card& card = *rack_.card(access.card);
+        if (!access.value) {
+            ready(card.bus_read(access.bits, access.address));
+            continue;
+        }
+        card.bus_write(access.bits, access.address, *access.value);
+        for (const rack::RunningAxis& axis : rack_.axes()) {
+            if (axis.card != card.motion()) continue;
+            trusted_[static_cast<std::size_t>(axis.config.index())] = false;
+        }
+        ready(*access.value);
+    }
+}
+
+}  // namespace motionrack::operate

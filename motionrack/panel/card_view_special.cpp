@@ -1,0 +1,62 @@
+// What single kinds of card have beside registers: the slope table of a DataBoard 4002, the frames of the grating bus.
+#include <fmt/format.h>
+
+#include <motionrack/panel/card_view.hpp>
+#include <motionrack/rack/bus_access.hpp>
+#include <motionrack/rack/databoard4002_card.hpp>
+#include <motionrack/rack/frame_watch.hpp>
+
+namespace motionrack::panel {
+
+using nlohmann::json;
+
+namespace {
+
+namespace db = databoard4002;
+
+/// The intervals of one half of the table, each up to its position.
+json half_of(const db::SlopeTable& table, int first) {
+    json out = json::array();
+    for (int i = first; i < first + db::SlopeTable::half; ++i) {
+        const db::SlopeEntry entry = table.entry(i);
+        out.push_back({{"position", entry.position}, {"rate", entry.rate}, {"hz", db::hz_of(entry.rate)}});
+    }
+    return out;
+}
+
+constexpr std::size_t shown_scales = 32;
+
+}  // namespace
+
+Result<json> slopes_now(rack::Rack& rack, const std::string& name) {
+    MOTIONRACK_CHECK(rack::card_named(rack, name));
+    const db::Card* card = rack::databoard4002_card_of(rack, name);
+    if (card == nullptr) return fail(Trouble::bad_input, fmt::format("Card {} has no slope table: it is no DataBoard 4002.", name));
+    return json{{"name", name}, {"deceleration", half_of(card->table(), 0)}, {"acceleration", half_of(card->table(), db::SlopeTable::half)},
+                {"moving", card->moving()}, {"rate", card->output_rate()}, {"hz", card->fout_hz()}, {"position", card->position()}};
+}
+
+Result<json> frames_now(operate::Machine& machine) {
+    const rack::FrameWatch* watch = machine.frames();
+    if (watch == nullptr) return fail(Trouble::refused, "The rack has no grating bus, so there are no frames.");
+    json cards = json::array();
+    const std::vector<rack::FrameRow> rows = watch->rows();
+    const grating_bus::Frame* first = rows.empty() ? nullptr : rows.front().frame;
+    for (const rack::FrameRow& row : rows) {
+        json card = {{"name", row.card}, {"role", row.role}, {"stale", row.stale}, {"off", row.off}, {"age_us", row.age_us}, {"frames", row.frames},
+                     {"broken", row.broken}, {"untrue", row.untrue}, {"unlike", row.unlike}, {"agrees", row.agrees}};
+        if (row.frame != nullptr) {
+            const auto positions = row.frame->positions();
+            card["sequence"] = row.frame->sequence;
+            card["time_s"] = to_seconds(row.frame->instant());
+            card["skew_ns"] = first != nullptr ? to_seconds(row.frame->instant() - first->instant()) * 1e9 : 0;
+            card["scales"] = positions.size();
+            card["positions"] = json::array();
+            for (std::size_t k = 0; k < positions.size() && k < shown_scales; ++k) card["positions"].push_back(static_cast<std::int32_t>(positions[k]));
+        }
+        cards.push_back(std::move(card));
+    }
+    return json{{"at", to_seconds(machine.now())}, {"published", watch->published()}, {"cards", std::move(cards)}};
+}
+
+}  // namespace motionrack::panel

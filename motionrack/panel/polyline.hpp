@@ -1,0 +1,48 @@
+// A line through many places in bounded memory: when there are too many, every second one goes.
+#pragma once
+
+#include <cstddef>
+#include <motionrack/control/move.hpp>
+#include <vector>
+
+namespace motionrack::panel {
+
+/// A place and the line of the program that leads there.
+struct PathPoint {
+    control::Point at = {};
+    std::int32_t line = 0;
+    bool feed = true;  ///< else a traverse leads there
+};
+
+class Polyline {
+  public:
+    explicit Polyline(std::size_t most) : most_(most < 4 ? 4 : most) {}
+
+    void add(const PathPoint& point) {
+        last_ = point;
+        pending_ = (count_++ % step_) != 0;
+        if (pending_) return;
+        points_.push_back(point);
+        if (points_.size() < most_) return;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < points_.size(); i += 2) points_[kept++] = points_[i];
+        points_.resize(kept);
+        step_ *= 2;
+    }
+    /// The last place is there in any case.
+    std::vector<PathPoint> points() const {
+        std::vector<PathPoint> out = points_;
+        if (pending_) out.push_back(last_);
+        return out;
+    }
+    /// Of how many places one was kept.
+    std::size_t step() const { return step_; }
+
+  private:
+    std::size_t most_, step_ = 1, count_ = 0;
+    bool pending_ = false;
+    PathPoint last_;
+    std::vector<PathPoint> points_;
+};
+
+}  // namespace motionrack::panel

@@ -1,0 +1,32 @@
+// What a program will do, without moving anything: problems, extents, the path as a polyline, and how long it takes.
+#pragma once
+
+#include <memory>
+#include <motionrack/control/gcode/reader.hpp>
+#include <motionrack/panel/polyline.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::panel {
+
+struct ProgramPlan {
+    std::string name;
+    control::gcode::Check check;
+    std::vector<PathPoint> path;       ///< thinned
+    std::size_t thinned = 1;           ///< of how many places one was kept
+    std::vector<float> seconds_before; ///< of each line, from the program's begin; as planned at 100 %
+    double seconds = 0, path_mm = 0;
+
+    /// Seconds that are left when `line` begins.
+    double after(std::int32_t line) const;
+};
+
+/// Reads a program that begins as `settings` say and plans it. `kept_back`: see control::planner_for. Any thread.
+ProgramPlan plan_program(const std::string& text, const std::string& name, const control::gcode::Settings& settings, double kept_back);
+
+/// `letters`: of the machine's axes.
+nlohmann::json to_json(const ProgramPlan& plan, const std::string& letters);
+nlohmann::json path_json(const std::vector<PathPoint>& path, const std::string& letters);
+
+}  // namespace motionrack::panel

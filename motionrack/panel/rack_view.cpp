@@ -1,0 +1,91 @@
+// Parts, wires and work pieces.
+#include <motionrack/panel/rack_view.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <motionrack/panel/card_view.hpp>
+#include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/toml_reader.hpp>
+
+namespace motionrack::panel {
+
+using nlohmann::json;
+
+namespace {
+
+json axes_of(const rack::RackConfig& config) {
+    json out = json::array();
+    for (const rack::RackAxis& axis : config.axes)
+        out.push_back({{"letter", std::string(1, axis.letter)}, {"unit", axis.unit()}, {"card", axis.card}, {"channel", axis.channel}, {"min", axis.min_position},
+                       {"max", axis.max_position}, {"max_speed", axis.max_speed}, {"max_accel", axis.max_accel}, {"pulses_per_unit", axis.pulses_per_unit()},
+                       {"counts_per_unit", axis.counts_per_unit()}, {"servo", axis.servo.has_value()}, {"can_home", axis.switches.home || axis.switches.has_cam()}});
+    return out;
+}
+
+json parts_of(const rack::RackConfig& config) {
+    json stages = json::array(), tracks = json::array(), scanners = json::array();
+    for (const rack::RackStage& stage : config.stages)
+        stages.push_back({{"name", stage.name}, {"card", stage.card}, {"output", stage.output}, {"input", stage.input}, {"servo", stage.servo.has_value()},
+                          {"min", stage.end_minus_mm}, {"max", stage.end_plus_mm}});
+    for (const rack::RackTrack& track : config.tracks)
+        tracks.push_back({{"name", track.name}, {"rotary", track.rotary}, {"unit", track.unit()}, {"card", track.card ? json(*track.card) : json()}, {"speed", track.speed}});
+    for (const rack::RackScanner& scanner : config.scanners)
+        scanners.push_back({{"name", scanner.name}, {"card", scanner.card}, {"track", scanner.track ? json(*scanner.track) : json()}, {"bits_per_mm", scanner.bits_per_mm}});
+    return {{"stages", std::move(stages)}, {"tracks", std::move(tracks)}, {"scanners", std::move(scanners)}};
+}
+
+json faults_of(rack::Rack& rack) {
+    json out = json::array();
+    for (const rack::FaultTarget& target : rack::fault_targets(rack)) out.push_back({{"target", target.name}, {"faults", target.faults}});
+    return out;
+}
+
+}  // namespace
+
+json rack_facts(operate::Machine& machine) {
+    rack::Rack& rack = machine.rack();
+    const rack::RackConfig& config = rack.config();
+    json cards = json::array(), joined = json::array(), wires = json::array();
+    for (const auto& card : rack.cards()) cards.push_back(card_facts(rack, *card));
+    for (const rack::RackWire& wire : config.wires) joined.push_back({{"from", config.end_name(wire.from)}, {"to", config.end_name(wire.to)}});
+    for (const rack::WireDesk::Named& wire : machine.wires().names())
+        wires.push_back({{"name", wire.name}, {"volts", wire.volts}, {"bits", wire.bits}, {"drivable", wire.drivable}});
+    json out = parts_of(config);
+    out["name"] = config.name;
+    out["axes"] = axes_of(config);
+    out["cards"] = std::move(cards);
+    out["joined"] = std::move(joined);
+    out["wires"] = std::move(wires);
+    out["faults"] = faults_of(rack);
+    return out;
+}
+
+Result<json> workpiece_now(operate::Machine& machine, const std::string& name, std::size_t most) {
+    const rack::RunningScanner* scanner = machine.rack().scanner(name);
+    if (scanner == nullptr) {
+        std::string known;
+        for (const rack::RunningScanner& one : machine.rack().scanners()) known += (known.empty() ? "" : ", ") + one.config.name;
+        return fail(Trouble::bad_input, fmt::format("There is no scan head {}; the rack has: {}.", rack::in_quotes(name), known.empty() ? "none" : known));
+    }
+    const parts::MarkingStation& station = scanner->station();
+    const std::span<const parts::MarkedPoint> points = station.workpiece().points();
+    // Of too many points every nth is shown, but each stroke's first and last.
+    const std::size_t step = points.size() / std::max<std::size_t>(most, 2) + 1;
+    json strokes = json::array();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool last = i + 1 == points.size() || points[i + 1].first;
+        if (points[i].first || strokes.empty()) strokes.push_back(json::array());
+        if (points[i].first || last || i % step == 0) strokes.back().push_back({points[i].at.x, points[i].at.y});
+    }
+    const double half = 524'288 / scanner->config.bits_per_mm;
+    json out = {{"scanner", name}, {"at", to_seconds(machine.now())}, {"strokes", std::move(strokes)}, {"points", points.size()}, {"shown_every", step},
+                {"lost_points", station.workpiece().lost_points()}, {"marked_mm", station.workpiece().length_mm()}, {"energy_j", station.workpiece().energy_j()},
+                {"spot", {station.spot().x, station.spot().y}}, {"light", station.gate().on()}, {"field", {{"min", -half}, {"max", half}}}};
+    if (const auto piece = station.workpiece().collecting()) out["marking"] = {{piece->from.x, piece->from.y}, {piece->to.x, piece->to.y}};
+    if (const rack::RunningTrack* track = scanner->config.track ? machine.rack().track(*scanner->config.track) : nullptr)
+        out["track"] = {{"name", track->config.name}, {"unit", track->config.unit()}, {"position", track->track().travel(to_seconds(machine.now()))}, {"speed", track->config.speed}, {"direction_deg", track->config.direction_deg}};
+    return out;
+}
+
+}  // namespace motionrack::panel

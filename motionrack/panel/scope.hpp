@@ -1,0 +1,123 @@
+// A scope in the rack: wires with every edge at its instant, numbers at equal distances of time, from before a trigger until after it.
+//
+//   wires ────► WaveRecorder ──slice──► edges   ─┐
+//   numbers ──► Probe, every period ──► samples ─┴─ trigger ──► Capture, shared, never changed
+//
+//   idle ──arm──► armed ──trigger──► triggered ──length is full──► done (single), armed again (run)
+//
+// Memory is bounded and taken when it is armed: nothing is allocated within a run of the kernel.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <motionrack/operate/machine.hpp>
+#include <motionrack/panel/channels.hpp>
+#include <motionrack/rack/wave_recorder.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace motionrack::panel {
+
+enum class TriggerEdge : std::uint8_t { rise, fall, either };
+enum class ScopeState : std::uint8_t { idle, armed, triggered, done };
+std::string_view name_of(ScopeState state);
+
+struct ScopeSettings {
+    std::vector<std::string> channels;   ///< 1 .. most_channels
+    std::string trigger;                 ///< one of them; empty: at once
+    TriggerEdge edge = TriggerEdge::rise;
+    double level = 0.5;
+    Duration period = microseconds(100); ///< of the numbers
+    Duration length = milliseconds(100); ///< of all that is kept
+    Duration pre = milliseconds(10);     ///< of it, before the trigger
+    bool again = false;                  ///< run: armed again after each capture
+};
+
+/// What a channel showed.
+struct ScopeTrace {
+    std::string name, unit;
+    bool edges = false;                  ///< every change, else samples
+    double before = 0;                   ///< of edges: the level at the begin
+    std::vector<double> at, value;       ///< edges: s from the trigger
+};
+
+struct Capture {
+    std::int64_t number = 0;             ///< from 1
+    double trigger_s = 0;                ///< the rack's time
+    double from_s = 0, to_s = 0;         ///< from the trigger
+    double first_sample_s = 0, period_s = 0;  ///< of the numbers, from the trigger
+    bool full = false;                   ///< there were more edges than fit; the latest are left out
+    std::vector<ScopeTrace> traces;      ///< in the order of the settings
+};
+nlohmann::json to_json(const Capture& capture);
+
+class Scope {
+  public:
+    static constexpr std::size_t most_channels = 16, most_samples = 20'000, most_edges = 100'000;
+
+    Scope(operate::Machine& machine, ChannelBook& channels);
+    ~Scope();
+
+    /// Errors: bad_input, a channel that there is not, a trigger that is no channel of it; refused, too many samples.
+    Result<void> arm(const ScopeSettings& settings);
+    void stop();
+    /// Every slice of a running machine.
+    void slice(Instant now);
+
+    ScopeState state() const { return state_; }
+    const ScopeSettings& settings() const { return settings_; }
+    /// The last one; nullptr if there is none.
+    std::shared_ptr<const Capture> capture() const { return capture_; }
+
+  private:
+    class Sink;
+    struct Edge {
+        Instant at{};
+        std::size_t channel = 0;
+        double value = 0;
+    };
+    struct Number {
+        const Channel* channel = nullptr;
+        std::size_t place = 0;  ///< in the settings' list
+        double slow = 0;        ///< what it showed at the last slice, if it can be looked at only then
+    };
+
+    Result<void> listen_to_wires(const std::vector<std::string>& wires);
+    void begin_numbers();
+    void sample(Instant now);
+    void look_for_trigger();
+    void see(Instant at, std::size_t channel, double value);
+    void forget_old(Instant now);
+    void finish();
+    void restart(Instant now);
+    void detach();
+    Instant sample_time(std::int64_t row) const { return first_sample_ + row * settings_.period; }
+    double sample_of(std::int64_t row, std::size_t column) const { return samples_[static_cast<std::size_t>(row % rows_) * numbers_.size() + column]; }
+
+    operate::Machine& machine_;
+    ChannelBook& book_;
+    ScopeSettings settings_;
+    ScopeState state_ = ScopeState::idle;
+    std::unique_ptr<rack::WaveRecorder> recorder_;
+    bool probing_ = false;
+    // edges
+    std::vector<std::size_t> places_;   ///< of the recorder's signals in the settings' list; npos: not asked for
+    std::vector<double> base_;          ///< levels before the oldest edge that is kept
+    std::deque<Edge> edges_;
+    bool full_ = false;
+    // numbers, in a ring of rows
+    std::vector<Number> numbers_;
+    std::vector<double> samples_;
+    std::int64_t rows_ = 0, written_ = 0, seen_ = 0;
+    Instant first_sample_{};
+    // trigger
+    std::size_t trigger_place_ = 0;
+    std::optional<double> last_value_;
+    Instant armed_at_{}, triggered_at_ = never;
+    std::int64_t captures_ = 0;
+    std::shared_ptr<const Capture> capture_;
+};
+
+}  // namespace motionrack::panel

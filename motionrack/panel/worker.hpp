@@ -1,0 +1,62 @@
+// A thread for what takes long and needs no rack: planning, encoding, reading the journal.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace motionrack::panel {
+
+class Worker {
+  public:
+    static constexpr std::size_t most_waiting = 32;
+
+    Worker() : thread_([this] { work(); }) {}
+    /// What waits is dropped.
+    ~Worker() {
+        {
+            const std::lock_guard<std::mutex> alone(lock_);
+            quit_ = true;
+        }
+        news_.notify_one();
+        thread_.join();
+    }
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+
+    /// Any thread, never waits. False: too much waits already, and `work` was not taken.
+    bool post(std::function<void()> work) {
+        {
+            const std::lock_guard<std::mutex> alone(lock_);
+            if (waiting_.size() >= most_waiting) return false;
+            waiting_.push_back(std::move(work));
+        }
+        news_.notify_one();
+        return true;
+    }
+
+  private:
+    void work() {
+        for (;;) {
+            std::function<void()> one;
+            {
+                std::unique_lock<std::mutex> alone(lock_);
+                news_.wait(alone, [this] { return quit_ || !waiting_.empty(); });
+                if (quit_) return;
+                one = std::move(waiting_.front());
+                waiting_.pop_front();
+            }
+            one();
+        }
+    }
+
+    std::mutex lock_;
+    std::condition_variable news_;
+    std::deque<std::function<void()>> waiting_;
+    bool quit_ = false;
+    std::thread thread_;
+};
+
+}  // namespace motionrack::panel

@@ -1,0 +1,13 @@
+// The DataBoard 4002 of a rack, for those who look into it.
+#pragma once
+
+#include <motionrack/cards/databoard4002/model/card.hpp>
+#include <motionrack/rack/rack.hpp>
+#include <string_view>
+
+namespace motionrack::rack {
+
+/// nullptr if the rack has no such card, or it is of another type.
+const databoard4002::Card* databoard4002_card_of(Rack& rack, std::string_view name);
+
+}  // namespace motionrack::rack

@@ -1,0 +1,35 @@
+// Looks at a running rack at equal distances of virtual time, between two events of the kernel.
+#pragma once
+
+#include <functional>
+#include <motionrack/sim/kernel.hpp>
+
+namespace motionrack::rack {
+
+class Probe final : public sim::Device {
+  public:
+    /// Before the rack is started.
+    explicit Probe(sim::Kernel& kernel) : kernel_(kernel), id_(kernel.add(*this, sim::Phase::observers, "probe")) {}
+    /// Calls `look` every `period` (> 0) from now on, within the kernel's run: it must neither allocate nor change anything. Between runs.
+    void begin(Duration period, std::function<void(Instant now)> look) {
+        period_ = period;
+        look_ = std::move(look);
+        kernel_.schedule(id_, kernel_.now());
+    }
+    void end() {
+        kernel_.schedule(id_, never);
+        look_ = nullptr;
+    }
+    void act(Instant now) override {
+        look_(now);
+        kernel_.schedule(id_, now + period_);
+    }
+
+  private:
+    sim::Kernel& kernel_;
+    sim::DeviceId id_;
+    Duration period_{};
+    std::function<void(Instant)> look_;
+};
+
+}  // namespace motionrack::rack
