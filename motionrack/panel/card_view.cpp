@@ -25,7 +25,7 @@ std::string_view name_of(Access access) {
 json fields_of(const RegisterInfo& reg) {
     json out = json::array();
     for (const FieldInfo& field : reg.fields)
-        out.push_back({{"name", field.name}, {"low", std::countr_zero(field.mask)}, {"bits", std::popcount(field.mask)}, {"meaning", field.meaning}});
+        out.push_back({{"name", field.name}, {"mask", field.mask}, {"low", std::countr_zero(field.mask)}, {"bits", std::popcount(field.mask)}, {"meaning", field.meaning}});
     return out;
 }
 
@@ -62,17 +62,17 @@ json card_facts(rack::Rack& rack, const rack::Card& card) {
                              {"bank", reg.bank}, {"meaning", reg.meaning}, {"fields", fields_of(reg)}});
     json pins = json::array();
     for (const rack::Pin& pin : rack::pins_of(config))
-        pins.push_back({{"name", pin.name}, {"direction", pin.direction == rack::PinDirection::input ? "input" : "output"}, {"volts", pin.volts > 0}, {"bits", pin.bits}});
+        pins.push_back({{"name", pin.name}, {"direction", pin.direction == rack::PinDirection::input ? "input" : "output"}, {"volts", pin.volts > 0}, {"bits", pin.bits}, {"meaning", pin.doc}});
     json axes = json::array();
     for (const rack::RackAxis& axis : rack.config().axes)
         if (axis.card == card.name()) axes.push_back({{"letter", std::string(1, axis.letter)}, {"channel", axis.channel}});
     json widths = json::array();
     for (const int width : card.bus_widths()) widths.push_back(width);
-    json numbers = json::array();
-    for (const std::string_view name : card.quantity_names()) numbers.push_back(name);
+    json channels = json::array();
+    for (int channel = 0; channel < type.channel_count(); ++channel) channels.push_back(type.channel_name(channel));
     return {{"name", card.name()}, {"type", config.type}, {"title", map.title}, {"slot", config.slot.value_or(-1)}, {"about", type.doc},
             {"bus", {{"base", card.bus_base()}, {"widths", std::move(widths)}}}, {"axes", std::move(axes)}, {"registers", std::move(registers)},
-            {"commands", commands_of(map)}, {"machines", machines_of(map)}, {"pins", std::move(pins)}, {"values", card.value_names()}, {"numbers", std::move(numbers)}};
+            {"commands", commands_of(map)}, {"machines", machines_of(map)}, {"pins", std::move(pins)}, {"values", card.value_names()}, {"quantities", card.quantity_names()}, {"channels", std::move(channels)}};
 }
 
 json card_now(operate::Machine& machine, rack::Card& card) {
@@ -90,15 +90,15 @@ json card_now(operate::Machine& machine, rack::Card& card) {
             registers.push_back({{"name", name}, {"register", reg.name}, {"word", bits}, {"fields", std::move(fields)}});
         }
     }
-    json values = json::object(), numbers = json::object(), pins = json::object();
+    json values = json::array(), quantities = json::array(), pins = json::object();
     for (const std::string& name : card.value_names())
-        if (const Result<std::int64_t> value = card.inspect(name)) values[name] = *value;
+        if (const Result<std::int64_t> value = card.inspect(name)) values.push_back({{"name", name}, {"value", *value}});
     for (const std::string_view name : card.quantity_names())
-        if (const std::optional<double> value = card.quantity(name)) numbers[std::string(name)] = *value;
+        if (const std::optional<double> value = card.quantity(name)) quantities.push_back({{"name", name}, {"value", *value}});
     for (const rack::Pin& pin : rack::pins_of(config))
         if (const Result<double> level = machine.wires().get(card.name() + "." + pin.name)) pins[pin.name] = *level;
     return {{"name", card.name()}, {"at", to_seconds(machine.now())}, {"registers", std::move(registers)}, {"values", std::move(values)},
-            {"numbers", std::move(numbers)}, {"pins", std::move(pins)}};
+            {"quantities", std::move(quantities)}, {"pins", std::move(pins)}};
 }
 
 }  // namespace motionrack::panel

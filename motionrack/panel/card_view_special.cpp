@@ -14,14 +14,19 @@ namespace {
 
 namespace db = databoard4002;
 
-/// The intervals of one half of the table, each up to its position.
-json half_of(const db::SlopeTable& table, int first) {
-    json out = json::array();
+/// The intervals of one half as steps: Hz over the distance, counts.
+json half_of(const char* name, const db::SlopeTable& table, int first) {
+    json points = json::array();
+    std::int64_t from = 0;
     for (int i = first; i < first + db::SlopeTable::half; ++i) {
         const db::SlopeEntry entry = table.entry(i);
-        out.push_back({{"position", entry.position}, {"rate", entry.rate}, {"hz", db::hz_of(entry.rate)}});
+        if (entry.position <= from) continue;
+        const double hz = db::hz_of(entry.rate);
+        points.push_back({from, hz});
+        points.push_back({entry.position, hz});
+        from = entry.position;
     }
-    return out;
+    return {{"name", name}, {"unit", "Hz"}, {"over", "counts"}, {"points", std::move(points)}};
 }
 
 constexpr std::size_t shown_scales = 32;
@@ -32,7 +37,7 @@ Result<json> slopes_now(rack::Rack& rack, const std::string& name) {
     MOTIONRACK_CHECK(rack::card_named(rack, name));
     const db::Card* card = rack::databoard4002_card_of(rack, name);
     if (card == nullptr) return fail(Trouble::bad_input, fmt::format("Card {} has no slope table: it is no DataBoard 4002.", name));
-    return json{{"name", name}, {"deceleration", half_of(card->table(), 0)}, {"acceleration", half_of(card->table(), db::SlopeTable::half)},
+    return json{{"name", name}, {"slopes", {half_of("acceleration over the way gone", card->table(), db::SlopeTable::half), half_of("deceleration over the way to go", card->table(), 0)}},
                 {"moving", card->moving()}, {"rate", card->output_rate()}, {"hz", card->fout_hz()}, {"position", card->position()}};
 }
 
@@ -42,12 +47,15 @@ Result<json> frames_now(operate::Machine& machine) {
     json cards = json::array();
     const std::vector<rack::FrameRow> rows = watch->rows();
     const grating_bus::Frame* first = rows.empty() ? nullptr : rows.front().frame;
+    std::string why;
     for (const rack::FrameRow& row : rows) {
         json card = {{"name", row.card}, {"role", row.role}, {"stale", row.stale}, {"off", row.off}, {"age_us", row.age_us}, {"frames", row.frames},
                      {"broken", row.broken}, {"untrue", row.untrue}, {"unlike", row.unlike}, {"agrees", row.agrees}};
+        if (!row.agrees) why += fmt::format("{}{} holds another frame than {}", why.empty() ? "" : "; ", row.card, rows.front().card);
+        if (row.stale) why += fmt::format("{}{}'s frame is stale", why.empty() ? "" : "; ", row.card);
         if (row.frame != nullptr) {
             const auto positions = row.frame->positions();
-            card["sequence"] = row.frame->sequence;
+            card["frame"] = row.frame->sequence;
             card["time_s"] = to_seconds(row.frame->instant());
             card["skew_ns"] = first != nullptr ? to_seconds(row.frame->instant() - first->instant()) * 1e9 : 0;
             card["scales"] = positions.size();
@@ -56,7 +64,8 @@ Result<json> frames_now(operate::Machine& machine) {
         }
         cards.push_back(std::move(card));
     }
-    return json{{"at", to_seconds(machine.now())}, {"published", watch->published()}, {"cards", std::move(cards)}};
+    json bus = {{"name", "bus"}, {"frame", first != nullptr ? json(first->sequence) : json()}, {"published", watch->published()}, {"cards", std::move(cards)}, {"agree", why.empty()}, {"why", why}};
+    return json{{"at", to_seconds(machine.now())}, {"buses", {std::move(bus)}}};
 }
 
 }  // namespace motionrack::panel

@@ -7,7 +7,11 @@
 #include <motionrack/operate/machine.hpp>
 #include <motionrack/panel/channels.hpp>
 #include <motionrack/panel/panel.hpp>
+#include <motionrack/panel/program_plan.hpp>
+#include <motionrack/panel/rack_view.hpp>
+#include <motionrack/panel/scope.hpp>
 #include <motionrack/panel/tables.hpp>
+#include <motionrack/panel/worker.hpp>
 #include <span>
 #include <string_view>
 
@@ -46,20 +50,53 @@ class EventBook {
     std::vector<std::function<void(const Event&)>> listeners_;
 };
 
+/// Where the machine was, in bounded memory: places nearer than `apart` to the one before are left out.
+class DrivenPath {
+  public:
+    static constexpr std::size_t most = 20'000;
+    static constexpr double apart = 0.05;
+    struct Driven {
+        Instant at{};
+        control::Point place = {};  ///< as the encoders say
+        double error = 0;           ///< how far it was from where the card sent it: mm of X Y Z, or degrees where only others moved
+    };
+    void add(const operate::Status& status);
+    void clear() { points_.clear(); }
+    const std::deque<Driven>& points() const { return points_; }
+
+  private:
+    std::deque<Driven> points_;
+};
+
 struct Desk {
+    Desk(operate::Machine& machine_here, authority::ControlLease& lease_here, PanelSettings settings_here)
+        : machine(machine_here), lease(lease_here), settings(std::move(settings_here)), channels(machine), scope(machine, channels),
+          facts(rack_facts(machine)) {
+        for (const rack::RackAxis& axis : machine.rack().config().axes) letters += axis.letter;
+    }
     operate::Machine& machine;
     authority::ControlLease& lease;
     PanelSettings settings;
     EventBook book;
     ChannelBook channels;
+    Scope scope;
+    DrivenPath driven;
+    std::shared_ptr<const ProgramPlan> plan;  ///< of the program that was begun last; nullptr until it is made
+    std::int64_t programs = 0;                ///< begun so far: whose plan it is
+    std::string program;                      ///< its text
+    std::string letters;                      ///< of the axes
+    nlohmann::json facts;                     ///< of the rack
+    Worker worker;                            ///< last: its work uses nothing of these
 
-    rack::Rack& rack() { return machine.rack(); }
+    /// Runs `work` on the worker; `ready` hears what it gives on the motion thread. Refused: too much waits.
+    void aside(std::function<Result<nlohmann::json>()> work, std::function<void(Result<nlohmann::json>)> ready);
 };
 
 /// One order or query: gives the answer's members.
 using Doing = Result<nlohmann::json> (*)(Desk& desk, const Caller& caller, const nlohmann::json& fields);
 /// One that ends later.
-using LongDoing = void (*)(Desk& desk, const Caller& caller, const nlohmann::json& fields, std::function<void(Result<nlohmann::json>)> ready);
+using Ready = std::function<void(Result<nlohmann::json>)>;
+using LongDoing = void (*)(Desk& desk, const Caller& caller, const nlohmann::json& fields, Ready ready);
 struct Doer {
     std::string_view name;
     Doing now = nullptr;
@@ -68,7 +105,14 @@ struct Doer {
 std::span<const Doer> control_doers();
 std::span<const Doer> motion_doers();
 std::span<const Doer> program_doers();
+std::span<const Doer> card_doers();
+std::span<const Doer> scope_doers();
+std::span<const Doer> mark_doers();
 std::span<const Doer> looking_doers();
+/// An order that answers nothing but that it was taken.
+Result<nlohmann::json> taken(const Result<void>& result);
+/// A number of the fields that may be missing.
+double number_of(const nlohmann::json& fields, std::string_view name, double otherwise);
 
 /// The letter of a field that names an axis of the rack. Errors: bad_input.
 Result<char> axis_of(Desk& desk, const nlohmann::json& fields);

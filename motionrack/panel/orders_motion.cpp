@@ -10,12 +10,6 @@ using nlohmann::json;
 
 namespace {
 
-/// An order that answers nothing but that it was taken.
-Result<json> taken(const Result<void>& result) {
-    if (!result) return tl::unexpected<Error>(result.error());
-    return json::object();
-}
-
 bool stands(operate::MachineState state) {
     return state == operate::MachineState::disabled || state == operate::MachineState::standstill || state == operate::MachineState::error_stop;
 }
@@ -26,8 +20,10 @@ constexpr std::array control = {
     }},
     Doer{"release_control", [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.release(caller.session)); }},
     Doer{"keep_control", [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.keep(caller.session)); }},
-    Doer{"stop", [](Desk&, const Caller&, const json&) -> Result<json> { return json::object(); }},  // Panel::ask has posted it
-    Doer{"press_estop", [](Desk& desk, const Caller&, const json& fields) { return taken(desk.machine.wires().set("estop", fields.at("pressed").get<bool>() ? 0 : 1)); }},
+    Doer{"stop", [](Desk& desk, const Caller&, const json&) -> Result<json> {
+        desk.machine.stop();
+        return json::object();
+    }},
 };
 
 constexpr std::array motion = {
@@ -42,6 +38,14 @@ constexpr std::array motion = {
     Doer{"jog_by", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
         MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
         return taken(desk.machine.jog_by(letter, fields.at("distance").get<double>(), fields.at("speed").get<double>()));
+    }},
+    Doer{"jog_stop", [](Desk& desk, const Caller&, const json&) -> Result<json> {
+        if (desk.machine.state() == operate::MachineState::jogging) desk.machine.stop();
+        return json::object();
+    }},
+    Doer{"set_work_zero", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
+        MOTIONRACK_TRY(const char letter, axis_of(desk, fields));
+        return taken(desk.machine.set_work_zero(letter, fields.at("value").get<double>()));
     }},
     Doer{"declare_position", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
         MOTIONRACK_TRY(const char letter, axis_of(desk, fields));

@@ -10,15 +10,43 @@ using nlohmann::json;
 
 namespace {
 
-Result<json> taken(const Result<void>& result) {
-    if (!result) return tl::unexpected<Error>(result.error());
+/// How a program that begins at this moment is read.
+struct Reading {
+    control::gcode::Settings settings;
+    double kept_back = 0;
+};
+Reading reading_of(Desk& desk) { return {desk.machine.stream().fresh_settings(), desk.machine.rack().axes().front().card->kept_back()}; }
+
+/// The plan is there a little later than the motion.
+void plan_aside(Desk& desk, const Reading& reading, std::string text, std::string name) {
+    desk.plan.reset();
+    desk.worker.post([&desk, number = ++desk.programs, reading, text = std::move(text), name = std::move(name)] {
+        auto plan = std::make_shared<const ProgramPlan>(plan_program(text, name, reading.settings, reading.kept_back));
+        desk.machine.post([&desk, number, plan] {
+            if (number == desk.programs) desk.plan = plan;
+        });
+    });
+}
+
+Result<json> begin(Desk& desk, const json& fields) {
+    const auto &text = fields.at("text").get_ref<const std::string&>(), &name = fields.at("name").get_ref<const std::string&>();
+    const Reading reading = reading_of(desk);
+    MOTIONRACK_CHECK(desk.machine.begin_program(text, name));
+    desk.program = text;
+    desk.driven.clear();
+    plan_aside(desk, reading, text, name);
     return json::object();
 }
 
+void check(Desk& desk, const json& fields, Ready ready) {
+    desk.aside([reading = reading_of(desk), text = fields.at("text").get<std::string>(), name = fields.value("name", ""), letters = desk.letters]() -> Result<json> {
+        return to_json(plan_program(text, name, reading.settings, reading.kept_back), letters);
+    }, std::move(ready));
+}
+
 constexpr std::array program = {
-    Doer{"begin", [](Desk& desk, const Caller&, const json& fields) {
-        return taken(desk.machine.begin_program(fields.at("text").get<std::string>(), fields.at("name").get<std::string>()));
-    }},
+    Doer{"begin", [](Desk& desk, const Caller&, const json& fields) { return begin(desk, fields); }},
+    Doer{"check", nullptr, [](Desk& desk, const Caller&, const json& fields, Ready ready) { check(desk, fields, std::move(ready)); }},
     Doer{"line", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
         if (const auto read = desk.machine.line(fields.at("text").get_ref<const std::string&>(), 1); !read) return tl::unexpected<Error>(read.error());
         return json::object();

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <motionrack/operate/logbook.hpp>
 #include <motionrack/panel/desk.hpp>
 #include <motionrack/panel/status_text.hpp>
 
@@ -21,46 +22,51 @@ std::string session_mark(std::string_view session) {
     return fmt::format("{:016x}", hash);
 }
 
-Reply::Call::~Call() {
-    if (call) call(refused_answer(503, "machine", "The machine was shut down before the order was carried out."));
-}
-
-const Event& EventBook::add(Event event) {
-    event.number = next_++;
-    if (events_.size() >= most) events_.pop_front();
-    events_.push_back(std::move(event));
-    for (const auto& call : listeners_) call(events_.back());
-    return events_.back();
-}
-
 /// The motion thread's side.
 class Panel::Inside {
   public:
     Inside(Panel& panel, operate::Machine& machine, authority::ControlLease& lease, PanelSettings settings)
-        : panel_(panel), desk_{machine, lease, std::move(settings), {}, ChannelBook(machine)}, writer_(machine) {
-        for (const std::span<const Doer> table : {control_doers(), motion_doers(), program_doers(), looking_doers()})
+        : panel_(panel), desk_(machine, lease, std::move(settings)), writer_(machine),
+          logbook_(desk_.settings.journal, [this](Instant at, const std::string& kind, const std::string& text, const std::string& data) {
+              desk_.book.add({0, at, kind, text, json::parse(data, nullptr, false)});
+          }) {
+        for (const std::span<const Doer> table : {control_doers(), motion_doers(), program_doers(), card_doers(), scope_doers(), mark_doers(), looking_doers()})
             for (const Doer& doer : table) doers_[doer.name] = &doer;
+        for (const std::span<const AskRow> table : {orders(), queries()})
+            for (const AskRow& row : table) MOTIONRACK_ASSERT(row.elsewhere || doers_.count(row.name) == 1);
         machine.listen([this](const operate::Status& status) { look(status); });
         show(machine.status());
     }
 
     /// Every slice: what changed is told; now and then a picture.
     void look(const operate::Status& status) {
+        logbook_.see(status);
+        desk_.scope.slice(status.at);
+        desk_.driven.add(status);
         const auto real = std::chrono::steady_clock::now();
         if (real - shown_ < desk_.settings.picture_every) return;
         shown_ = real;
+        tell_conditions(real);
         show(status);
     }
 
     void carry_out(const AskRow& row, const Caller& caller, const json& fields, const Reply& reply) {
         if (row.lease)
             if (const Result<void> held = desk_.lease.check(caller.session); !held) return reply(error_answer(held.error()));
-        const auto found = doers_.find(row.name);
-        if (found == doers_.end()) return reply(refused_answer(409, "refused", fmt::format("{} is not possible here.", row.name)));
-        const Doer& doer = *found->second;
+        const Doer& doer = *doers_.at(row.name);
         const auto ready = [this, &row, caller, fields, reply](Result<json> result) { finish(row, caller, fields, reply, std::move(result)); };
         if (doer.later != nullptr) return doer.later(desk_, caller, fields, ready);
         ready(doer.now(desk_, caller, fields));
+    }
+
+    /// An order that was taken, for everybody; `safe` hears when it is in the journal.
+    void tell_order(const AskRow& row, const Caller& caller, const json& fields, journal::Journal::Done safe) {
+        const json data = {{"order", row.name}, {"user", caller.user}};
+        const Event& event = desk_.book.add({0, desk_.machine.now(), "order", sentence(row, caller, fields), data});
+        if (desk_.settings.journal != nullptr)
+            desk_.settings.journal->write(event.at, event.kind, event.text, text_of(data), std::move(safe));
+        else if (safe)
+            safe(event.number);
     }
 
     Desk& desk() { return desk_; }
@@ -71,6 +77,20 @@ class Panel::Inside {
         desk_.channels.show(status.sequence, status.at);
     }
 
+    /// What cards and parts have reported: lost steps, missed edges.
+    void tell_conditions(std::chrono::steady_clock::time_point real) {
+        if (real - looked_ < conditions_every) return;
+        looked_ = real;
+        rack::Rack& rack = desk_.machine.rack();
+        const std::vector<sim::Condition> all = rack.kernel().conditions();
+        const std::uint64_t first = rack.kernel().dropped_conditions();
+        for (std::uint64_t i = std::max(told_, first); i < first + all.size(); ++i) {
+            const sim::Condition& condition = all[static_cast<std::size_t>(i - first)];
+            desk_.book.add({0, condition.at, "condition", rack.describe(condition), {{"device", rack.kernel().device_name(condition.device)}}});
+        }
+        told_ = first + all.size();
+    }
+
     /// Orders that were done are events; the answer waits for the journal.
     void finish(const AskRow& row, const Caller& caller, const json& fields, const Reply& reply, Result<json> result) {
         if (!result) return reply(error_answer(result.error()));
@@ -78,9 +98,9 @@ class Panel::Inside {
         const bool told = row.role != authority::Role::observe && !row.passing && !answer.body.value("again", false);
         answer.body.erase("again");
         if (!told) return reply(std::move(answer));
-        const Event& event = desk_.book.add({0, desk_.machine.now(), "order", sentence(row, caller, fields), {{"order", row.name}, {"user", caller.user}}});
-        if (!desk_.settings.journal) return reply(std::move(answer));
-        desk_.settings.journal(event, caller, [reply, answer = std::move(answer)] { reply(answer); });
+        tell_order(row, caller, fields, [reply, answer = std::move(answer)](const Result<std::int64_t>& kept) {
+            reply(kept ? answer : refused_answer(500, "io", "The order was carried out, but could not be written into the journal: " + kept.error().message));
+        });
     }
 
     static std::string sentence(const AskRow& row, const Caller& caller, const json& fields) {
@@ -93,11 +113,14 @@ class Panel::Inside {
         return out;
     }
 
+    static constexpr std::chrono::milliseconds conditions_every{100};
     Panel& panel_;
     Desk desk_;
     StatusWriter writer_;
+    operate::Logbook logbook_;
     std::map<std::string_view, const Doer*> doers_;
-    std::chrono::steady_clock::time_point shown_{};
+    std::chrono::steady_clock::time_point shown_{}, looked_{};
+    std::uint64_t told_ = 0;
 };
 
 Panel::Panel(operate::Machine& machine, authority::ControlLease& lease, PanelSettings settings) : inside_(std::make_unique<Inside>(*this, machine, lease, std::move(settings))) {}
@@ -118,13 +141,11 @@ void Panel::ask(const Caller& caller, std::string_view name, const json& fields,
         if (found == handlers.end()) return reply(refused_answer(409, "refused", fmt::format("{} is not possible here.", row->name)));
         return reply(found->second(caller, fields));
     }
-    if (name == "stop") stop(caller);
     inside_->desk().machine.post([this, row, caller, fields, answer = Reply(std::move(reply))] { inside_->carry_out(*row, caller, fields, answer); });
 }
 
-void Panel::stop(const Caller&) {
-    operate::Machine& machine = inside_->desk().machine;
-    machine.post([&machine] { machine.stop(); });
+void Panel::stop(const Caller& caller) {
+    ask(caller, "stop", json::object(), [](const Answer&) {});
 }
 
 void Panel::subscribe(std::vector<std::string> channels, std::function<void(Result<std::shared_ptr<ChannelSet>>)> ready) {

@@ -22,6 +22,10 @@ void add_move(Polyline& line, const control::PlannedMove& planned) {
     for (int i = 1; i <= chords; ++i) line.add({control::position_at(path, path.length * i / chords), planned.move.line, feed});
 }
 
+std::size_t axis_of(char letter) {
+    return static_cast<std::size_t>(std::find(control::axis_letters.begin(), control::axis_letters.end(), letter) - control::axis_letters.begin());
+}
+
 /// Plans moves and sums them up.
 class Sums {
   public:
@@ -84,38 +88,35 @@ ProgramPlan plan_program(const std::string& text, const std::string& name, const
     return plan;
 }
 
-json path_json(const std::vector<PathPoint>& path, const std::string& letters) {
-    json points = json::array(), lines = json::array(), feeds = json::array();
-    for (const PathPoint& point : path) {
-        json place = json::array();
-        for (const char letter : letters) {
-            const auto axis = std::find(control::axis_letters.begin(), control::axis_letters.end(), letter) - control::axis_letters.begin();
-            place.push_back(std::round(point.at[static_cast<std::size_t>(axis)] * 1e4) / 1e4);
-        }
-        points.push_back(std::move(place));
-        lines.push_back(point.line);
-        feeds.push_back(point.feed ? 1 : 0);
-    }
-    return {{"axes", letters}, {"points", std::move(points)}, {"lines", std::move(lines)}, {"feed", std::move(feeds)}};
+json place_json(const control::Point& place, const std::string& letters) {
+    json out = json::array();
+    for (const char letter : letters) out.push_back(std::round(place[axis_of(letter)] * 1e4) / 1e4);
+    return out;
 }
 
 json to_json(const ProgramPlan& plan, const std::string& letters) {
     json problems = json::array();
     for (const auto& problem : plan.check.problems)
         problems.push_back({{"line", problem.place.line}, {"column", problem.place.column}, {"message", problem.message}, {"word", problem.word}});
-    json out = {{"name", plan.name}, {"good", plan.check.problems.empty()}, {"problems", std::move(problems)}, {"more_problems", plan.check.more_problems},
-                {"lines", plan.check.lines}, {"moves", plan.check.moves}, {"dwells", plan.check.dwells}};
+    json out = {{"name", plan.name}, {"ok", plan.check.problems.empty()}, {"problems", std::move(problems)}, {"more_problems", plan.check.more_problems},
+                {"lines", plan.check.lines}, {"moves", plan.check.moves}, {"dwells", plan.check.dwells}, {"axes", letters}};
     if (!plan.check.problems.empty()) return out;
-    json extents = json::object();
     for (const char letter : letters) {
-        const auto axis = static_cast<std::size_t>(std::find(control::axis_letters.begin(), control::axis_letters.end(), letter) - control::axis_letters.begin());
-        extents[std::string(1, letter)] = {plan.check.least[axis], plan.check.greatest[axis]};
+        out["least"][std::string(1, letter)] = plan.check.least[axis_of(letter)];
+        out["greatest"][std::string(1, letter)] = plan.check.greatest[axis_of(letter)];
     }
-    out["extents"] = std::move(extents);
+    json path = json::array(), lines = json::array(), feeds = json::array();
+    for (const PathPoint& point : plan.path) {
+        path.push_back(place_json(point.at, letters));
+        lines.push_back(point.line);
+        feeds.push_back(point.feed ? 1 : 0);
+    }
     out["seconds"] = plan.seconds;
-    out["path_mm"] = plan.path_mm;
+    out["length_mm"] = plan.path_mm;
     out["thinned"] = plan.thinned;
-    out["path"] = path_json(plan.path, letters);
+    out["path"] = std::move(path);
+    out["path_lines"] = std::move(lines);
+    out["path_feed"] = std::move(feeds);
     return out;
 }
 

@@ -27,6 +27,7 @@ ProgramPlan plan_program(const std::string& text, const std::string& name, const
 
 /// `letters`: of the machine's axes.
 nlohmann::json to_json(const ProgramPlan& plan, const std::string& letters);
-nlohmann::json path_json(const std::vector<PathPoint>& path, const std::string& letters);
+/// A place's numbers in the order of the letters, to 0.1 um.
+nlohmann::json place_json(const control::Point& place, const std::string& letters);
 
 }  // namespace motionrack::panel

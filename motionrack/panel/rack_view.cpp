@@ -23,16 +23,25 @@ json axes_of(const rack::RackConfig& config) {
     return out;
 }
 
+template <class Parts>
+json names_of(const Parts& parts) {
+    json out = json::array();
+    for (const auto& part : parts) out.push_back(part.name);
+    return out;
+}
+
+/// Stages, tracks and scan heads, with what there is to say of them.
 json parts_of(const rack::RackConfig& config) {
-    json stages = json::array(), tracks = json::array(), scanners = json::array();
+    json out = json::array();
     for (const rack::RackStage& stage : config.stages)
-        stages.push_back({{"name", stage.name}, {"card", stage.card}, {"output", stage.output}, {"input", stage.input}, {"servo", stage.servo.has_value()},
-                          {"min", stage.end_minus_mm}, {"max", stage.end_plus_mm}});
+        out.push_back({{"name", stage.name}, {"kind", "stage"}, {"card", stage.card}, {"output", stage.output}, {"input", stage.input}, {"servo", stage.servo.has_value()},
+                       {"min", stage.end_minus_mm}, {"max", stage.end_plus_mm}});
     for (const rack::RackTrack& track : config.tracks)
-        tracks.push_back({{"name", track.name}, {"rotary", track.rotary}, {"unit", track.unit()}, {"card", track.card ? json(*track.card) : json()}, {"speed", track.speed}});
+        out.push_back({{"name", track.name}, {"kind", track.rotary ? "table" : "belt"}, {"unit", track.unit()}, {"card", track.card ? json(*track.card) : json()}, {"speed", track.speed}});
     for (const rack::RackScanner& scanner : config.scanners)
-        scanners.push_back({{"name", scanner.name}, {"card", scanner.card}, {"track", scanner.track ? json(*scanner.track) : json()}, {"bits_per_mm", scanner.bits_per_mm}});
-    return {{"stages", std::move(stages)}, {"tracks", std::move(tracks)}, {"scanners", std::move(scanners)}};
+        out.push_back({{"name", scanner.name}, {"kind", "scanner"}, {"card", scanner.card}, {"track", scanner.track ? json(*scanner.track) : json()},
+                       {"bits_per_mm", scanner.bits_per_mm}});
+    return out;
 }
 
 json faults_of(rack::Rack& rack) {
@@ -51,8 +60,8 @@ json rack_facts(operate::Machine& machine) {
     for (const rack::RackWire& wire : config.wires) joined.push_back({{"from", config.end_name(wire.from)}, {"to", config.end_name(wire.to)}});
     for (const rack::WireDesk::Named& wire : machine.wires().names())
         wires.push_back({{"name", wire.name}, {"volts", wire.volts}, {"bits", wire.bits}, {"drivable", wire.drivable}});
-    json out = parts_of(config);
-    out["name"] = config.name;
+    json out = {{"name", config.name}, {"stages", names_of(config.stages)}, {"tracks", names_of(config.tracks)}, {"scanners", names_of(config.scanners)}};
+    out["parts"] = parts_of(config);
     out["axes"] = axes_of(config);
     out["cards"] = std::move(cards);
     out["joined"] = std::move(joined);
@@ -78,13 +87,14 @@ Result<json> workpiece_now(operate::Machine& machine, const std::string& name, s
         if (points[i].first || strokes.empty()) strokes.push_back(json::array());
         if (points[i].first || last || i % step == 0) strokes.back().push_back({points[i].at.x, points[i].at.y});
     }
-    const double half = 524'288 / scanner->config.bits_per_mm;
-    json out = {{"scanner", name}, {"at", to_seconds(machine.now())}, {"strokes", std::move(strokes)}, {"points", points.size()}, {"shown_every", step},
+    const rack::RackScanner& config = scanner->config;
+    const double half = 524'288 / (config.lens ? config.lens->bits_per_mm : config.bits_per_mm);
+    json out = {{"scanner", name}, {"unit", "mm"}, {"at", to_seconds(machine.now())}, {"marks", std::move(strokes)}, {"points", points.size()}, {"shown_every", step},
                 {"lost_points", station.workpiece().lost_points()}, {"marked_mm", station.workpiece().length_mm()}, {"energy_j", station.workpiece().energy_j()},
-                {"spot", {station.spot().x, station.spot().y}}, {"light", station.gate().on()}, {"field", {{"min", -half}, {"max", half}}}};
+                {"beam", {station.spot().x, station.spot().y}}, {"laser", station.gate().on()}, {"field", {{"least", {-half, -half}}, {"greatest", {half, half}}}}};
     if (const auto piece = station.workpiece().collecting()) out["marking"] = {{piece->from.x, piece->from.y}, {piece->to.x, piece->to.y}};
     if (const rack::RunningTrack* track = scanner->config.track ? machine.rack().track(*scanner->config.track) : nullptr)
-        out["track"] = {{"name", track->config.name}, {"unit", track->config.unit()}, {"position", track->track().travel(to_seconds(machine.now()))}, {"speed", track->config.speed}, {"direction_deg", track->config.direction_deg}};
+        out["part"] = {{"name", track->config.name}, {"unit", track->config.unit()}, {"position", track->track().travel(to_seconds(machine.now()))}, {"speed", track->config.speed}, {"direction_deg", track->config.direction_deg}};
     return out;
 }
 

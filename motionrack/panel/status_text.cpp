@@ -2,6 +2,7 @@
 #include <motionrack/panel/status_text.hpp>
 
 #include <motionrack/panel/desk.hpp>
+#include <motionrack/operate/pacer.hpp>
 #include <utility>
 
 namespace motionrack::panel {
@@ -21,8 +22,26 @@ struct Noted {
     std::vector<std::vector<std::pair<std::string_view, bool>>> leds;  // by axis
     bool estop_pressed = false;
     std::optional<authority::ControlLease::Holder> holder;
+    std::optional<double> remaining_s;  // of the program, at its overrides
     json link, clock;
 };
+
+json clock_of(const operate::Pacer* pacer) {
+    if (pacer == nullptr) return {{"mode", "free"}, {"factor", 1}, {"late_ms", 0}};
+    return {{"mode", operate::name_of(pacer->mode())}, {"factor", pacer->factor()}, {"late_ms", to_seconds(pacer->lateness().within(0.99)) * 1e3},
+            {"lost_s", to_seconds(pacer->lost())}};
+}
+
+/// "X SLOW_WAIT, Y HOMED" by axis.
+json phases_of(const std::string& states) {
+    json out = json::object();
+    for (std::size_t at = 0; at + 2 < states.size();) {
+        const std::size_t end = std::min(states.find(", ", at), states.size());
+        out[states.substr(at, 1)] = states.substr(at + 2, end - at - 2);
+        at = end + 2;
+    }
+    return out;
+}
 
 }  // namespace
 
@@ -59,6 +78,9 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(Desk& de
     noted->estop_pressed = desk.machine.wires().get("estop").value_or(1) == 0;
     noted->holder = desk.lease.holder();
     if (desk.settings.link) noted->link = desk.settings.link();
+    noted->clock = clock_of(desk.settings.pacer);
+    const operate::Status& now = desk.machine.status();
+    if (now.program_runs && desk.plan) noted->remaining_s = desk.plan->after(now.line) / std::max(0.01, now.feed_override);
     return [facts = facts_, noted](const operate::Status& status) {
         json axes = json::array();
         for (std::size_t i = 0; i < status.axes.size(); ++i) {
@@ -77,11 +99,13 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(Desk& de
         }
         json alarms = json::array();
         for (const operate::Alarm& alarm : status.alarms)
-            alarms.push_back({{"number", alarm.number}, {"at", to_seconds(alarm.at)}, {"text", alarm.text}, {"active", alarm.active}, {"acknowledged", alarm.acknowledged}});
+            alarms.push_back({{"number", alarm.number}, {"at", to_seconds(alarm.at)}, {"text", alarm.text}, {"active", alarm.active}, {"acknowledged", alarm.acknowledged}, {"source", "machine"}});
         json out = {{"at", to_seconds(status.at)}, {"sequence", status.sequence}, {"state", operate::name_of(status.state)}, {"why", status.why}, {"simulation", true},
                     {"estop", {{"wired", true}, {"pressed", noted->estop_pressed}}},
                     {"axes", std::move(axes)},
-                    {"program", {{"name", status.program}, {"runs", status.program_runs}, {"line", status.line}, {"lines", status.lines}, {"single_step", status.single_step}}},
+                    {"program", {{"name", status.program}, {"runs", status.program_runs}, {"line", status.line}, {"lines", status.lines}, {"single_step", status.single_step},
+                                 {"remaining_s", noted->remaining_s ? json(*noted->remaining_s) : json()}}},
+                    {"homing", {{"runs", status.state == operate::MachineState::homing}, {"phases", phases_of(status.homing)}}},
                     {"overrides", {{"feed", status.feed_override}, {"rapid", status.rapid_override}}},
                     {"alarms", std::move(alarms)}, {"link", noted->link}, {"clock", noted->clock}};
         json& control = out["control"] = {{"holder", nullptr}};

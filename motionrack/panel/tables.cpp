@@ -57,44 +57,82 @@ constexpr std::array estop_fields = {flag("pressed", "the simulated emergency st
 constexpr std::array write_fields = {card_name, integer("bits", 8, 32, "width of the access: 8, 16 or 32"), integer("address", 0, 4294967295.0, "on the host's bus"),
                                      integer("value", 0, 4294967295.0, "what is written")};
 constexpr std::array read_fields = {card_name, integer("bits", 8, 32, "width of the access: 8, 16 or 32"), integer("address", 0, 4294967295.0, "on the host's bus")};
+constexpr std::array check_fields_ = {text("text", longest_text, "the program, G-code"), text("name", 200, "for the answer", false)};
+constexpr std::array arm_fields = {texts("channels", 16, "1 to 16 of the query channels"),
+                                   text("trigger", 80, "one of the channels; without it the scope triggers at once", false),
+                                   choice("edge", "rise|fall|either", "which way the trigger passes the level", false),
+                                   number("level", -1e12, 1e12, "the channel's", "of the trigger; 0.5", false),
+                                   number("period_us", 0.1, 1e6, "us", "from sample to sample of numbers; wires show every edge; 100", false),
+                                   number("length", 1e-6, 100, "s", "of what is kept; 0.1", false),
+                                   number("pre", 0, 100, "s", "of it, before the trigger; 0", false),
+                                   choice("mode", "single|run", "stops after a capture, or is armed again", false)};
+constexpr std::array mark_fields = {card_name, text("job", 1 << 20, "a marking job (TOML); optics and belt are the rack's"),
+                                    text("drawing", longest_text, "the text of the SVG or G-code file that the job names", false),
+                                    choice("start", "now|parts", "at once, or at each part's edge at the card's start input", false)};
+constexpr std::array mark_stop_fields = {card_name};
+constexpr std::array name_fields = {text("name", 32, "name of a card of the rack")};
+constexpr std::array workpiece_fields = {text("scanner", 32, "name of a scan head of the rack"), integer("points", 2, 100'000, "about so many at most; 5000", false)};
+constexpr std::array path_fields = {number("since", -1, 1e9, "s", "only what was driven later", false), integer("have", 0, 9e15, "number of the plan that is known and is left out then", false)};
+constexpr std::array scope_fields = {integer("since", 0, 9e15, "number of the capture that is known: only a later one is sent", false)};
+constexpr std::array event_fields = {integer("since", 0, 9e15, "number of the last event that is known", false), integer("limit", 1, 1000, "the newest ones; 200", false)};
+constexpr std::array journal_fields = {integer("since", 0, 9e15, "number of the last entry that is known", false), text("kind", 32, "only these: run, job, order, state, alarm, position, setting", false),
+                                       integer("limit", 1, 10'000, "the newest ones; 100", false)};
 constexpr std::array invite_fields = {choice("role", "observe|operate|maintain", "what the code lets in to")};
 constexpr std::array unpair_fields = {text("user", 64, "whose tokens are void from now on")};
 
 constexpr std::array order_rows = {
-    AskRow{"take_control", Role::operate, false, take_control_fields, "Takes the control lease, which ends 10 s after the last sign of its session.", "", false, false},
-    AskRow{"release_control", Role::operate, false, {}, "Gives the control lease back.", "", false, false},
+    AskRow{"take_control", Role::operate, false, take_control_fields, "Takes the control lease, which ends 10 s after the last sign of its session."},
+    AskRow{"release_control", Role::operate, false, {}, "Gives the control lease back."},
     AskRow{"keep_control", Role::operate, false, {}, "Renews the control lease.", "", false, true},
-    AskRow{"stop", Role::nobody, false, {}, "Decelerates whatever moves, and forgets programs and lines. Never refused.", "", false, false},
-    AskRow{"enable", Role::operate, true, enable_fields, "Enables or disables the machine.", "", false, false},
-    AskRow{"home", Role::operate, true, home_fields, "Searches home.", "", false, false},
-    AskRow{"jog", Role::operate, true, jog_fields, "Jogs for as long as it is asked again within 250 ms.", "", false, false},
-    AskRow{"jog_by", Role::operate, true, jog_by_fields, "Jogs by a distance.", "", false, false},
-    AskRow{"jog_stop", Role::operate, true, {}, "Ends all jogs; a program goes on.", "", false, false},
-    AskRow{"declare_position", Role::operate, true, declare_fields, "Says where an axis stands; its position is trusted then.", "", false, false},
-    AskRow{"set_work_zero", Role::operate, true, work_zero_fields, "Touches off: moves the zero of the active work coordinates.", "", false, false},
-    AskRow{"begin", Role::operate, true, begin_fields, "Checks a program whole and begins it.", "", false, false},
-    AskRow{"line", Role::operate, true, line_fields, "Drives one line of G-code, behind those that are there.", "", false, false},
-    AskRow{"hold", Role::operate, false, {}, "Decelerates along the path; resume goes on.", "", false, false},
-    AskRow{"resume", Role::operate, true, {}, "Goes on after a hold, M0 or a single step.", "", false, false},
-    AskRow{"reset", Role::operate, true, {}, "Ends an error stop; programs and modes are forgotten, work zero and positions stay.", "", false, false},
-    AskRow{"set_overrides", Role::operate, true, override_fields, "Changes the speed of programs, at once.", "feed, rapid", false, false},
-    AskRow{"set_single_step", Role::operate, true, step_fields, "Pauses after each line, or no longer.", "", false, false},
-    AskRow{"acknowledge", Role::operate, false, acknowledge_fields, "Says that an alarm was seen.", "", false, false},
-    AskRow{"set_clock", Role::maintain, true, clock_fields, "Changes how fast the rack's time goes.", "", false, false},
-    AskRow{"step_clock", Role::maintain, true, step_clock_fields, "Lets so much time go by while the clock is paused.", "", false, false},
-    AskRow{"set_wire", Role::maintain, true, wire_fields, "Drives a wire by hand until it is released.", "", false, false},
-    AskRow{"inject_fault", Role::maintain, true, fault_fields, "Breaks something on purpose, or mends it.", "", false, false},
-    AskRow{"press_estop", Role::operate, false, estop_fields, "Presses or releases the simulated emergency stop.", "", false, false},
-    AskRow{"write_register", Role::maintain, true, write_fields, "Writes to a card through its bus, while the machine stands.", "", false, false},
-    AskRow{"read_register", Role::maintain, true, read_fields, "Reads from a card through its bus, with all effects that reading has, while the machine stands.", "value", false, false},
-    AskRow{"invite", Role::maintain, false, invite_fields, "Makes a code with which somebody can be paired.", "code", true, false},
-    AskRow{"unpair", Role::maintain, false, unpair_fields, "Ends a user's tokens.", "", true, false},
+    AskRow{"stop", Role::nobody, false, {}, "Decelerates whatever moves, and forgets programs and lines. Never refused."},
+    AskRow{"enable", Role::operate, true, enable_fields, "Enables or disables the machine."},
+    AskRow{"home", Role::operate, true, home_fields, "Searches home."},
+    AskRow{"jog", Role::operate, true, jog_fields, "Jogs for as long as it is asked again within 250 ms."},
+    AskRow{"jog_by", Role::operate, true, jog_by_fields, "Jogs by a distance."},
+    AskRow{"jog_stop", Role::operate, true, {}, "Ends all jogs; a program goes on."},
+    AskRow{"declare_position", Role::operate, true, declare_fields, "Says where an axis stands; its position is trusted then."},
+    AskRow{"set_work_zero", Role::operate, true, work_zero_fields, "Touches off: moves the zero of the active work coordinates."},
+    AskRow{"begin", Role::operate, true, begin_fields, "Checks a program whole and begins it."},
+    AskRow{"line", Role::operate, true, line_fields, "Drives one line of G-code, behind those that are there."},
+    AskRow{"hold", Role::operate, false, {}, "Decelerates along the path; resume goes on."},
+    AskRow{"resume", Role::operate, true, {}, "Goes on after a hold, M0 or a single step."},
+    AskRow{"reset", Role::operate, true, {}, "Ends an error stop; programs and modes are forgotten, work zero and positions stay."},
+    AskRow{"set_overrides", Role::operate, true, override_fields, "Changes the speed of programs, at once.", ""},
+    AskRow{"set_single_step", Role::operate, true, step_fields, "Pauses after each line, or no longer."},
+    AskRow{"acknowledge", Role::operate, false, acknowledge_fields, "Says that an alarm was seen."},
+    AskRow{"set_clock", Role::maintain, true, clock_fields, "Changes how fast the rack's time goes."},
+    AskRow{"step_clock", Role::maintain, true, step_clock_fields, "Lets so much time go by while the clock is paused."},
+    AskRow{"set_wire", Role::maintain, true, wire_fields, "Drives a wire by hand until it is released."},
+    AskRow{"inject_fault", Role::maintain, true, fault_fields, "Breaks something on purpose, or mends it."},
+    AskRow{"press_estop", Role::operate, false, estop_fields, "Presses or releases the simulated emergency stop."},
+    AskRow{"write_register", Role::maintain, true, write_fields, "Writes to a card through its bus, while the machine stands."},
+    AskRow{"read_register", Role::maintain, true, read_fields, "Reads from a card through its bus, with all effects that reading has, while the machine stands.", "value"},
+    AskRow{"check", Role::observe, false, check_fields_, "Reads and plans a program as if it began here; nothing moves.", "ok, problems, lines, moves, seconds, length_mm, least, greatest, axes, path"},
+    AskRow{"scope_arm", Role::operate, false, arm_fields, "Arms the scope.", ""},
+    AskRow{"scope_stop", Role::operate, false, {}, "Disarms the scope.", ""},
+    AskRow{"mark", Role::operate, true, mark_fields, "Marks with a laser card of the rack while the rack runs.", "commands, notes"},
+    AskRow{"mark_stop", Role::operate, true, mark_stop_fields, "Ends what a laser card marks, and takes no further starts.", ""},
+    AskRow{"invite", Role::maintain, false, invite_fields, "Makes a code with which somebody can be paired.", "code", true},
+    AskRow{"unpair", Role::maintain, false, unpair_fields, "Ends a user's tokens.", "", true},
 };
 
 constexpr std::array query_rows = {
-    AskRow{"status", Role::observe, false, {}, "The machine at this moment.", "status", false, false},
-    AskRow{"channels", Role::observe, false, {}, "All channels that can be looked at.", "channels: name, unit, text", false, false},
-    AskRow{"users", Role::maintain, false, {}, "Who is paired.", "users", true, false},
+    AskRow{"status", Role::observe, false, {}, "The machine at this moment.", "status"},
+    AskRow{"rack", Role::observe, false, {}, "What the rack is made of; it does not change while it runs.", "name, text, axes, cards, parts, stages, tracks, scanners, joined, wires, faults"},
+    AskRow{"card", Role::observe, false, name_fields, "Registers, fields, values and pins of a card at this moment, by peek, so that looking disturbs nothing.",
+           "registers, values, quantities, pins"},
+    AskRow{"slopes", Role::observe, false, name_fields, "The slope table of a DataBoard 4002: speed over distance.", "slopes: name, points (counts, Hz); position, rate, hz, moving"},
+    AskRow{"frames", Role::observe, false, {}, "What the cards of the grating bus hold, and whether they agree.", "buses: cards with frame, age, skew, positions, agreement"},
+    AskRow{"workpiece", Role::observe, false, workpiece_fields, "What a scan head has marked.", "marks, field, beam, laser, marked_mm, energy_j, part"},
+    AskRow{"channels", Role::observe, false, {}, "All channels that can be looked at.", "channels: name, unit, text, looks"},
+    AskRow{"path", Role::observe, false, path_fields, "The path that the program plans, and where the machine really was.", "axes, number, planned, driven (time first), errors (commanded - actual at each)"},
+    AskRow{"scope", Role::observe, false, scope_fields, "The scope, with its last capture.", "state, channels, trigger, mode, capture"},
+    AskRow{"events", Role::observe, false, event_fields, "What happened since the start.", "events"},
+    AskRow{"journal", Role::observe, false, journal_fields, "What happened, over all runs.", "journal"},
+    AskRow{"program", Role::observe, false, {}, "The program that was begun last.", "name, text"},
+    AskRow{"homing", Role::observe, false, {}, "How the last homing went.", "homing: the report of each axis, or null"},
+    AskRow{"control", Role::observe, false, {}, "Who controls the machine.", "holder, since, holder_session"},
+    AskRow{"users", Role::maintain, false, {}, "Who is paired.", "users", true},
 };
 
 }  // namespace

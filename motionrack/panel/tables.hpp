@@ -39,7 +39,7 @@ struct AskRow {
     bool lease = false;      ///< whoever asks must hold the control lease
     std::span<const FieldRow> fields;
     std::string_view text;   ///< one sentence
-    std::string_view gives;  ///< members of the answer besides "done"
+    std::string_view gives = {};  ///< members of the answer besides "done"
     bool elsewhere = false;  ///< PanelSettings::elsewhere carries it out
     bool passing = false;    ///< repeated many times a second: no event, no journal
 };

@@ -345,8 +345,8 @@ std::vector<Pin> pins_of(const CardType& type) {
     std::vector<Pin> out;
     for (int channel = 0; channel < type.channel_count(); ++channel)
         for (const PinType& pin : type.channel_pins)
-            out.push_back({std::string(type.channel_name(channel)).append(pin.name), pin.direction, channel, pin.volts, pin.kind, pin.bits});
-    for (const PinType& pin : type.chip_pins) out.push_back({std::string(pin.name), pin.direction, -1, pin.volts, pin.kind, pin.bits});
+            out.push_back({std::string(type.channel_name(channel)).append(pin.name), pin.direction, channel, pin.volts, pin.kind, pin.bits, pin.doc});
+    for (const PinType& pin : type.chip_pins) out.push_back({std::string(pin.name), pin.direction, -1, pin.volts, pin.kind, pin.bits, pin.doc});
     return out;
 }
 

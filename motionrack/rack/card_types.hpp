@@ -86,6 +86,7 @@ struct Pin {
     double volts;  ///< see PinType
     PinKind kind;
     int bits;
+    std::string_view doc;
 };
 std::vector<Pin> pins_of(const CardType& type);
 /// Those that this card has; none if its type is unknown.
