@@ -84,8 +84,8 @@ class Panel {
 
   private:
     class Inside;
-    std::unique_ptr<Inside> inside_;
     std::shared_ptr<const Picture> picture_;
+    std::unique_ptr<Inside> inside_;  // last: it shows pictures from its begin to its end
 };
 
 }  // namespace motionrack::panel

@@ -119,6 +119,8 @@ class Serving {
         panel::PanelSettings settings;
         settings.version = MOTIONRACK_VERSION;
         settings.boot = boot_;
+        settings.pacer = &pacer_;
+        settings.journal = journal_.get();
         settings.link = [this] { return nlohmann::json{{"sender", "none"}, {"clients", server_ ? server_->load().clients : 0}}; };
         settings.elsewhere = server::door_orders(*door_);
         panel_ = std::make_unique<panel::Panel>(*machine_, lease_, std::move(settings));

@@ -1,0 +1,108 @@
+// A machine with its panel, asked at given instants of virtual time; everything in one thread but the panel's own worker.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <condition_variable>
+#include <deque>
+#include <fstream>
+#include <motionrack/authority/control_lease.hpp>
+#include <motionrack/panel/panel.hpp>
+#include <motionrack/panel/tables.hpp>
+#include <motionrack/rack/config.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace motionrack::panel {
+
+using nlohmann::json;
+
+inline std::string text_of_file(const std::string& path) {
+    std::ifstream in(std::string(MOTIONRACK_SOURCE_DIR) + "/" + path);
+    std::ostringstream out;
+    out << in.rdbuf();
+    return out.str();
+}
+
+inline rack::RackConfig config_of(const std::string& text) {
+    const rack::RackReading reading = rack::read_rack_text(text);
+    EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].text());
+    return *reading.config;
+}
+inline rack::RackConfig demonstration() { return config_of(text_of_file("examples/15_panel/demonstration.toml")); }
+/// Two axes without switches that stand where the file says.
+inline rack::RackConfig two_axes() {
+    return config_of("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n");
+}
+
+inline const Caller anna{"anna", authority::Role::maintain, "w1"}, bert{"bert", authority::Role::operate, "w2"}, eve{"eve", authority::Role::observe, "w3"},
+    nobody{"", authority::Role::nobody, "w4"};
+
+class Asked {
+  public:
+    explicit Asked(const rack::RackConfig& config, PanelSettings settings = {}, operate::MachineSettings machine_settings = {}) {
+        machine_settings.pace = [this](Instant now) { return pace(to_seconds(now)); };
+        auto made = operate::Machine::make(config, std::move(machine_settings));
+        EXPECT_TRUE(made) << made.error().message;
+        machine = std::move(*made);
+        settings.picture_every = std::chrono::microseconds(0);
+        panel = std::make_unique<Panel>(*machine, lease, std::move(settings));
+    }
+    /// Asks when `seconds` have come; the world waits for answers that come from the worker.
+    void at(double seconds, const Caller& caller, const std::string& name, json fields = json::object(), std::function<void(const Answer&)> look = {}) {
+        at(seconds, [this, caller, name, fields = std::move(fields), look = std::move(look)] { ask(caller, name, fields, look); });
+    }
+    void at(double seconds, std::function<void()> work) {
+        const auto later = std::find_if(orders_.begin(), orders_.end(), [&](const Timed& one) { return one.seconds > seconds; });
+        orders_.insert(later, {seconds, std::move(work)});
+    }
+    /// An order that must be taken; anna holds control.
+    void good(double seconds, const std::string& name, json fields = json::object()) {
+        at(seconds, anna, name, std::move(fields), [name](const Answer& answer) { EXPECT_EQ(answer.status, 200) << name << ": " << answer.body.dump(); });
+    }
+    void ask(const Caller& caller, const std::string& name, const json& fields, std::function<void(const Answer&)> look) {
+        ++open_;
+        panel->ask(caller, name, fields, [this, look = std::move(look)](const Answer& answer) {
+            if (look) look(answer);
+            --open_;
+        });
+    }
+    void run(double seconds) {
+        at(seconds, [this] { machine->quit(); });
+        machine->run();
+        EXPECT_EQ(open_, 0) << "an order was never answered";
+    }
+    double x() const { return machine->status().axes[0].commanded; }
+
+    authority::ControlLease lease;
+    std::unique_ptr<operate::Machine> machine;
+    std::unique_ptr<Panel> panel;
+
+  private:
+    struct Timed {
+        double seconds;
+        std::function<void()> work;
+    };
+    bool pace(double now) {
+        if (!machine || !panel) return true;
+        if (open_ > 0 && waits_ < 20'000 && now > 0) {  // the worker answers in real time
+            ++waits_;
+            std::this_thread::yield();
+            return false;
+        }
+        waits_ = 0;
+        while (!orders_.empty() && now >= orders_.front().seconds) {
+            const Timed one = std::move(orders_.front());
+            orders_.pop_front();
+            one.work();
+        }
+        return true;
+    }
+    std::deque<Timed> orders_;
+    std::atomic<int> open_{0};
+    int waits_ = 0;
+};
+
+}  // namespace motionrack::panel

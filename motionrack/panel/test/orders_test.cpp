@@ -1,0 +1,230 @@
+// Orders: who may, what is checked, and that the machine does them.
+#include <gmock/gmock.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "asked.hpp"
+
+namespace motionrack::panel {
+namespace {
+
+using testing::HasSubstr;
+
+std::string message(const Answer& answer) { return answer.body.contains("error") ? answer.body["error"]["message"].get<std::string>() : ""; }
+
+/// Looks that an answer is refused so.
+std::function<void(const Answer&)> refused(int status, const std::string& words) {
+    return [status, words](const Answer& answer) {
+        EXPECT_EQ(answer.status, status) << answer.body.dump();
+        EXPECT_THAT(message(answer), HasSubstr(words));
+    };
+}
+
+TEST(AskingThePanel, NeedsTheRoleTheLeaseAndAKnownName) {
+    Asked a(two_axes());
+    a.at(0.1, nobody, "status", json::object(), refused(401, "needs the role observe"));
+    a.at(0.1, eve, "enable", {{"on", true}}, refused(403, "eve has the role observe"));
+    a.at(0.1, bert, "enable", {{"on", true}}, refused(409, ""));
+    a.at(0.1, bert, "set_wire", {{"name", "estop"}, {"value", 0}}, refused(403, "needs the role maintain"));
+    a.at(0.1, anna, "fly", json::object(), refused(404, "no order and no query"));
+    a.at(0.1, anna, "invite", {{"role", "observe"}}, refused(409, "not possible here"));
+    a.run(0.3);
+    EXPECT_EQ(a.machine->state(), operate::MachineState::disabled);
+}
+
+TEST(AskingThePanel, ChecksFieldsWithASentence) {
+    Asked a(two_axes());
+    a.good(0.1, "take_control");
+    a.at(0.2, anna, "jog", {{"axis", "X"}}, refused(400, "speed is missing"));
+    a.at(0.2, anna, "jog", {{"axis", "X"}, {"speed", "fast"}}, refused(400, "must be a number"));
+    a.at(0.2, anna, "jog", {{"axis", "X"}, {"speed", 1e9}}, refused(400, "is possible"));
+    a.at(0.2, anna, "jog", {{"axis", "X"}, {"speed", std::nan("")}}, refused(400, "speed"));
+    a.at(0.2, anna, "jog", {{"axis", "X"}, {"speed", 1}, {"sped", 1}}, refused(400, "no field 'sped'"));
+    a.at(0.2, anna, "jog", json::array(), refused(400, "must be a JSON object"));
+    a.at(0.2, anna, "set_clock", {{"mode", "backwards"}}, refused(400, "one of real|free|paused"));
+    a.at(0.2, anna, "acknowledge", {{"alarm", 1.5}}, refused(400, "whole number"));
+    a.at(0.2, anna, "scope_arm", {{"channels", {"estop", 3}}}, refused(400, "list of texts"));
+    a.at(0.2, anna, "enable", {{"on", 1}}, refused(400, "true or false"));
+    a.run(0.4);
+}
+
+TEST(AnOperator, EnablesJogsAndDrivesAProgram) {
+    Asked a(two_axes());
+    a.good(0.1, "take_control");
+    a.good(0.2, "enable", {{"on", true}});
+    for (int i = 0; i < 10; ++i) a.good(0.3 + 0.1 * i, "jog", {{"axis", "X"}, {"speed", 10}});
+    a.good(1.3, "jog_stop");
+    a.at(2, [&] { EXPECT_GT(a.x(), 18); });
+    a.good(2.1, "jog_by", {{"axis", "Y"}, {"distance", 5}, {"speed", 20}});
+    a.good(3.5, "begin", {{"name", "p.ngc"}, {"text", "G21 G90 F1200\nG1 X30\nG1 X40 Y10\nM2\n"}});
+    a.good(3.6, "hold");
+    a.at(4.5, anna, "status", json::object(), [](const Answer& answer) {
+        EXPECT_EQ(answer.body["status"]["state"], "hold");
+        EXPECT_TRUE(answer.body["status"]["program"]["remaining_s"].is_number());
+    });
+    a.good(4.6, "resume");
+    a.at(9, anna, "program", json::object(), [](const Answer& answer) { EXPECT_EQ(answer.body["name"], "p.ngc"); });
+    a.run(10);
+    EXPECT_NEAR(a.x(), 40, 0.01);
+    EXPECT_EQ(a.machine->state(), operate::MachineState::standstill);
+}
+
+TEST(AnOperator, StopsAnythingWithoutAnyRight) {
+    Asked a(two_axes());
+    a.good(0.1, "take_control");
+    a.good(0.2, "enable", {{"on", true}});
+    a.good(0.3, "line", {{"text", "G1 X200 F600"}});
+    a.at(1, [&] { a.panel->stop(nobody); });
+    a.run(2);
+    EXPECT_LT(a.x(), 30);
+    EXPECT_EQ(a.machine->state(), operate::MachineState::standstill);
+}
+
+TEST(AnOperator, SetsSpeedsStepsZeroAndPlaces) {
+    Asked a(two_axes());
+    a.good(0.1, "take_control");
+    a.good(0.2, "enable", {{"on", true}});
+    a.good(0.3, "set_overrides", {{"feed", 0.5}});
+    a.good(0.3, "set_single_step", {{"on", true}});
+    a.good(0.4, "declare_position", {{"axis", "X"}, {"position", 100}});
+    a.good(0.6, "set_work_zero", {{"axis", "X"}, {"value", 5}});
+    a.at(0.7, [&] { EXPECT_NEAR(a.machine->stream().interpreter().frame().offset[0], 95, 1e-9); });
+    a.good(0.8, "set_single_step", {{"on", false}});
+    a.good(0.9, "line", {{"text", "G1 X6 F600"}});
+    a.at(0.9, anna, "line", {{"text", "G1 X"}}, refused(400, ""));
+    a.run(3);
+    EXPECT_DOUBLE_EQ(a.machine->status().feed_override, 0.5);
+    EXPECT_NEAR(a.x(), 101, 0.01);
+}
+
+TEST(AnOperator, SeesAnAlarmAcknowledgesItAndResets) {
+    Asked a(two_axes());
+    std::vector<std::string> kinds;
+    a.panel->on_event([&](const Event& event) { kinds.push_back(event.kind); });
+    a.good(0.1, "take_control");
+    a.good(0.2, "enable", {{"on", true}});
+    a.good(0.3, "press_estop", {{"pressed", true}});
+    a.at(0.5, eve, "status", json::object(), [](const Answer& answer) {
+        EXPECT_EQ(answer.body["status"]["state"], "error stop");
+        EXPECT_TRUE(answer.body["status"]["estop"]["pressed"].get<bool>());
+        EXPECT_EQ(answer.body["status"]["alarms"].size(), 1U);
+    });
+    a.good(0.6, "acknowledge", {{"alarm", 1}});
+    a.at(0.6, anna, "acknowledge", {{"alarm", 7}}, refused(400, "no alarm 7"));
+    a.good(0.7, "press_estop", {{"pressed", false}});
+    a.good(0.8, "reset");
+    a.at(0.9, eve, "events", {{"limit", 50}}, [](const Answer& answer) { EXPECT_GT(answer.body["events"].size(), 5U); });
+    a.run(1);
+    EXPECT_EQ(a.machine->state(), operate::MachineState::standstill);
+    EXPECT_THAT(kinds, testing::IsSupersetOf({"alarm", "state", "order"}));
+}
+
+TEST(Control, GoesToAnotherOnlyWithForceAndAtStandstill) {
+    Asked a(two_axes());
+    a.good(0.1, "take_control");
+    a.at(0.2, bert, "take_control", json::object(), refused(409, "anna"));
+    a.good(0.3, "enable", {{"on", true}});
+    a.good(0.4, "line", {{"text", "G1 X60 F1200"}});
+    a.at(0.6, bert, "take_control", {{"force", true}}, refused(409, ""));
+    a.at(5, bert, "take_control", {{"force", true}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 200); });
+    a.at(5.1, anna, "jog", {{"axis", "X"}, {"speed", 1}}, refused(409, "bert"));
+    a.at(5.2, eve, "control", json::object(), [](const Answer& answer) { EXPECT_EQ(answer.body["holder_session"], session_mark("w2")); });
+    a.at(5.3, bert, "release_control");
+    a.run(5.5);
+    EXPECT_FALSE(a.lease.holder());
+}
+
+TEST(CardsByHand, AreReadAndWrittenAtStandstillOnly) {
+    Asked a(two_axes());
+    a.good(0.1, "take_control");
+    a.at(0.2, anna, "read_register", {{"card", "m"}, {"bits", 16}, {"address", 0}}, [](const Answer& answer) { EXPECT_TRUE(answer.body["value"].is_number()) << answer.body; });
+    a.at(0.3, anna, "read_register", {{"card", "m"}, {"bits", 32}, {"address", 0}}, refused(409, "not of 32"));
+    a.at(0.3, anna, "read_register", {{"card", "q"}, {"bits", 16}, {"address", 0}}, refused(400, "no card"));
+    a.good(0.4, "enable", {{"on", true}});
+    a.good(0.5, "line", {{"text", "G1 X30 F600"}});
+    a.at(0.8, anna, "write_register", {{"card", "m"}, {"bits", 16}, {"address", 0}, {"value", 0}}, refused(409, "state 'moving'"));
+    a.at(4, [&] { EXPECT_TRUE(a.machine->status().axes[0].trusted); });
+    a.at(4.1, anna, "write_register", {{"card", "m"}, {"bits", 16}, {"address", 0}, {"value", 0x0F00}}, [](const Answer& answer) { EXPECT_EQ(answer.status, 200) << answer.body; });
+    a.run(4.5);
+    EXPECT_FALSE(a.machine->status().axes[0].trusted);
+}
+
+TEST(CardsByHand, HaveWiresAndFaults) {
+    Asked a(two_axes());
+    a.good(0.1, "take_control");
+    a.good(0.2, "set_wire", {{"name", "m.xin0"}, {"value", 0}});
+    a.at(0.3, [&] { EXPECT_EQ(*a.machine->wires().get("m.xin0"), 0); });
+    a.good(0.4, "set_wire", {{"name", "m.xin0"}, {"value", nullptr}});
+    a.at(0.5, anna, "set_wire", {{"name", "m.xpp"}, {"value", 1}}, refused(409, "output"));
+    a.good(0.6, "inject_fault", {{"target", "X"}, {"fault", "encoder.broken_a"}});
+    a.at(0.7, anna, "inject_fault", {{"target", "X"}, {"fault", "sulks"}}, refused(400, "no fault"));
+    a.at(0.7, anna, "set_clock", {{"mode", "paused"}}, refused(409, "clock"));
+    a.run(1);
+}
+
+TEST(TheTables, DescribeEveryOrderAndQueryInOpenApiAndOnThePage) {
+    const json& api = Panel::openapi();
+    const std::string page = api_reference();
+    std::set<std::string_view> names;
+    for (const auto table : {orders(), queries()})
+        for (const AskRow& row : table) {
+            EXPECT_TRUE(names.insert(row.name).second) << row.name << " is there twice";
+            EXPECT_TRUE(api["paths"].contains("/api/" + std::string(row.name)));
+            EXPECT_THAT(page, HasSubstr("### " + std::string(row.name) + "\n"));
+            EXPECT_EQ(row.text.back(), '.') << row.name;
+        }
+}
+
+/// Any JSON, three levels deep at most.
+rc::Gen<json> any_json(int depth = 3) {
+    const auto leaf = rc::gen::oneOf(rc::gen::map(rc::gen::arbitrary<double>(), [](double v) { return json(v); }),
+                                     rc::gen::map(rc::gen::arbitrary<std::int64_t>(), [](std::int64_t v) { return json(v); }),
+                                     rc::gen::map(rc::gen::arbitrary<bool>(), [](bool v) { return json(v); }), rc::gen::just(json()),
+                                     rc::gen::map(rc::gen::container<std::string>(rc::gen::inRange('\x20', '\x7f')), [](const std::string& v) { return json(v); }),
+                                     rc::gen::element(json("X"), json("m"), json(std::nan("")), json(1e308), json(-1), json("estop"), json("m.xin0")));
+    if (depth == 0) return leaf;
+    return rc::gen::oneOf(leaf, rc::gen::map(rc::gen::resize(4, rc::gen::container<std::vector<json>>(rc::gen::lazy([depth] { return any_json(depth - 1); }))),
+                                             [](const std::vector<json>& v) { return json(v); }));
+}
+
+struct Question {
+    std::string name;
+    json fields;
+};
+
+/// Of somebody who does not hold control.
+Question any_question() {
+    std::vector<const AskRow*> rows;
+    for (const auto table : {orders(), queries()})
+        for (const AskRow& row : table)
+            if (row.name != "take_control" && row.name != "press_estop") rows.push_back(&row);
+    const AskRow& row = **rc::gen::elementOf(rows);
+    Question out{std::string(row.name), json::object()};
+    for (const FieldRow& field : row.fields)
+        if (*rc::gen::inRange(0, 6) > 0) out.fields[std::string(field.name)] = *any_json();
+    if (*rc::gen::inRange(0, 8) == 0) out.fields["more"] = *any_json();
+    if (*rc::gen::inRange(0, 20) == 0) out.fields = *any_json();
+    return out;
+}
+
+RC_GTEST_PROP(AskingThePanel, AnswersAnyJsonWithASentenceAndMovesNothing, ()) {
+    const auto questions = *rc::gen::container<std::vector<Question>>(30, rc::gen::exec(any_question));
+    Asked a(two_axes());
+    std::size_t answers = 0;
+    for (std::size_t i = 0; i < questions.size(); ++i)
+        a.at(0.01 * static_cast<double>(i + 1), bert, questions[i].name, questions[i].fields, [&](const Answer& answer) {
+            ++answers;
+            EXPECT_NE(answer.body.contains("done"), answer.body.contains("error"));
+            if (answer.status != 200) { EXPECT_GT(message(answer).size(), 10U); }
+        });
+    a.run(0.5);
+    RC_ASSERT(answers == questions.size());
+    RC_ASSERT(a.x() == 10);
+    RC_ASSERT(a.machine->state() == operate::MachineState::disabled);
+}
+
+}  // namespace
+}  // namespace motionrack::panel
