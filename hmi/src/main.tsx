@@ -1,4 +1,5 @@
 // The page's beginning.
+import { effect } from '@preact/signals';
 import { render } from 'preact';
 import './style/base.css';
 import './style/parts.css';
@@ -10,9 +11,14 @@ import { App } from './app';
 import { listen } from './keys/handler';
 import { loadHistory } from './link/history';
 import { pairFromAddress } from './link/pairing';
+import { hello, machineState, status } from './link/state';
 import { connect, whenOpen } from './link/socket';
 import { keepControl } from './link/control';
 import { watch } from './view';
+
+effect(() => {
+  document.title = [hello.value?.rack, status.value && machineState.value, 'Motionrack'].filter(Boolean).join(' · ');
+});
 
 const pairing = pairFromAddress();
 watch();

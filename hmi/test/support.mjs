@@ -84,6 +84,7 @@ export async function until(look, what, ms = 5000) {
 
 export const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 export const named = (tab, order) => tab.sent.filter((one) => one.order === order);
+/** Waits for one of these states of the machine. */
 export const state = (tab, ...names) => until(() => names.includes(tab.status?.state), `state ${names.join(' or ')}, it is ${tab.status?.state}`);
 
 /** Takes control and enables the drives. */

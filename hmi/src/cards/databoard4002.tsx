@@ -1,6 +1,7 @@
 // The DataBoard 4002's panel: its ports by hand, status and events, the slope as a picture.
 import type { JSX } from 'preact';
 import { useMemo } from 'preact/hooks';
+import uPlot from 'uplot';
 import type { CardInfo } from '../link/rack';
 import { fixed } from '../parts/numbers';
 import { usePoll } from '../parts/poll';
@@ -9,37 +10,28 @@ import { Chart, Legend } from '../scope/chart';
 import { Console } from './console';
 import { Flags, Quantities, wordOf, type CardAnswer } from './peek';
 
-interface Interval {
-  position: number;
-  rate: number;
-  hz: number;
-}
 interface SlopesAnswer {
-  deceleration: Interval[];
-  acceleration: Interval[];
+  /** Speed in Hz over counts. */
+  slopes: { name: string; points: [number, number][] }[];
   moving: boolean;
   hz: number;
 }
 
-const NAMES = ['acceleration', 'deceleration'];
-
-/** Speed over the way, both halves over one list of places. An interval's speed holds until its position. */
-function curves(answer: SlopesAnswer): (number | null)[][] {
-  const places = [...new Set([0, ...answer.acceleration, ...answer.deceleration].map((one) => (typeof one === 'number' ? one : one.position)))].sort((a, b) => a - b);
-  const at = (half: Interval[], place: number): number | null => half.find((one) => place < one.position)?.hz ?? half[half.length - 1]?.hz ?? null;
-  return [places, places.map((place) => at(answer.acceleration, place)), places.map((place) => at(answer.deceleration, place))];
-}
+/** Both halves of the table over one list of places. */
+const curves = (answer: SlopesAnswer): (number | null)[][] =>
+  uPlot.join(answer.slopes.map((slope) => [slope.points.map(([at]) => at), slope.points.map(([, hz]) => hz)] as uPlot.AlignedData)).map((row) => [...(row as (number | null | undefined)[])].map((value) => value ?? null));
 
 function Slope({ card }: { card: CardInfo }): JSX.Element {
   const { data, why } = usePoll<SlopesAnswer>('slopes', { name: card.name }, 2000);
-  const picture = useMemo(() => (data.value === null ? [[], [], []] : curves(data.value)), [JSON.stringify([data.value?.acceleration, data.value?.deceleration])]);
-  const loaded = (picture[0]?.length ?? 0) > 2;
+  const names = (data.value?.slopes ?? []).map((slope) => slope.name);
+  const picture = useMemo(() => (data.value === null ? [] : curves(data.value)), [JSON.stringify(data.value?.slopes)]);
+  const loaded = (picture[0]?.length ?? 0) > 1;
   return (
     <Panel title="Slope" class="slope">
       {!loaded ? <Empty>{why.value || 'No slope has been loaded into the card (command S).'}</Empty> : (
         <>
-          <Chart data={picture} names={NAMES} xName="counts" label="Slope table: speed in Hz over the way in counts" height={240} stepped={() => true} />
-          <Legend names={NAMES} />
+          <Chart data={picture} names={names} xName="counts" label="Slope table: speed in Hz over the way in counts" height={240} />
+          <Legend names={names} />
           <p class="hint tabular">Hz over counts; {data.value?.moving === true ? `it moves at ${fixed(data.value.hz, 0)} Hz` : 'it stands'}</p>
         </>
       )}

@@ -18,29 +18,33 @@ interface BusCard {
   broken: number;
   untrue: number;
   unlike: number;
-  sequence?: number;
+  frame?: number;
   skew_ns?: number;
   positions?: number[];
 }
-interface FramesAnswer {
-  at: number;
+interface Bus {
+  name: string;
   published: number;
+  agree: boolean;
+  why: string;
   cards: BusCard[];
+}
+interface FramesAnswer {
+  buses: Bus[];
 }
 
 const MOST_SCALES = 8;
 
 const wordFor = (card: BusCard): string => (card.off ? 'off' : card.stale ? 'stale' : card.agrees ? 'yes' : 'no');
 
-function Table({ answer }: { answer: FramesAnswer }): JSX.Element {
-  const scales = Math.min(MOST_SCALES, Math.max(0, ...answer.cards.map((card) => card.positions?.length ?? 0)));
-  const bad = answer.cards.filter((card) => wordFor(card) !== 'yes');
+function Table({ bus }: { bus: Bus }): JSX.Element {
+  const scales = Math.min(MOST_SCALES, Math.max(0, ...bus.cards.map((card) => card.positions?.length ?? 0)));
   return (
     <>
-      <p class={`agreement ${bad.length > 0 ? 'no' : 'yes'}`}>
-        <Icon name={bad.length > 0 ? 'alarm' : 'check'} />
-        <strong>{bad.length > 0 ? `${bad.map((card) => card.name).join(', ')}: not the frame of the others` : 'All cards hold the same frame'}</strong>
-        <span class="tabular">{whole(answer.published)} frames published</span>
+      <p class={`agreement ${bus.agree ? 'yes' : 'no'}`}>
+        <Icon name={bus.agree ? 'check' : 'alarm'} />
+        <strong>{bus.agree ? 'All cards hold the same frame' : bus.why}</strong>
+        <span class="tabular">{whole(bus.published)} frames published</span>
       </p>
       <div class="scroll" tabIndex={0} role="region" aria-label="Cards of the bus">
         <table class="counters frames-table">
@@ -52,11 +56,11 @@ function Table({ answer }: { answer: FramesAnswer }): JSX.Element {
             </tr>
           </thead>
           <tbody>
-            {answer.cards.map((card) => (
+            {bus.cards.map((card) => (
               <tr key={card.name}>
                 <th scope="row">{card.name}</th>
                 <td>{card.role}</td>
-                <td class="tabular">{whole(card.sequence)}</td>
+                <td class="tabular">{whole(card.frame)}</td>
                 <td class="tabular">{fixed(card.age_us, 1)}</td>
                 <td class="tabular">{fixed(card.skew_ns, 1)}</td>
                 <td class="tabular">{whole(card.broken)}</td>
@@ -77,7 +81,7 @@ export function Frames(): JSX.Element {
   const { data, why } = usePoll<FramesAnswer>('frames', {}, 200);
   return (
     <Panel title="Frames of all cards" class="wide frames">
-      {data.value === null ? <Empty>{why.value || 'Asking for the frames …'}</Empty> : <Table answer={data.value} />}
+      {data.value === null ? <Empty>{why.value || 'Asking for the frames …'}</Empty> : data.value.buses.map((bus) => <Table key={bus.name} bus={bus} />)}
     </Panel>
   );
 }

@@ -53,7 +53,7 @@ export function Flex({ card }: { card: CardInfo }): JSX.Element {
       </Panel>
       <Panel title="Diagnostics">
         {shown.map((one) => <Flags key={one.name} register={one} word={wordOf(data.value, one.name)} />)}
-        {card.numbers.length > 0 && <Quantities card={card} />}
+        {card.quantities.length > 0 && <Quantities card={card} />}
       </Panel>
       <Panel title="Registers by hand" class="ports"><Console card={card} /></Panel>
     </>

@@ -21,11 +21,10 @@ const COUNTERS = [
   { name: 'CA', text: 'present acceleration' },
 ] as const;
 
-const CHANNELS = ['x', 'y', 'z', 'u'] as const;
 const axisAt = (card: CardInfo, which: string): string | undefined => card.axes.find((axis) => axis.channel === which)?.letter;
 
 function Counters({ card }: { card: CardInfo }): JSX.Element {
-  const names = CHANNELS.flatMap((which) => COUNTERS.map((one) => `${card.name}.${which}.${one.name}`)).filter((name) => channelNames.value.has(name));
+  const names = card.channels.flatMap((which) => COUNTERS.map((one) => `${card.name}.${which}.${one.name}`)).filter((name) => channelNames.value.has(name));
   const key = names.join(' ');
   useEffect(() => want(key === '' ? [] : key.split(' '), EVERY_HZ), [key]);
   return (
@@ -34,7 +33,7 @@ function Counters({ card }: { card: CardInfo }): JSX.Element {
         <tr><th scope="col">Channel</th>{COUNTERS.map((one) => <th key={one.name} scope="col" title={one.text}>{one.name}<small>{one.text}</small></th>)}<th scope="col">Lamps</th></tr>
       </thead>
       <tbody>
-        {CHANNELS.map((which) => {
+        {card.channels.map((which) => {
           const letter = axisAt(card, which);
           const axis = letter === undefined ? undefined : axisOf(letter);
           return (
@@ -52,7 +51,7 @@ function Counters({ card }: { card: CardInfo }): JSX.Element {
 
 function Speeds({ card }: { card: CardInfo }): JSX.Element {
   const what = useSignal<'CV' | 'LP' | 'EP' | 'CA'>('CV');
-  const names = CHANNELS.map((which) => `${card.name}.${which}.${what.value}`).filter((name) => channelNames.value.has(name));
+  const names = card.channels.map((which) => `${card.name}.${which}.${what.value}`).filter((name) => channelNames.value.has(name));
   const data = useHistory(names, EVERY_HZ, 10);
   return (
     <Panel title="Last ten seconds" class="trend" tools={<Choice label="What the picture shows" value={what.value} onChange={(to) => (what.value = to)} options={COUNTERS.map((one) => ({ value: one.name, text: one.name }))} />}>
@@ -64,7 +63,7 @@ function Speeds({ card }: { card: CardInfo }): JSX.Element {
 
 /** Moves of one axis, by hand. */
 function Moves({ card }: { card: CardInfo }): JSX.Element {
-  const letters = CHANNELS.map((which) => axisAt(card, which)).filter((one): one is string => one !== undefined);
+  const letters = card.channels.map((which) => axisAt(card, which)).filter((one): one is string => one !== undefined);
   const chosen = useSignal('');
   const distance = useSignal('10');
   const speed = useSignal('20');

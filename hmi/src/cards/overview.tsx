@@ -6,7 +6,7 @@ import { Empty, Panel } from '../parts/ui';
 import { address, detail } from '../view';
 import { Databoard } from './databoard4002';
 import { Flex } from './ioflex02';
-import { Grating } from './grating_bus';
+import { Frames, Grating } from './grating_bus';
 import { Mcx } from './mcx314';
 import { Pins } from './pins';
 import { Laser } from './rtc5';
@@ -37,9 +37,12 @@ export function Cards(): JSX.Element {
   const card = cardNamed(detail.value);
   if (card === undefined)
     return (
-      <Panel title={`Cards of ${rack.value?.name ?? 'the rack'}`}>
-        {cards.length === 0 ? <Empty>The rack has no cards.</Empty> : <div class="tiles">{cards.map((one) => <Tile key={one.name} card={one} />)}</div>}
-      </Panel>
+      <div class="column">
+        <Panel title={`Cards of ${rack.value?.name ?? 'the rack'}`}>
+          {cards.length === 0 ? <Empty>The rack has no cards.</Empty> : <div class="tiles">{cards.map((one) => <Tile key={one.name} card={one} />)}</div>}
+        </Panel>
+        {cards.some((one) => one.type === 'grating_bus') && <Frames />}
+      </div>
     );
   const Own = PANELS[card.type];
   return (

@@ -9,13 +9,13 @@ import { fieldValues } from './words';
 
 export interface CardAnswer {
   registers: { name: string; register: string; word: number }[];
-  values: Record<string, number>;
-  numbers: Record<string, number>;
+  values: { name: string; value: number }[];
+  quantities: { name: string; value: number }[];
   pins: Record<string, number>;
 }
 
 export const wordOf = (answer: CardAnswer | null, name: string): number | null => answer?.registers.find((one) => one.name === name)?.word ?? null;
-export const valueOf = (answer: CardAnswer | null, name: string): number | null => answer?.values[name] ?? wordOf(answer, name);
+export const valueOf = (answer: CardAnswer | null, name: string): number | null => answer?.values.find((one) => one.name === name)?.value ?? wordOf(answer, name);
 
 /** One register: single bits are lamps, wider fields numbers. */
 export function Flags({ register, word }: { register: RegisterInfo; word: number | null }): JSX.Element {
@@ -36,7 +36,7 @@ export function Flags({ register, word }: { register: RegisterInfo; word: number
 
 /** The numbers that the card itself tells, live. */
 export function Quantities({ card }: { card: CardInfo }): JSX.Element {
-  const own = channelList.value.filter((one) => one.name.startsWith(`${card.name}.`) && card.numbers.includes(one.name.slice(card.name.length + 1)));
+  const own = channelList.value.filter((one) => one.name.startsWith(`${card.name}.`) && card.quantities.includes(one.name.slice(card.name.length + 1)));
   const key = own.map((one) => one.name).join(' ');
   useEffect(() => want(key === '' ? [] : key.split(' '), 10), [key]);
   if (own.length === 0) return <Empty>The card tells no numbers of its own.</Empty>;

@@ -19,8 +19,8 @@ export function Pins({ card }: { card: CardInfo }): JSX.Element {
           {pins.map((pin) => {
             const level = channel(pin.full).value;
             return (
-              <li key={pin.name}>
-                {pin.volts ? <span class="volts tabular">{fixed(level, 3)} V</span> : pin.bits > 1 ? <span class="volts tabular">{whole(level)}</span> : <Led on={level === 1} letter={level === null ? '–' : String(level)} text={pin.name} />}
+              <li key={pin.name} title={pin.meaning}>
+                {pin.volts ? <span class="volts tabular">{fixed(level, 3)} V</span> : pin.bits > 1 ? <span class="volts tabular">{whole(level)}</span> : <Led on={level === 1} letter={level === null ? '–' : String(level)} text={`${pin.name}, ${pin.meaning}`} />}
                 <code>{pin.name}</code>
                 <small>{pin.direction === 'input' ? 'in' : 'out'}</small>
               </li>

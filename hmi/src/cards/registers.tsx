@@ -48,8 +48,8 @@ export function Inspector({ card }: { card: CardInfo }): JSX.Element {
   const fits = (name: string): boolean => name.toLowerCase().includes(filter.value.toLowerCase());
   const registers = (data.value?.registers ?? []).filter((one) => fits(one.name));
   const own = new Set((data.value?.registers ?? []).map((one) => one.name));
-  const values = Object.entries(data.value?.values ?? {}).filter(([name]) => fits(name) && !own.has(name));
-  const numbers = Object.entries(data.value?.numbers ?? {}).filter(([name]) => fits(name));
+  const values = (data.value?.values ?? []).filter(({ name }) => fits(name) && !own.has(name));
+  const numbers = (data.value?.quantities ?? []).filter(({ name }) => fits(name));
   const toggle = (name: string): void => {
     opened.value = opened.value.includes(name) ? opened.value.filter((one) => one !== name) : [...opened.value, name];
   };
@@ -65,8 +65,8 @@ export function Inspector({ card }: { card: CardInfo }): JSX.Element {
       </ul>
       {values.length + numbers.length > 0 && (
         <dl class="values">
-          {values.map(([name, value]) => <div key={name}><dt><code>{name}</code></dt><dd class="tabular">{whole(value)}</dd></div>)}
-          {numbers.map(([name, value]) => <div key={name}><dt><code>{name}</code></dt><dd class="tabular">{fixed(value, 3)}</dd></div>)}
+          {values.map(({ name, value }) => <div key={name}><dt><code>{name}</code></dt><dd class="tabular">{whole(value)}</dd></div>)}
+          {numbers.map(({ name, value }) => <div key={name}><dt><code>{name}</code></dt><dd class="tabular">{fixed(value, 3)}</dd></div>)}
         </dl>
       )}
     </>

@@ -1,6 +1,7 @@
 // The keyboard: one table that the page obeys and that its help shows.
 import { actions, perform, setFeed } from '../actions';
 import { axes } from '../link/state';
+import { dialogOpen, inviteOpen } from '../link/pairing';
 import { setStep, stepIndex, STEPS } from '../jog/lease';
 import { helpOpen } from '../view';
 
@@ -25,7 +26,7 @@ export interface JogKey {
 }
 
 export const KEYS: readonly Key[] = [
-  { keys: ['Escape'], shown: 'Esc', text: 'STOP: controlled stop, the program is aborted', always: true, press: () => perform(actions.stop) },
+  { keys: ['Escape'], shown: 'Esc', text: 'STOP: controlled stop, the program is aborted', always: true, press: escape },
   { keys: [' '], shown: 'Space', text: 'Feed hold; a second press does not resume', press: () => perform(actions.hold) },
   { keys: ['F1'], shown: 'F1', text: 'E-stop input on or off (simulated)', always: true, press: () => perform(actions.estop) },
   { keys: ['F2'], shown: 'F2', text: 'Enable or disable the drives', always: true, press: () => perform(actions.enable) },
@@ -52,6 +53,12 @@ export const JOG_KEYS: readonly JogKey[] = [
   { keys: ['PageDown', 'PageUp'], shown: 'PgDn PgUp', text: 'Jog Z − / +', axis: named('Z') },
   { keys: ['[', ']'], shown: '[ ]', text: 'Jog the fourth axis − / +', axis: (letters) => letters.find((one) => !'XYZ'.includes(one)) },
 ];
+
+/** STOP first; a dialog that is open is closed, too. */
+function escape(): void {
+  perform(actions.stop);
+  helpOpen.value = dialogOpen.value = inviteOpen.value = false;
+}
 
 function nextStep(): void {
   const distances = STEPS.length - 1;

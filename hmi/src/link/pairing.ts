@@ -5,6 +5,7 @@ import { notice, sentence } from './orders';
 import { showToken, TOKEN_KEY } from './socket';
 
 export const dialogOpen = signal(false);
+export const inviteOpen = signal(false);
 /** What is in the dialog. */
 export const codeText = signal('');
 export const nameText = signal(localStorage.getItem('motionrack.name') ?? '');

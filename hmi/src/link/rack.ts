@@ -29,6 +29,7 @@ export interface PinInfo {
   direction: string;
   volts: boolean;
   bits: number;
+  meaning: string;
 }
 export interface StateMachine {
   name: string;
@@ -49,16 +50,17 @@ export interface CardInfo {
   machines: StateMachine[];
   pins: PinInfo[];
   values: string[];
-  numbers: string[];
+  quantities: string[];
+  channels: string[];
 }
 export interface RackInfo {
   name: string;
   axes: { letter: string; unit: string; card: string; channel: string }[];
   cards: CardInfo[];
   wires: { name: string; volts: boolean; bits: number; drivable: boolean }[];
-  stages: { name: string; card: string }[];
-  tracks: { name: string }[];
-  scanners: { name: string; card: string }[];
+  scanners: string[];
+  /** Stages, belts, tables, scan heads. */
+  parts: { name: string; kind: string; card: string | null }[];
   faults: { target: string; faults: string[] }[];
 }
 export interface ChannelInfo {

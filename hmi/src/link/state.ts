@@ -18,10 +18,11 @@ export const events = signal<MachineEvent[]>([]);
 /** Milliseconds since the newest picture, looked at ten times a second. */
 export const age = signal(Infinity);
 export const STALE_MS = 500;
-export const stale = computed(() => link.value !== 'open' || age.value > STALE_MS);
+const AGE_STEP_MS = 50;
+export const stale = computed(() => link.value !== 'open' || age.value >= STALE_MS);
 
 export function lookAtAge(): void {
-  age.value = received.value === 0 ? Infinity : Math.max(0, performance.now() - received.value);
+  age.value = received.peek() === 0 ? Infinity : Math.max(0, Math.floor((performance.now() - received.peek()) / AGE_STEP_MS) * AGE_STEP_MS);
 }
 setInterval(lookAtAge, 100);
 effect(() => {

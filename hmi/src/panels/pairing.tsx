@@ -2,7 +2,7 @@
 import { signal } from '@preact/signals';
 import type { JSX } from 'preact';
 import { orderFor, sentence, whyNot } from '../link/orders';
-import { codeText, dialogOpen, nameText, pair, whyNotPaired } from '../link/pairing';
+import { codeText, dialogOpen, inviteOpen, nameText, pair, whyNotPaired } from '../link/pairing';
 import { Dialog } from '../parts/dialog';
 import { Button, Choice, Field } from '../parts/ui';
 
@@ -36,7 +36,6 @@ export function Pairing(): JSX.Element {
   );
 }
 
-export const inviteOpen = signal(false);
 const ROLES = ['observe', 'operate', 'maintain'] as const;
 const role = signal<(typeof ROLES)[number]>('operate');
 const made = signal('');

@@ -36,9 +36,9 @@ function Findings({ result }: { result: Check }): JSX.Element {
         <dl class="facts-list">
           <div><dt>lines</dt><dd class="tabular">{result.lines}</dd></div>
           <div><dt>takes</dt><dd class="tabular">{duration(result.seconds)}</dd></div>
-          <div><dt>path</dt><dd class="tabular">{fixed(result.path_mm, 1)} mm</dd></div>
-          {Object.entries(result.extents ?? {}).map(([letter, [least, greatest]]) => (
-            <div key={letter}><dt>{letter}</dt><dd class="tabular">{fixed(least, 3)} … {fixed(greatest, 3)}</dd></div>
+          <div><dt>path</dt><dd class="tabular">{fixed(result.length_mm, 1)} mm</dd></div>
+          {Object.entries(result.least ?? {}).map(([letter, least]) => (
+            <div key={letter}><dt>{letter}</dt><dd class="tabular">{fixed(least, 3)} … {fixed(result.greatest?.[letter], 3)}</dd></div>
           ))}
         </dl>
       ) : (

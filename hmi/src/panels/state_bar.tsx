@@ -80,7 +80,7 @@ function LinkAge(): JSX.Element {
   const { value: link } = state.link;
   const ms = state.age.value;
   const text = link === 'connecting' ? 'connecting' : link === 'lost' ? 'lost' : state.stale.value ? 'silent' : 'live';
-  const shown = Number.isFinite(ms) ? (ms > state.STALE_MS ? `${(ms / 1000).toFixed(1)} s old` : `< ${Math.max(100, Math.ceil(ms / 100) * 100)} ms`) : '';
+  const shown = Number.isFinite(ms) ? (ms >= state.STALE_MS ? `${(ms / 1000).toFixed(1)} s old` : `< ${Math.ceil((ms + 1) / 100) * 100} ms`) : '';
   return (
     <div class={`fact ${text === 'live' ? 'calm' : 'attention'}`} title={`Pictures left out because this browser was slow: ${state.lost.value}`}>
       <span class="name">Data</span>

@@ -1,12 +1,11 @@
 // The second row: views, who holds control, the clock, who this browser is, its looks.
 import type { JSX } from 'preact';
 import { releaseControl, takeControl } from '../link/control';
-import { forget, dialogOpen } from '../link/pairing';
+import { dialogOpen, forget, inviteOpen } from '../link/pairing';
 import { hasRole, whyNot } from '../link/orders';
 import * as state from '../link/state';
 import { Icon, type IconName } from '../parts/icons';
 import { Button } from '../parts/ui';
-import { inviteOpen } from './pairing';
 import { address, dark, helpOpen, largeNumbers, setTheme, view, type View } from '../view';
 
 const TABS: readonly { view: View; text: string; icon: IconName }[] = [

@@ -1,4 +1,4 @@
-// A dialog of the browser's own: focus stays in it, Esc closes it too (and is STOP all the same).
+// A dialog over the page, which stays in use below it: STOP is never covered. Esc closes it, and is STOP all the same.
 import type { ComponentChildren, JSX } from 'preact';
 import { useEffect, useId, useRef } from 'preact/hooks';
 import { Icon } from './icons';

@@ -2,13 +2,13 @@
 import { computed, signal } from '@preact/signals';
 import { query } from '../link/orders';
 import * as state from '../link/state';
-import { checked, type Polyline } from './checked';
+import { checked, type Check } from './checked';
 
 /** `driven`: time, then places by the letters of `axes`; oldest first. `planned` only when it is another than the one asked about. */
 interface PathAnswer {
   number: number;
   axes: string;
-  planned?: Polyline | null;
+  planned?: number[][] | null;
   driven: number[][];
   errors?: number[];
 }
@@ -46,9 +46,9 @@ function inOrder(axes: string, points: readonly number[][]): number[][] {
   return points.map((point) => from.map((i) => point[i] ?? 0));
 }
 
-function show(path: Polyline | null | undefined, is: 'checked' | 'running'): void {
-  if (path === null || path === undefined || path.points.length < 2) return;
-  planned.value = inOrder(path.axes, path.points);
+function show(axes: string, path: number[][] | null | undefined, is: 'checked' | 'running'): void {
+  if (path === null || path === undefined || path.length < 2) return;
+  planned.value = inOrder(axes, path);
   plannedIs.value = is;
 }
 
@@ -56,7 +56,7 @@ async function look(): Promise<void> {
   try {
     const list = driven.peek();
     const answer = await query<PathAnswer>('path', { have, since: list[list.length - 1]?.at ?? since });
-    if (answer.number !== have) show(answer.planned, 'running');
+    if (answer.number !== have) show(answer.axes, answer.planned, 'running');
     have = answer.number;
     if (answer.driven.length === 0) return;
     const places = inOrder(answer.axes, answer.driven.map(([, ...place]) => place));
@@ -75,7 +75,7 @@ export function follow(): () => void {
     if (live) timer = setTimeout(() => void again(), EVERY_MS);
   };
   void again();
-  const stopShowing = checked.subscribe((result) => show(result?.path, 'checked'));
+  const stopShowing = checked.subscribe((result: Check | null) => result !== null && show(result.axes, result.path, 'checked'));
   return () => {
     live = false;
     clearTimeout(timer);

@@ -4,16 +4,17 @@ import type { JSX } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 import { status } from '../link/state';
 import { Empty } from '../parts/ui';
-import { program, programName } from './text';
+import { program, running } from './text';
 
 const ROW = 22;
 const MORE = 8;
 
-const lines = computed(() => program.value.split(/\r?\n/));
+const shown = computed(() => running.value?.text ?? program.value);
+const lines = computed(() => shown.value.split(/\r?\n/));
 /** 1-based; 0: none of this text. */
 const current = computed(() => {
   const now = status.value?.program;
-  return now !== undefined && now.name === programName.value && now.runs ? now.line : 0;
+  return now?.runs === true && running.value !== null ? now.line : 0;
 });
 
 export function Listing(): JSX.Element {
@@ -31,7 +32,7 @@ export function Listing(): JSX.Element {
     const element = box.current;
     if (element !== null && current.value > 0) element.scrollTop = Math.max(0, (current.value - 1) * ROW - element.clientHeight / 2);
   }, [current.value]);
-  if (program.value === '') return <Empty>No program. Open a file, or press Edit and type one.</Empty>;
+  if (shown.value === '') return <Empty>No program. Open a file, or press Edit and type one.</Empty>;
   const first = Math.max(0, Math.floor(top.value / ROW) - MORE);
   const last = Math.min(lines.value.length, Math.ceil((top.value + height.value) / ROW) + MORE);
   return (

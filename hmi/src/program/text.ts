@@ -1,11 +1,21 @@
 // The program that is in the panel: its name and text, kept over a reload.
-import { effect, signal } from '@preact/signals';
+import { computed, effect, signal } from '@preact/signals';
+import { query } from '../link/orders';
+import { link, status } from '../link/state';
 
 const KEY = 'motionrack.program';
 const MOST_KEPT = 2_000_000;
 
 export const programName = signal(localStorage.getItem(`${KEY}.name`) ?? 'program.ngc');
 export const program = signal(localStorage.getItem(KEY) ?? '');
+
+/** The program that runs, whoever began it. */
+export const running = signal<{ name: string; text: string } | null>(null);
+const runs = computed(() => (link.value === 'open' && status.value?.program.runs === true ? status.value.program.name : ''));
+effect(() => {
+  if (runs.value === '') running.value = null;
+  else query<{ name: string; text: string }>('program').then((answer) => (running.value = answer), () => undefined);
+});
 
 effect(() => {
   const text = program.value;

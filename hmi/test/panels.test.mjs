@@ -1,0 +1,206 @@
+// The panels of the demonstration rack: each shows what its card or the machine really has; a picture of each is kept in the build folder.
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { openTab, picture, RACKS, state, suite, takeControl, until } from './support.mjs';
+
+const all = suite(test, RACKS.all);
+
+async function at(view, options) {
+  const tab = await openTab(all.browser, all.server, { hash: `#/${view}`, ...options });
+  await takeControl(tab);
+  return tab;
+}
+
+async function done(tab) {
+  await tab.page.keyboard.press('Escape');
+  await state(tab, 'standstill');
+  await tab.page.getByRole('button', { name: 'Release', exact: true }).click();
+  assert.deepEqual(tab.troubles, []);
+  await tab.context.close();
+}
+
+const panel = (tab, name) => tab.page.getByRole('region', { name });
+const number = (text) => Number(text.replace(/\u2009/g, '').replace('\u2212', '-'));
+
+test('axes are homed, with their phases and what was found; then they are trusted', async () => {
+  const tab = await at('operate');
+  await tab.page.getByRole('button', { name: 'Home all' }).click();
+  await tab.page.getByRole('list', { name: 'Phases of homing' }).waitFor();
+  await state(tab, 'homing');
+  await until(() => tab.status.state === 'standstill', 'all axes are homed', 60000);
+  await until(() => tab.status.axes.every((axis) => axis.trusted), 'all positions are trusted');
+  assert.equal(await tab.page.locator('.homed.yes').count(), 4);
+  await tab.page.getByText('Homed; what was found').click();
+  await tab.page.locator('.homing td').first().waitFor();
+  await done(tab);
+});
+
+test('a checked program shows its time, extents and path; a bad one its problems with their lines', async () => {
+  const tab = await at('operate');
+  await tab.page.getByRole('button', { name: 'Edit' }).click();
+  await tab.page.getByLabel('Program text').fill('G21 G90\nG1 F1200 X20 Y10\nX10\nM2\n');
+  await tab.page.getByRole('button', { name: 'Check' }).click();
+  await tab.page.locator('.findings').getByText('takes').waitFor();
+  await tab.page.getByText('planned: the checked program').waitFor();
+  await tab.page.getByLabel('Program text').fill('G21\nG1 X9999 F100\n');
+  await tab.page.getByRole('button', { name: 'Check' }).click();
+  await tab.page.locator('.problems').getByText(/Line 2/).waitFor();
+  await done(tab);
+});
+
+test('the MCX314 shows its counters, and they count', async () => {
+  const tab = await at('cards/motion');
+  const lp = () => panel(tab, /^motion:/).locator('tbody tr').first().locator('td').first().innerText();
+  await until(async () => Number.isFinite(number(await lp())), 'LP of x');
+  const before = number(await lp());
+  await panel(tab, 'Moves and homing').getByRole('button', { name: 'Move +' }).click();
+  await until(async () => number(await lp()) > before, 'LP counts up');
+  await state(tab, 'standstill');
+  assert.ok((await panel(tab, 'Inputs and outputs').locator('li').count()) > 8);
+  await picture(tab, 'card_mcx314', true);
+  await done(tab);
+});
+
+test('the DataBoard 4002 answers at its ports by hand, and shows its status', async () => {
+  const tab = await at('cards/positioner');
+  const ports = panel(tab, 'Ports');
+  await ports.getByLabel('Where').selectOption({ label: '01h CS/STAT' });
+  await ports.getByRole('button', { name: 'Read' }).click();
+  await ports.getByRole('log').getByText(/^[0-9A-F]{2}h$/).waitFor();
+  await tab.page.getByRole('group', { name: /^STAT/ }).getByText('READY').waitFor();
+  await ports.getByRole('button', { name: /^G: / }).click();
+  await ports.getByRole('log').getByText('command G').waitFor();
+  await picture(tab, 'card_databoard4002', true);
+  await done(tab);
+});
+
+test('the IOFLEX02 shows four positions and is calibrated', async () => {
+  const tab = await at('cards/glass');
+  const rows = panel(tab, /^glass:/).locator('tbody tr');
+  await until(async () => Number.isFinite(number(await rows.first().locator('td').first().innerText())), 'the position of axis 0');
+  assert.equal(await rows.count(), 4);
+  await rows.first().getByRole('button', { name: /Zero now/ }).click();
+  await until(async () => (await rows.first().locator('td').first().innerText()) === '0', 'position 0');
+  await picture(tab, 'card_ioflex02', true);
+  await done(tab);
+});
+
+test('the grating bus shows the frames of all its cards, and that they agree', async () => {
+  const tab = await at('cards/host');
+  const frames = panel(tab, 'Frames of all cards');
+  await frames.getByText('All cards hold the same frame').waitFor();
+  assert.ok((await frames.locator('tbody tr').count()) >= 3);
+  await picture(tab, 'card_grating_bus', true);
+  await done(tab);
+});
+
+test('the RTC5 marks, and the work piece is drawn', async () => {
+  const tab = await at('cards/scan');
+  await panel(tab, 'Mark').getByRole('button', { name: 'each part' }).click();
+  await panel(tab, 'Mark').getByRole('button', { name: 'Mark', exact: true }).click();
+  const piece = panel(tab, /^Work piece/);
+  await until(async () => ((await piece.locator('path.marks').getAttribute('d')) ?? '').length > 100, 'marks on the work piece', 30000);
+  await picture(tab, 'card_rtc5', true);
+  await panel(tab, 'Mark').getByRole('button', { name: 'Stop marking' }).click();
+  await done(tab);
+});
+
+test('registers are shown with the names of their bits, and looking gives no order', async () => {
+  const tab = await at('registers/motion');
+  const before = tab.sent.filter((one) => one.order !== 'keep_control').length;
+  await tab.page.getByRole('button', { name: /^RR0/ }).click();
+  await until(async () => (await tab.page.locator('.bits li').count()) > 4, 'fields of RR0');
+  await tab.page.getByLabel('Find').fill('LP');
+  await tab.page.getByText('x.LP').waitFor();
+  assert.equal(tab.sent.filter((one) => one.order !== 'keep_control').length, before);
+  await picture(tab, 'registers');
+  await done(tab);
+});
+
+test('a wire is driven by hand and released; a fault is made and mended', async () => {
+  const tab = await at('faults');
+  await tab.page.getByLabel('Find').fill('Y.limit_plus');
+  const wire = tab.page.locator('.wirelist li').filter({ hasText: 'Y.limit_plus' }).first();
+  await wire.getByRole('button', { name: /to 0/ }).click();
+  await wire.getByText('by hand').waitFor();
+  await until(() => tab.status.axes[1].leds.hard_plus === true, 'the limit switch of Y acts');
+  await picture(tab, 'faults');
+  await wire.getByRole('button', { name: /Release/ }).click();
+  await until(() => tab.status.axes[1].leds.hard_plus === false, 'it does not any more');
+  await tab.page.getByLabel('Of').selectOption('X');
+  const fault = tab.page.locator('.faultlist li').first();
+  await fault.getByRole('button', { name: 'Break' }).click();
+  await fault.getByRole('button', { name: 'Mend' }).click();
+  await fault.getByRole('button', { name: 'Break' }).waitFor();
+  await done(tab);
+});
+
+test('the scope records numbers and edges, with two cursors and an export', async () => {
+  const tab = await at('scope');
+  for (const name of ['scan.enc0_a', 'X.commanded']) {
+    await tab.page.getByLabel('Add a channel').fill(name);
+    await tab.page.locator('.picker .found').getByRole('button', { name }).first().click();
+  }
+  await tab.page.getByLabel('Trigger', { exact: true }).selectOption('scan.enc0_a');
+  await tab.page.getByRole('button', { name: 'Single' }).click();
+  await tab.page.locator('.chart canvas').waitFor({ timeout: 15000 });
+  await tab.page.getByText('recorded', { exact: true }).waitFor();
+  await tab.page.getByLabel(/^Cursor B/).fill('5');
+  await tab.page.locator('.cursors tbody tr').nth(2).waitFor();
+  const file = tab.page.waitForEvent('download');
+  await tab.page.getByRole('button', { name: 'CSV' }).click();
+  assert.equal((await file).suggestedFilename(), 'scope.csv');
+  await picture(tab, 'scope');
+  await done(tab);
+});
+
+test('the clock is paused, stepped and let go', async () => {
+  const tab = await at('operate');
+  const clock = panel(tab, 'Clock and E-stop input');
+  await clock.getByRole('button', { name: 'Pause' }).click();
+  await until(() => tab.status.clock.mode === 'paused', 'the clock stands');
+  const before = tab.status.at;
+  await clock.getByLabel('Step').fill('0.01');
+  await clock.getByRole('button', { name: 'Step', exact: true }).click();
+  await until(() => tab.status.at > before, 'a step');
+  assert.ok(tab.status.at - before < 0.05);
+  await clock.getByRole('button', { name: 'Real' }).click();
+  await until(() => tab.status.clock.mode === 'real', 'the clock goes');
+  await done(tab);
+});
+
+test('an alarm is told, survives a reload, and is acknowledged', async () => {
+  const tab = await at('operate');
+  await tab.page.keyboard.press('F1');
+  await state(tab, 'error stop');
+  await tab.page.getByRole('alert').getByText(/emergency stop/i).waitFor();
+  await tab.page.reload();
+  await tab.page.locator('main .view').first().waitFor();
+  await tab.page.getByRole('alert').getByText(/emergency stop/i).waitFor();
+  await tab.page.evaluate(() => (location.hash = '#/events'));
+  await panel(tab, 'Alarms').getByText('active, unacknowledged').waitFor();
+  await picture(tab, 'events');
+  await tab.page.keyboard.press('F1');
+  await until(() => !tab.status.estop.pressed, 'released');
+  await tab.page.getByRole('button', { name: /Take/ }).click();
+  await tab.page.getByText('You hold control').waitFor();
+  await tab.page.getByRole('group', { name: 'Motion' }).getByRole('button', { name: 'Reset' }).click();
+  await panel(tab, 'Alarms').getByRole('button', { name: 'Acknowledge' }).first().click();
+  await until(() => tab.status.alarms.every((alarm) => alarm.acknowledged), 'acknowledged');
+  await tab.page.getByRole('alert').getByText(/emergency stop/i).waitFor({ state: 'detached' });
+  await state(tab, 'standstill', 'disabled');
+  await tab.context.close();
+});
+
+for (const scheme of ['dark', 'light'])
+  test(`pictures of the operating view, ${scheme}`, async () => {
+    const tab = await at('operate', { scheme });
+    await picture(tab, `operate_${scheme}`);
+    await done(tab);
+  });
+
+test('a picture of the phone', async () => {
+  const tab = await openTab(all.browser, all.server, { width: 360, height: 740 });
+  await picture(tab, 'phone', true);
+  await tab.context.close();
+});
