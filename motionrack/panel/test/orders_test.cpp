@@ -4,6 +4,8 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <motionrack/panel/test/panel_fuzz.hpp>
 #include <set>
 
 #include "asked.hpp"
@@ -176,6 +178,19 @@ TEST(TheTables, DescribeEveryOrderAndQueryInOpenApiAndOnThePage) {
             EXPECT_THAT(page, HasSubstr("### " + std::string(row.name) + "\n"));
             EXPECT_EQ(row.text.back(), '.') << row.name;
         }
+}
+
+TEST(TheTables, AreThePageOfTheReference) {
+    EXPECT_EQ(text_of_file("docs/reference/api.md"), api_reference()) << "make it anew: motionrack describe api --markdown > docs/reference/api.md";
+}
+
+TEST(TheFuzzer, FindsNothingInItsSeeds) {
+    int seeds = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(std::string(MOTIONRACK_SOURCE_DIR) + "/tests/fuzz/corpus/panel")) {
+        EXPECT_EQ(fuzz::check_orders(text_of_file("tests/fuzz/corpus/panel/" + entry.path().filename().string())), "") << entry.path();
+        ++seeds;
+    }
+    EXPECT_GT(seeds, 4);
 }
 
 /// Any JSON, three levels deep at most.
