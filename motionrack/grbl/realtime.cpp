@@ -39,6 +39,7 @@ constexpr int least_override = 10, greatest_override = 200;
 
 void Session::act(Realtime what) {
     const operate::Status& status = machine_.status();
+    if (status_wanted_ && what != Realtime::status) report();
     switch (what) {
         case Realtime::status: status_wanted_ = true; return;
         case Realtime::reset: return reset();

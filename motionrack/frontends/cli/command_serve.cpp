@@ -15,6 +15,7 @@
 #include <motionrack/frontends/cli/system_service.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/frontends/server/door_orders.hpp>
+#include <motionrack/frontends/server/grbl_ports.hpp>
 #include <motionrack/frontends/server/server.hpp>
 #include <motionrack/journal/journal.hpp>
 #include <motionrack/live/clock.hpp>
@@ -34,6 +35,9 @@ namespace fs = std::filesystem;
 struct ServeOptions {
     std::string rack, address = "127.0.0.1", certificate, key, page, users, journal;
     std::uint16_t port = 8080;
+    std::optional<std::uint16_t> grbl_port;
+    std::string grbl_terminal;
+    int grbl_axes = 3;
     std::vector<std::string> hosts, origins;
     double speed = 1;
     bool free = false, paused = false, no_pairing = false;
@@ -88,6 +92,7 @@ class Serving {
         if (!options_.journal.empty()) MOTIONRACK_CHECK(open_journal(config, settings));
         MOTIONRACK_TRY(machine_, operate::Machine::make(config, std::move(settings)));
         MOTIONRACK_CHECK(open_door());
+        MOTIONRACK_CHECK(open_grbl());
         make_panel();
         return open_server(config, std::move(page));
     }
@@ -115,13 +120,26 @@ class Serving {
         return {};
     }
 
+    Result<void> open_grbl() {
+        if (!options_.grbl_port && options_.grbl_terminal.empty()) return {};
+        server::GrblPortSettings settings;
+        settings.port = options_.grbl_port;
+        settings.link = options_.grbl_terminal;
+        settings.axes = options_.grbl_axes;
+        if (journal_) settings.on_setting = [this](const std::string& sender, const std::string& text) {
+            journal_->write(machine_->now(), "setting", fmt::format("{}: {}", sender, text));
+        };
+        MOTIONRACK_TRY(grbl_, server::GrblPorts::open(settings, *machine_, lease_));
+        return {};
+    }
+
     void make_panel() {
         panel::PanelSettings settings;
         settings.version = MOTIONRACK_VERSION;
         settings.boot = boot_;
         settings.pacer = &pacer_;
         settings.journal = journal_.get();
-        settings.link = [this] { return nlohmann::json{{"sender", "none"}, {"clients", server_ ? server_->load().clients : 0}}; };
+        settings.link = [this] { return nlohmann::json{{"sender", grbl_ ? grbl_->sender() : "none"}, {"clients", server_ ? server_->load().clients : 0}}; };
         settings.elsewhere = server::door_orders(*door_);
         panel_ = std::make_unique<panel::Panel>(*machine_, lease_, std::move(settings));
     }
@@ -169,12 +187,15 @@ class Serving {
         if (options_.no_pairing) say("  pairing  none: whoever works on this computer may do everything");
         say(fmt::format("  users    {}", users_file_.empty() ? "kept in memory only" : users_file_));
         say(fmt::format("  journal  {}", options_.journal.empty() ? "none; --journal FILE keeps one" : options_.journal));
+        if (options_.grbl_port) say(fmt::format("  senders  127.0.0.1:{} (Grbl 1.1 over TCP)", grbl_->port()));
+        if (!options_.grbl_terminal.empty()) say(fmt::format("  senders  {} (Grbl 1.1, a serial line)", options_.grbl_terminal));
         say("Open the page in a browser, take control there, enable the machine. Ctrl-C brings the axes to rest and ends.");
         greeted_ = true;
     }
 
     int end() {
         server_->stop();
+        grbl_.reset();
         std::string places;
         for (const operate::AxisStatus& axis : machine_->status().axes) places += fmt::format(" {}{:.3f}", axis.letter, axis.commanded);
         int code = exit_done;
@@ -194,6 +215,7 @@ class Serving {
     std::unique_ptr<authority::Doorkeeper> door_;
     std::unique_ptr<panel::Panel> panel_;
     std::unique_ptr<server::Server> server_;
+    std::unique_ptr<server::GrblPorts> grbl_;
     std::atomic<bool> greeted_{false};
     bool stopping_ = false;
 };
@@ -217,6 +239,9 @@ void add_serve(CLI::App& app, Action& chosen) {
     command->add_option("--tls-key", options->key, "PEM file of its key");
     command->add_option("--allow-host", options->hosts, "a name by which browsers may call this computer; again for more");
     command->add_option("--allow-origin", options->origins, "a page from elsewhere that may ask, as http://localhost:5173; again for more");
+    command->add_option("--grbl-port", options->grbl_port, "TCP port of this computer for G-code senders (Grbl 1.1), e.g. 40123; 0: any free one");
+    command->add_option("--grbl-pty", options->grbl_terminal, "path of a link to a pseudo-terminal for G-code senders, as a serial line");
+    command->add_option("--grbl-axes", options->grbl_axes, "axes that senders see: 3 (X Y Z), or 4 with A, as grblHAL")->check(CLI::Range(3, 4))->capture_default_str();
     command->footer("Example: motionrack serve router.toml --journal router.journal\nThe address that is printed carries a code that lets its first user in; see docs/howto/serve.md.\n"
                     "Ctrl-C brings the axes to rest and ends with code 0.");
     command->callback([options, &chosen] { chosen = [options] { return Serving(*options).run(); }; });

@@ -11,6 +11,7 @@
 #include <motionrack/grbl/session.hpp>
 #include <motionrack/rack/template.hpp>
 #include <mutex>
+#include <sstream>
 #include <thread>
 
 namespace motionrack::grbl {
@@ -28,6 +29,14 @@ inline rack::RackConfig three_axes(const std::string& more = "") {
 }
 
 inline rack::RackConfig router() { return *rack::read_rack_text(*rack::rack_template("router")).config; }
+
+/// How many lines were answered in it.
+inline int answers(const std::string& text) {
+    std::istringstream in(text);
+    int out = 0;
+    for (std::string line; std::getline(in, line);) out += line == "ok\r" || line.rfind("error:", 0) == 0;
+    return out;
+}
 
 class Bench {
   public:
