@@ -87,4 +87,5 @@ run_packages=(g++ cmake ninja-build libfmt-dev libcli11-dev libtomlplusplus-dev 
     libfast-float-dev zlib1g-dev libpugixml-dev cyclonedds-dev cyclonedds-tools
     pkg-config librsvg2-dev fonts-dejavu-core libsqlite3-dev libboost1.81-dev libssl-dev)
 test_packages=("${run_packages[@]}" libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev sigrok-cli iverilog fp-compiler fp-units-rtl clang
-    libclang-rt-14-dev make libfuse3-dev fuse3 iproute2 chromium)
+    libclang-rt-14-dev make libfuse3-dev fuse3 iproute2 chromium
+    bcnc xvfb xauth)

@@ -40,7 +40,8 @@ def fail(sentence):
 
 
 def near_first(place):
-    return max(abs(place[0] - FIRST[0]), abs(place[1] - FIRST[1])) < 0.1
+    """On the way down to the work at the program's first corner."""
+    return place[2] > 2 and max(abs(place[0] - FIRST[0]), abs(place[1] - FIRST[1])) < 0.1
 
 
 class Served:
@@ -78,7 +79,7 @@ class Served:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def driven_by_run(self, from_first_corner=False):
-        """Where `motionrack run` really was, every millisecond; or the part of it after its first move."""
+        """Where `motionrack run` really was, every millisecond; or the part of it from its first corner on."""
         table = os.path.join(self.folder, "run.csv")
         subprocess.run([self.motionrack, "run", self.part, "--rack", self.rack, "--csv", table, "--no-report", "-q"], check=True, stdout=subprocess.DEVNULL)
         with open(table) as file:

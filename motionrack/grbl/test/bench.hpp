@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <condition_variable>
+#include <deque>
 #include <memory>
 #include <motionrack/grbl/session.hpp>
 #include <motionrack/rack/template.hpp>

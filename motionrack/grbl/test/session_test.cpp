@@ -1,5 +1,6 @@
 // What a sender sees while the machine moves.
 #include "bench.hpp"
+
 namespace motionrack::grbl {
 namespace {
 
