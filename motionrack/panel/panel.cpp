@@ -79,7 +79,7 @@ class Panel::Inside {
 
     /// What cards and parts have reported: lost steps, missed edges.
     void tell_conditions(std::chrono::steady_clock::time_point real) {
-        if (real - looked_ < conditions_every) return;
+        if (real - looked_ < 20 * desk_.settings.picture_every) return;
         looked_ = real;
         rack::Rack& rack = desk_.machine.rack();
         const std::vector<sim::Condition> all = rack.kernel().conditions();
@@ -113,7 +113,6 @@ class Panel::Inside {
         return out;
     }
 
-    static constexpr std::chrono::milliseconds conditions_every{100};
     Panel& panel_;
     Desk desk_;
     StatusWriter writer_;

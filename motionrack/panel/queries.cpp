@@ -30,30 +30,43 @@ Result<json> card_of(Desk& desk, const json& fields) {
     return card_now(desk.machine, *card);
 }
 
-/// Planned and driven; written beside the motion. `have`: number of the plan that is known; `since`: only what was driven later.
-void path_of(Desk& desk, const json& fields, Ready ready) {
+/// Planned and driven, as JSON.
+json path_json(const ProgramPlan* plan, const std::vector<DrivenPath::Driven>& driven, const std::string& letters, std::int64_t number) {
+    json out = plan != nullptr ? to_json(*plan, letters) : json::object();
+    out["number"] = number;
+    out["axes"] = letters;
+    if (plan != nullptr) out["planned"] = std::move(out["path"]);
+    out.erase("path");
+    json places = json::array(), errors = json::array();
+    for (const DrivenPath::Driven& point : driven) {
+        json place = place_json(point.place, letters);
+        place.insert(place.begin(), to_seconds(point.at));
+        places.push_back(std::move(place));
+        errors.push_back(point.error);
+    }
+    out["driven"] = std::move(places);
+    out["errors"] = std::move(errors);
+    return out;
+}
+
+/// Written beside the motion. `have`: number of the plan that is known; `since`: only what was driven later.
+void write_path(Desk& desk, const json& fields, Ready ready) {
     const Instant since = from_seconds(number_of(fields, "since", -1));
     std::vector<DrivenPath::Driven> driven;
     for (const DrivenPath::Driven& point : desk.driven.points())
         if (point.at > since) driven.push_back(point);
     const auto plan = desk.programs == static_cast<std::int64_t>(number_of(fields, "have", 0)) ? nullptr : desk.plan;
     desk.aside([plan, driven = std::move(driven), letters = desk.letters, number = desk.plan ? desk.programs : 0]() -> Result<json> {
-        json out = plan ? to_json(*plan, letters) : json::object();
-        out["number"] = number;
-        out["axes"] = letters;
-        if (plan) out["planned"] = std::move(out["path"]);
-        out.erase("path");
-        json places = json::array(), errors = json::array();
-        for (const DrivenPath::Driven& point : driven) {
-            json place = place_json(point.place, letters);
-            place.insert(place.begin(), to_seconds(point.at));
-            places.push_back(std::move(place));
-            errors.push_back(point.error);
-        }
-        out["driven"] = std::move(places);
-        out["errors"] = std::move(errors);
-        return out;
+        return path_json(plan.get(), driven, letters, number);
     }, std::move(ready));
+}
+
+/// Once the worker is through with what came before: the plan of a program that has just begun.
+void path_of(Desk& desk, const json& fields, Ready ready) {
+    desk.aside([]() -> Result<json> { return json(); }, [&desk, fields, ready = std::move(ready)](Result<json> through) {
+        if (!through) return ready(std::move(through));
+        write_path(desk, fields, ready);
+    });
 }
 
 Result<json> events_of(Desk& desk, const json& fields) {

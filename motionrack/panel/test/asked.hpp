@@ -87,12 +87,12 @@ class Asked {
     };
     bool pace(double now) {
         if (!machine || !panel) return true;
-        if (open_ > 0 && waits_ < 20'000 && now > 0) {  // the worker answers in real time
-            ++waits_;
+        // Worker and journal answer in the computer's time; an access to a bus needs the rack's.
+        if (open_ == 0) waiting_since_ = std::chrono::steady_clock::now();
+        if (open_ > 0 && std::chrono::steady_clock::now() - waiting_since_ < std::chrono::milliseconds(200)) {
             std::this_thread::yield();
             return false;
         }
-        waits_ = 0;
         while (!orders_.empty() && now >= orders_.front().seconds) {
             const Timed one = std::move(orders_.front());
             orders_.pop_front();
@@ -102,7 +102,7 @@ class Asked {
     }
     std::deque<Timed> orders_;
     std::atomic<int> open_{0};
-    int waits_ = 0;
+    std::chrono::steady_clock::time_point waiting_since_{};
 };
 
 }  // namespace motionrack::panel

@@ -63,6 +63,7 @@ TEST(AnOperator, EnablesJogsAndDrivesAProgram) {
     a.good(2.1, "jog_by", {{"axis", "Y"}, {"distance", 5}, {"speed", 20}});
     a.good(3.5, "begin", {{"name", "p.ngc"}, {"text", "G21 G90 F1200\nG1 X30\nG1 X40 Y10\nM2\n"}});
     a.good(3.6, "hold");
+    a.at(3.7, eve, "path");  // answered after the plan
     a.at(4.5, anna, "status", json::object(), [](const Answer& answer) {
         EXPECT_EQ(answer.body["status"]["state"], "hold");
         EXPECT_TRUE(answer.body["status"]["program"]["remaining_s"].is_number());
