@@ -35,6 +35,7 @@ TEST(AnOrder, IsAnsweredWhenTheJournalHasIt) {
         for (const journal::Entry& entry : *entries) seen = seen || entry.text == "anna: enable on=true";
     });
     a.good(0.3, "line", {{"text", "G1 X12 F600"}});
+    a.good(1.9, "set_single_step", {{"on", true}});  // answered when it and all before it are on the disk
     a.at(2, eve, "journal", {{"limit", 100}}, [](const Answer& answer) {
         std::string kinds;
         for (const json& entry : answer.body["journal"]) kinds += entry["kind"].get<std::string>() + " ";
