@@ -5,6 +5,7 @@ namespace motionrack::grbl {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -13,28 +14,28 @@ const std::string banner = "\r\nGrbl 1.1h ['$' for help]\r\n", unlock = "[MSG:'$
 
 TEST(AGrblPort, ReportsTheWorkOffsetFirstThenEveryTenReportsAndTheOverridesInTheNext) {
     Bench b(three_axes());
-    std::string offsets, overrides;
+    std::vector<int> offsets, overrides;
     for (int i = 1; i <= 32; ++i) {
         const std::string report = b.report();
-        if (report.find("WCO") != std::string::npos) offsets += " " + std::to_string(i);
-        if (report.find("Ov:") != std::string::npos) overrides += " " + std::to_string(i);
+        if (report.find("WCO") != std::string::npos) offsets.push_back(i);
+        if (report.find("Ov:") != std::string::npos) overrides.push_back(i);
     }
-    EXPECT_EQ(offsets, " 1 11 21 31");
-    EXPECT_EQ(overrides, " 2 12 22 32");
+    EXPECT_THAT(offsets, ElementsAre(1, 11, 21, 31));
+    EXPECT_THAT(overrides, ElementsAre(2, 12, 22, 32));
 }
 
 TEST(AGrblPort, ReportsTheWorkOffsetEveryThirtyReportsWhileItMoves) {
     Bench b(three_axes());
     b.ask("G1 X300 F600\n");
-    std::string offsets, overrides;
+    std::vector<int> offsets, overrides;
     for (int i = 1; i <= 62; ++i) {
         const std::string report = b.report();
         EXPECT_THAT(report, StartsWith("<Run|"));
-        if (report.find("WCO") != std::string::npos) offsets += " " + std::to_string(i);
-        if (report.find("Ov:") != std::string::npos) overrides += " " + std::to_string(i);
+        if (report.find("WCO") != std::string::npos) offsets.push_back(i);
+        if (report.find("Ov:") != std::string::npos) overrides.push_back(i);
     }
-    EXPECT_EQ(offsets, " 1 31 61");
-    EXPECT_EQ(overrides, " 2 22 42 62");
+    EXPECT_THAT(offsets, ElementsAre(1, 31, 61));
+    EXPECT_THAT(overrides, ElementsAre(2, 22, 42, 62));
 }
 
 TEST(AGrblPort, ReportsAChangedWorkOffsetAtOnce) {
