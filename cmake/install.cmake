@@ -97,6 +97,9 @@ install(FILES ${pages}/motionrack.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 # ---- the operator panel's page, if it was built (cmake/setup.sh, build_page) ----
 install(DIRECTORY ${PROJECT_BINARY_DIR}/share/motionrack/page DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack OPTIONAL)
 
+# ---- the systemd unit ----
+install(FILES ${PROJECT_SOURCE_DIR}/packaging/motionrack.service DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack)
+
 # ---- examples and rack files, and how frames use the network ----
 install(FILES ${PROJECT_SOURCE_DIR}/motionrack/dds/cyclonedds.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/motionrack)

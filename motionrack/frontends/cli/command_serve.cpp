@@ -25,6 +25,7 @@
 #include <motionrack/panel/panel.hpp>
 #include <motionrack/rack/counted.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace motionrack::cli {
 
@@ -86,6 +87,7 @@ class Serving {
         if (options_.certificate.empty() != options_.key.empty())
             return fail(Trouble::bad_input, "TLS needs both --tls-cert and --tls-key. Nothing was started.");
         MOTIONRACK_TRY(server::Page page, load_page(options_.page));
+        MOTIONRACK_TRY(rack_text_, options_.rack.empty() ? Result<std::string>(demonstration_rack()) : read_text(options_.rack));
         MOTIONRACK_CHECK(pacer_.set(options_.paused ? operate::ClockMode::paused : options_.free ? operate::ClockMode::free : operate::ClockMode::real, options_.speed));
         operate::MachineSettings settings;
         settings.pace = [this](Instant now) { return pace(now); };
@@ -137,6 +139,7 @@ class Serving {
         panel::PanelSettings settings;
         settings.version = MOTIONRACK_VERSION;
         settings.boot = boot_;
+        settings.rack_text = std::move(rack_text_);
         settings.pacer = &pacer_;
         settings.journal = journal_.get();
         settings.link = [this] { return nlohmann::json{{"sender", grbl_ ? grbl_->sender() : "none"}, {"clients", server_ ? server_->load().clients : 0}}; };
@@ -206,7 +209,7 @@ class Serving {
     }
 
     const ServeOptions& options_;
-    std::string boot_ = authority::random_token().substr(0, 8), users_file_;
+    std::string boot_ = authority::random_token().substr(0, 8), users_file_, rack_text_;
     live::MonotonicClock clock_;
     operate::Pacer pacer_{clock_, operate::ClockMode::real, 1};
     authority::ControlLease lease_;

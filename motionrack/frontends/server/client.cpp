@@ -95,6 +95,7 @@ void Client::token(const Request& request) {
     if (!who) return refuse(request.id, 401, "denied", who.error().sentence);
     user_ = who->user;
     token_id_ = who->id;
+    seen_ = true;
     answer(request.id, panel::done({{"role", authority::name_of(who->role)}, {"user", who->user}}));
 }
 

@@ -4,6 +4,8 @@
 //                 ▲         │ yes
 //                 │       body ─► Service::handle ─► answer ─┐
 //                 └──────────────────────────────────────────┘
+//
+// What does not come in time ends the connection without a word.
 #pragma once
 
 #include <fmt/format.h>
@@ -77,8 +79,7 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
     }
 
     void took_head(error_code error) {
-        if (error == http::error::end_of_stream || error == asio::error::eof) return goodbye();
-        if (error == beast::error::timeout) return parser_->got_some() ? answer(http_error(408, "limit", "The request did not come in time."), false) : goodbye();
+        if (error == http::error::end_of_stream) return goodbye();
         if (error == http::error::header_limit || error == http::error::buffer_overflow)
             return answer(http_error(431, "limit", "The head of the request is longer than 8 KiB. Nothing was done."), false);
         if (is_http(error))
@@ -118,7 +119,6 @@ class Connection final : public Open, public std::enable_shared_from_this<Connec
         http::async_read(stream_, buffer_, *parser_, [self = this->shared_from_this()](error_code error, std::size_t) {
             if (self->ended_) return;
             if (error == http::error::body_limit) return self->too_large();
-            if (error == beast::error::timeout) return self->answer(http_error(408, "limit", "The body did not come in time. Nothing was done."), false);
             if (is_http(error))
                 return self->answer(http_error(400, "bad_input", fmt::format("The body is no HTTP/1.1: {}. Nothing was done.", error.message())), false);
             if (!error) self->handle();

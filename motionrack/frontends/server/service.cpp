@@ -169,6 +169,10 @@ authority::Admitted<authority::Identity> Service::who(const std::string& token, 
 // ---- orders and queries --------------------------------------------------------------------------------------------------------------
 
 void Service::ask(const panel::Caller& caller, const std::string& address, const panel::AskRow& row, const json& fields, std::function<void(panel::Answer)> reply) {
+    // The motion thread answers queries: many connections together must not keep it from its work.
+    if (is_query(row) && !requests_.take(fmt::format("queries of {}", address), now().steady))
+        return reply(panel::refused_answer(429, "limit", fmt::format("More than {:g} queries a second came from this address. Nothing was looked up; ask less often.",
+                                                                     settings_.limits.requests_per_second)));
     panel_.ask(caller, row.name, fields, [this, post = post_, reply = std::move(reply), query = is_query(row), user = caller.user, address, passing = row.passing,
                                           what = std::string(row.name)](panel::Answer answer) {
         (*post)([this, reply, query, user, address, passing, what, answer = std::move(answer)] {

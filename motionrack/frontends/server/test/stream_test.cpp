@@ -1,0 +1,160 @@
+// WebSocket clients: pictures, orders, control, reloads.
+#include <gmock/gmock.h>
+
+#include "running.hpp"
+
+namespace motionrack::server {
+namespace {
+
+using authority::Role;
+using nlohmann::json;
+using testing::HasSubstr;
+
+bool is_picture(const json& message) { return message.contains("seq"); }
+std::string error_of(const json& answer) { return answer.contains("error") ? answer["error"]["message"].get<std::string>() : ""; }
+
+TEST(AStream, BeginsWithHelloAndGivesPictures) {
+    Running running;
+    WebClient client = running.client();
+    ASSERT_EQ(client.upgrade().status, 101);
+    const json hello = json::parse(client.receive().text)["hello"];
+    EXPECT_EQ(hello["rack"], "two");
+    EXPECT_EQ(hello["boot"], "b007");
+    EXPECT_EQ(hello["role"], "observe");
+    EXPECT_TRUE(hello["simulation"]);
+    const json first = client.receive_until(is_picture);
+    EXPECT_EQ(first["status"]["state"], "disabled");
+    EXPECT_TRUE(first["values"].empty());
+    EXPECT_EQ(first["lost"].get<int>() + 1, first["seq"].get<int>());
+    EXPECT_GT(client.receive_until(is_picture)["seq"], first["seq"]);
+}
+
+TEST(AStream, GivesTheChannelsThatWereAskedForInTheirOrder) {
+    Running running;
+    WebClient client = running.stream("");
+    EXPECT_TRUE(client.order({{"subscribe", {{"channels", {"X.commanded", "Y.commanded"}}, {"rate_hz", 100}}}}).value("done", false));
+    const json picture = client.receive_until([](const json& message) { return is_picture(message) && !message["values"].empty(); });
+    EXPECT_EQ(picture["values"], json({0, 0}));
+    EXPECT_THAT(error_of(client.order({{"subscribe", {{"channels", {"X.nothing"}}}}})), HasSubstr("X.nothing"));
+    EXPECT_THAT(error_of(client.order({{"subscribe", {{"rate_hz", 101}}}})), HasSubstr("1 to 100"));
+    EXPECT_THAT(error_of(client.order({{"subscribe", {{"channels", json(std::vector<std::string>(65, "X.commanded"))}}}})), HasSubstr("65 channels"));
+    EXPECT_THAT(error_of(client.order({{"subscribe", {{"rates", 1}}}})), HasSubstr("nothing else"));
+    EXPECT_THAT(error_of(client.order({{"subscribe", 1}})), HasSubstr("takes"));
+    EXPECT_FALSE(client.receive_until(is_picture)["values"].empty()) << "what was refused changed nothing";
+}
+
+TEST(AStream, TellsEventsToEverybody) {
+    Running running;
+    WebClient watcher = running.stream("");
+    WebClient anna = running.master("anna");
+    const json event = watcher.receive_until([](const json& message) { return message.contains("event") && message["event"]["kind"] == "order"; });
+    EXPECT_THAT(event["event"]["text"].get<std::string>(), HasSubstr("anna"));
+}
+
+TEST(AStream, RefusesWithASentenceAndGoesOn) {
+    Running running;
+    WebClient client = running.stream(running.token("anna"));
+    const auto refused = [&](const std::string& text) {
+        client.send_frame(1, text);
+        return error_of(client.receive_until([](const json& message) { return message.contains("error"); }));
+    };
+    EXPECT_THAT(refused("{"), HasSubstr("is no JSON"));
+    EXPECT_THAT(refused("[]"), HasSubstr("is no JSON object"));
+    EXPECT_THAT(refused(std::string(1000, '[')), HasSubstr("nested deeper"));
+    EXPECT_THAT(refused("{\"id\":1}"), HasSubstr("one of token, subscribe, order, query"));
+    EXPECT_THAT(refused("{\"id\":{},\"order\":\"enable\"}"), HasSubstr("id of a message"));
+    EXPECT_THAT(refused("{\"id\":1,\"order\":\"fly\"}"), HasSubstr("no such order"));
+    EXPECT_THAT(refused("{\"id\":1,\"order\":\"status\"}"), HasSubstr("no such order"));
+    EXPECT_THAT(refused("{\"id\":1,\"query\":\"enable\"}"), HasSubstr("no such query"));
+    EXPECT_THAT(refused("{\"id\":1,\"order\":7}"), HasSubstr("one of token"));
+    EXPECT_THAT(refused("{\"id\":1,\"order\":\"enable\",\"on\":true}"), HasSubstr("Take control first"));
+    EXPECT_THAT(refused("{\"id\":1,\"token\":\"x\"}"), HasSubstr("not known"));
+    EXPECT_TRUE(client.order({{"query", "status"}}).value("done", false));
+}
+
+TEST(AStream, HasOneMasterAtATime) {
+    Running running;
+    WebClient anna = running.master("anna");
+    WebClient bert = running.stream(running.token("bert"));
+    EXPECT_THAT(error_of(bert.order({{"order", "jog"}, {"axis", "X"}, {"speed", 5}})), HasSubstr("Control is with anna"));
+    EXPECT_THAT(error_of(bert.order({{"order", "take_control"}})), HasSubstr("anna has it"));
+    ASSERT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
+    EXPECT_THAT(error_of(bert.order({{"order", "take_control"}, {"force", true}})), HasSubstr("does not stand still"));
+    EXPECT_TRUE(bert.order({{"order", "hold"}}).value("done", false)) << "everybody who operates may hold";
+    anna.receive_until([](const json& message) { return state_is(message, "hold"); });
+    EXPECT_TRUE(anna.order({{"order", "stop"}}).value("done", false));
+    anna.receive_until([](const json& message) { return state_is(message, "standstill"); });
+    EXPECT_TRUE(bert.order({{"order", "take_control"}, {"force", true}}).value("done", false));
+    EXPECT_THAT(error_of(anna.order({{"order", "enable"}, {"on", true}})), HasSubstr("Control is with bert"));
+}
+
+/// The path of a job that nobody disturbs.
+std::vector<std::array<std::int64_t, 3>> quiet_path() {
+    Running running;
+    WebClient anna = running.master("anna");
+    EXPECT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
+    anna.receive_until(job_is_over);
+    return running.path();
+}
+
+TEST(AStream, WhoseClientLeavesOrLoadsItsPageAgainChangesNothing) {
+    Running running;
+    const std::string token = running.token("anna");
+    {
+        WebClient anna = running.stream(token);
+        ASSERT_TRUE(anna.order({{"order", "take_control"}}).value("done", false));
+        ASSERT_TRUE(anna.order({{"order", "enable"}, {"on", true}}).value("done", false));
+        ASSERT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
+    }
+    WebClient again = running.stream(token);
+    again.receive_until(job_is_over);
+    EXPECT_EQ(running.path(), quiet_path());
+}
+
+TEST(AStream, LosesPicturesOfASlowReaderAndNobodyElses) {
+    Running running;
+    WebClient slow(running.server->port(), false, true);
+    ASSERT_EQ(slow.upgrade().status, 101);
+    slow.say({{"id", 1}, {"subscribe", {{"rate_hz", 100}}}});
+    WebClient quick = running.stream("");
+    ASSERT_TRUE(quick.order({{"subscribe", {{"rate_hz", 100}}}}).value("done", false));
+    // Until the slow one's buffers are full beyond doubt, everybody else gets his.
+    for (int i = 0; i < 400; ++i) ASSERT_TRUE(quick.receive_until(is_picture).is_object());
+    std::int64_t lost = 0, before = 0;
+    while (lost == 0) {
+        const json picture = slow.receive_until(is_picture);
+        ASSERT_TRUE(picture.is_object());
+        lost = picture["lost"];
+        EXPECT_EQ(picture["seq"].get<std::int64_t>(), before + lost + 1) << "the numbers tell what was lost";
+        before = picture["seq"];
+        if (before > 100'000) break;
+    }
+    EXPECT_GT(lost, 0);
+}
+
+TEST(AStream, IsEndedWhenItsTokenIsRevoked) {
+    Running running;
+    WebClient anna = running.master("anna");
+    WebClient bert = running.stream(running.token("bert", Role::operate));
+    EXPECT_TRUE(anna.order({{"order", "unpair"}, {"user", "bert"}}).value("done", false));
+    WebFrame frame;
+    do frame = bert.receive();
+    while (frame.kind == 1);
+    EXPECT_EQ(frame.kind, 8);
+    EXPECT_EQ(frame.code, 1008);
+    EXPECT_THAT(frame.text, HasSubstr("pair again"));
+}
+
+TEST(AStream, IsSaidGoodbyeWhenTheServerEnds) {
+    Running running;
+    WebClient client = running.stream("");
+    running.server->stop();
+    WebFrame frame;
+    do frame = client.receive();
+    while (frame.kind == 1);
+    EXPECT_EQ(frame.kind, 8);
+    EXPECT_EQ(frame.code, 1001);
+}
+
+}  // namespace
+}  // namespace motionrack::server

@@ -1,0 +1,84 @@
+// A small blocking HTTP and WebSocket client, which can also say what no good client would.
+#pragma once
+
+#include <openssl/ssl.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace motionrack::server {
+
+struct WebAnswer {
+    int status = 0;  ///< 0: the connection ended before an answer
+    std::map<std::string, std::string> fields;  ///< names in lower case
+    std::string body;
+    nlohmann::json json() const { return nlohmann::json::parse(body, nullptr, false); }
+    /// The sentence of an error.
+    std::string message() const;
+};
+
+struct WebFrame {
+    int kind = -1;  ///< opcode: 1 text, 2 binary, 8 close, 9 ping, 10 pong; -1: the connection has ended
+    std::string text;
+    int code = 0;  ///< of a close
+};
+
+class WebClient {
+  public:
+    /// Reads wait half a minute at most. `small_window`: takes little into its kernel.
+    explicit WebClient(std::uint16_t port, bool tls = false, bool small_window = false);
+    ~WebClient();
+    WebClient(WebClient&& other) noexcept;
+
+    bool connected() const { return socket_ >= 0; }
+    void send(std::string_view bytes);
+    /// A whole request; `fields` as "Name: value\r\n".
+    WebAnswer ask(const std::string& method, const std::string& target, const std::string& body = "", const std::string& fields = "");
+    WebAnswer answer(bool head_only = false);
+    /// True: the other end has closed.
+    bool ended();
+
+    /// Becomes a WebSocket; the answer's status is 101.
+    WebAnswer upgrade(const std::string& fields = "", const std::string& target = "/api/stream");
+    void send_frame(int kind, std::string_view payload, bool masked = true, bool last = true);
+    void say(const nlohmann::json& message) { send_frame(1, message.dump()); }
+    /// The next text or the end; pings are answered.
+    WebFrame receive();
+    /// The next text of which this is true of its JSON; others are passed over. Null: the connection ended.
+    template <class Fits>
+    nlohmann::json receive_until(const Fits& fits) {
+        for (;;) {
+            const WebFrame frame = receive();
+            if (frame.kind != 1) return nullptr;
+            nlohmann::json message = nlohmann::json::parse(frame.text);
+            if (fits(message)) return message;
+        }
+    }
+    /// Says it with an id of its own and gives its answer.
+    nlohmann::json order(nlohmann::json message);
+
+    int descriptor() const { return socket_; }
+    /// Takes what has come, without waiting; whether there is a whole frame now.
+    bool has_frame();
+    /// What names this computer in requests.
+    std::string host;
+
+  private:
+    bool read_more();
+    std::string take(std::size_t bytes);
+    /// Bytes of the frame at the buffer's begin; 0: not known so far.
+    std::size_t frame_size() const;
+
+    int socket_ = -1;
+    SSL_CTX* context_ = nullptr;
+    SSL* tls_ = nullptr;
+    std::string buffer_;
+    int next_id_ = 1000;
+};
+
+}  // namespace motionrack::server
