@@ -165,3 +165,13 @@ test('without control a key says why it does nothing', async () => {
   assert.equal(named(tab, 'begin').length, 0);
   await tab.context.close();
 });
+
+test('Esc closes a dialog and stops all the same', async () => {
+  const tab = await fresh();
+  await tab.page.keyboard.press('?');
+  await tab.page.getByRole('dialog', { name: 'Keyboard' }).waitFor();
+  await tab.page.keyboard.press('Escape');
+  await tab.page.getByRole('dialog', { name: 'Keyboard' }).waitFor({ state: 'detached' });
+  await until(() => named(tab, 'stop').length === 1, 'a stop');
+  await rest(tab);
+});

@@ -57,7 +57,7 @@ test('the MCX314 shows its counters, and they count', async () => {
   await until(async () => number(await lp()) > before, 'LP counts up');
   await state(tab, 'standstill');
   assert.ok((await panel(tab, 'Inputs and outputs').locator('li').count()) > 8);
-  await picture(tab, 'card_mcx314', true);
+  await picture(tab, 'card_mcx314', 1360);
   await done(tab);
 });
 
@@ -70,7 +70,7 @@ test('the DataBoard 4002 answers at its ports by hand, and shows its status', as
   await tab.page.getByRole('group', { name: /^STAT/ }).getByText('READY').waitFor();
   await ports.getByRole('button', { name: /^G: / }).click();
   await ports.getByRole('log').getByText('command G').waitFor();
-  await picture(tab, 'card_databoard4002', true);
+  await picture(tab, 'card_databoard4002', 960);
   await done(tab);
 });
 
@@ -79,9 +79,9 @@ test('the IOFLEX02 shows four positions and is calibrated', async () => {
   const rows = panel(tab, /^glass:/).locator('tbody tr');
   await until(async () => Number.isFinite(number(await rows.first().locator('td').first().innerText())), 'the position of axis 0');
   assert.equal(await rows.count(), 4);
-  await rows.first().getByRole('button', { name: /Zero now/ }).click();
+  await rows.first().getByRole('button', { name: 'cRes, axis 0' }).click();
   await until(async () => (await rows.first().locator('td').first().innerText()) === '0', 'position 0');
-  await picture(tab, 'card_ioflex02', true);
+  await picture(tab, 'card_ioflex02', 960);
   await done(tab);
 });
 
@@ -90,7 +90,7 @@ test('the grating bus shows the frames of all its cards, and that they agree', a
   const frames = panel(tab, 'Frames of all cards');
   await frames.getByText('All cards hold the same frame').waitFor();
   assert.ok((await frames.locator('tbody tr').count()) >= 3);
-  await picture(tab, 'card_grating_bus', true);
+  await picture(tab, 'card_grating_bus', 960);
   await done(tab);
 });
 
@@ -100,7 +100,7 @@ test('the RTC5 marks, and the work piece is drawn', async () => {
   await panel(tab, 'Mark').getByRole('button', { name: 'Mark', exact: true }).click();
   const piece = panel(tab, /^Work piece/);
   await until(async () => ((await piece.locator('path.marks').getAttribute('d')) ?? '').length > 100, 'marks on the work piece', 30000);
-  await picture(tab, 'card_rtc5', true);
+  await picture(tab, 'card_rtc5', 1500);
   await panel(tab, 'Mark').getByRole('button', { name: 'Stop marking' }).click();
   await done(tab);
 });
@@ -127,7 +127,7 @@ test('a wire is driven by hand and released; a fault is made and mended', async 
   await picture(tab, 'faults');
   await wire.getByRole('button', { name: /Release/ }).click();
   await until(() => tab.status.axes[1].leds.hard_plus === false, 'it does not any more');
-  await tab.page.getByLabel('Of').selectOption('X');
+  await tab.page.getByLabel('Of', { exact: true }).selectOption('X');
   const fault = tab.page.locator('.faultlist li').first();
   await fault.getByRole('button', { name: 'Break' }).click();
   await fault.getByRole('button', { name: 'Mend' }).click();
@@ -201,6 +201,6 @@ for (const scheme of ['dark', 'light'])
 
 test('a picture of the phone', async () => {
   const tab = await openTab(all.browser, all.server, { width: 360, height: 740 });
-  await picture(tab, 'phone', true);
+  await picture(tab, 'phone', 740);
   await tab.context.close();
 });

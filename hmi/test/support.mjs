@@ -18,6 +18,7 @@ export const RACKS = { axes: join(here, 'rack.toml'), all: join(here, '../../exa
 export async function startServer(rack = RACKS.axes, { pairing = false } = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'motionrack-page-'));
   const program = spawn(join(BUILD, 'bin/motionrack'), ['serve', rack, '--port', '0', '--page', join(BUILD, 'share/motionrack/page'), '--users', join(folder, 'users.json'), ...(pairing ? [] : ['--no-pairing'])]);
+  process.once('exit', () => program.kill());
   let said = '';
   program.stderr.on('data', (text) => (said += text));
   const server = { address: '', code: '', said: () => said };
@@ -100,9 +101,11 @@ export async function takeControl(tab) {
 export const arm = (tab) => tab.page.getByRole('switch', { name: 'Keyboard' }).click();
 export const chooseStep = (tab, text) => tab.page.getByRole('group', { name: 'Jog step' }).getByRole('button', { name: text, exact: true }).click();
 
-export async function picture(tab, name, whole = false) {
+/** Into the build folder, for people to look at. */
+export async function picture(tab, name, height = 900) {
   mkdirSync(PICTURES, { recursive: true });
-  await tab.page.screenshot({ path: join(PICTURES, `${name}.png`), fullPage: whole });
+  await tab.page.setViewportSize({ width: tab.page.viewportSize().width, height });
+  await tab.page.screenshot({ path: join(PICTURES, `${name}.png`) });
 }
 
 /** Starts a server and a browser for the tests of a file, and a tab for each test. */

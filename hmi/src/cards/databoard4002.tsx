@@ -41,7 +41,7 @@ function Slope({ card }: { card: CardInfo }): JSX.Element {
 
 export function Databoard({ card }: { card: CardInfo }): JSX.Element {
   const { data } = usePoll<CardAnswer>('card', { name: card.name }, 200);
-  const shown = card.registers.filter((one) => ['STAT', 'EVENT', 'C4'].includes(one.name));
+  const shown = card.registers.filter((one) => ['STAT', 'EVENT'].includes(one.name));
   return (
     <>
       <Panel title={`${card.name}: ${card.title}`} class="wide">

@@ -10,9 +10,9 @@ import { Flags, Quantities, valueOf, wordOf, type CardAnswer } from './peek';
 
 const AXES = [0, 1, 2, 3];
 const COMMANDS = [
-  { code: 1, name: 'cRes', text: 'Zero now' },
-  { code: 2, name: 'cResNm', text: 'Zero at the index' },
-  { code: 3, name: 'cResNmSig', text: 'Zero at index and signal' },
+  { code: 1, name: 'cRes', text: 'zero now' },
+  { code: 2, name: 'cResNm', text: 'zero at the index' },
+  { code: 3, name: 'cResNmSig', text: 'zero at index and signal' },
 ];
 
 function Axis({ card, answer, axis }: { card: CardInfo; answer: CardAnswer | null; axis: number }): JSX.Element {
@@ -31,7 +31,7 @@ function Axis({ card, answer, axis }: { card: CardInfo; answer: CardAnswer | nul
       <td class="tabular"><span class={illegal !== null && illegal > 0 ? 'bad' : ''}>{whole(illegal)}</span></td>
       <td>
         <span class="buttons">
-          {COMMANDS.map((one) => <Button key={one.name} why={why} label={`${one.text}, axis ${axis} (${one.name})`} onClick={() => send(one.code)}>{one.name}</Button>)}
+          {COMMANDS.map((one) => <Button key={one.name} why={why} label={`${one.name}, axis ${axis}: ${one.text}`} onClick={() => send(one.code)}>{one.name}</Button>)}
         </span>
       </td>
     </tr>

@@ -3,7 +3,7 @@ import type { JSX } from 'preact';
 import { useEffect } from 'preact/hooks';
 import { channel, want } from '../link/channels';
 import { channelList, type CardInfo, type RegisterInfo } from '../link/rack';
-import { fixed, hex } from '../parts/numbers';
+import { fixed, hex, whole } from '../parts/numbers';
 import { Empty, Led } from '../parts/ui';
 import { fieldValues } from './words';
 
@@ -45,7 +45,7 @@ export function Quantities({ card }: { card: CardInfo }): JSX.Element {
       {own.map((one) => (
         <div key={one.name} title={one.text}>
           <dt><code>{one.name.slice(card.name.length + 1)}</code></dt>
-          <dd class="tabular">{fixed(channel(one.name).value, 3)} <small>{one.unit}</small></dd>
+          <dd class="tabular">{one.unit === '' && Number.isInteger(channel(one.name).value) ? whole(channel(one.name).value) : fixed(channel(one.name).value, 3)} <small>{one.unit}</small></dd>
         </div>
       ))}
     </dl>

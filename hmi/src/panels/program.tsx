@@ -42,7 +42,7 @@ function Findings({ result }: { result: Check }): JSX.Element {
           ))}
         </dl>
       ) : (
-        <ul class="problems">
+        <ul class="problems" tabIndex={0} aria-label="Problems of the program">
           {problems.map((one, i) => <li key={i}>{one.line > 0 ? <strong>Line {one.line}: </strong> : null}{one.message}</li>)}
           {(result.more_problems ?? 0) > 0 && <li>and {result.more_problems} more</li>}
         </ul>

@@ -114,6 +114,9 @@ export function Scope(): JSX.Element {
     cursors.value = next;
     moving.value = moving.value === 0 ? 1 : 0;
   };
+  const times = rows[0] ?? [];
+  // Where nobody has put them: at a third and two thirds.
+  if (cursors.value[0] === cursors.value[1] && times.length > 3) cursors.value = [times[Math.floor(times.length / 3)] ?? 0, times[Math.floor((2 * times.length) / 3)] ?? 0];
   const marks = [{ x: 0, name: 'T' }, { x: cursors.value[0], name: 'A' }, { x: cursors.value[1], name: 'B' }];
   return (
     <div class="scopeview">
