@@ -68,22 +68,22 @@ Result<std::unique_ptr<Line>> Line::make(const Job& job, const Prepared& prepare
     return out;
 }
 
-Result<void> Line::put_all(int list, const std::vector<rtc5::Command>& commands) {
-    const std::int64_t room = list == 1 ? card_.settings().list1 : card_.settings().list2;
+Result<void> put_all(Engine& card, int list, const std::vector<rtc5::Command>& commands) {
+    const std::int64_t room = list == 1 ? card.settings().list1 : card.settings().list2;
     std::int64_t positions = 0;
     for (const rtc5::Command& command : commands) positions += rtc5::info(command.op).positions;
     if (positions > room)
         return fail(Trouble::refused, fmt::format("The drawing needs {} places of a list; the card's list {} has {}. Nothing was marked; draw less at once or with a "
                                                   "greater tolerance.", positions, list, room));
-    MOTIONRACK_CHECK(card_.set_start_list(list));
-    for (const rtc5::Command& command : commands) MOTIONRACK_CHECK(card_.put(command));
+    MOTIONRACK_CHECK(card.set_start_list(static_cast<std::uint32_t>(list)));
+    for (const rtc5::Command& command : commands) MOTIONRACK_CHECK(card.put(command));
     return {};
 }
 
 Result<void> Line::load(int list, std::size_t marked) {
     MOTIONRACK_TRY(const std::vector<rtc5::Command> commands, list_of(job_, prepared_, following_, marked));
     loaded_[static_cast<std::size_t>(list - 1)] = marked;
-    return put_all(list, commands);
+    return put_all(card_, list, commands);
 }
 
 /// Starts reset the encoders only if a correction asked for it before: a list that sets it, and is over before the belt's time begins.
@@ -91,7 +91,7 @@ Result<void> Line::arm() {
     const bool chain = job_.parts->start == PartStart::equidistant;
     card_.set_control_mode(rtc5::control_ext_start | rtc5::control_reset_at_start | (chain ? rtc5::control_equidistant : 0));
     MOTIONRACK_TRY(const std::vector<rtc5::Command> commands, arming_list_of(job_, prepared_, following_));
-    MOTIONRACK_CHECK(put_all(1, commands));
+    MOTIONRACK_CHECK(put_all(card_, 1, commands));
     MOTIONRACK_CHECK(card_.execute_list(1));
     if (!card_.run_to_rest(greatest_ticks)) return fail(Trouble::refused, "The card does not come to rest before the first part. Nothing was marked; shorten the delays in [pace].");
     card_.clear_extent();

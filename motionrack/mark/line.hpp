@@ -23,6 +23,9 @@ struct Watch {
 
 inline constexpr double greatest_seconds = 1000;  ///< of virtual time
 
+/// Loads list 1 or 2 of a card from its begin. Errors: refused, it has not so many places; nothing was loaded then.
+Result<void> put_all(rtc5::Engine& card, int list, const std::vector<rtc5::Command>& commands);
+
 /// What became of a part's start. Ticks are those of the belt: 0 is the job's begin.
 struct PartRun {
     std::size_t part = 0;    ///< from 0 on
@@ -73,7 +76,6 @@ class Line final : rtc5::ListListener {
     Result<void> arm();
     Result<void> find_edges();
     Result<void> load(int list, std::size_t marked);
-    Result<void> put_all(int list, const std::vector<rtc5::Command>& commands);
     Result<void> serve();
     void started(std::int64_t tick, rtc5::StartFate fate) override;
     void ended(std::int64_t tick) override;

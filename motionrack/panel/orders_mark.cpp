@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <motionrack/mark/plan.hpp>
+#include <motionrack/mark/line.hpp>
 #include <motionrack/panel/desk.hpp>
 #include <motionrack/rack/bus_access.hpp>
 #include <motionrack/rack/rtc5_card.hpp>
@@ -71,17 +71,6 @@ Result<Lists> lists_of(const rack::RackConfig& config, const std::string& card, 
     return out;
 }
 
-Result<void> put_all(rtc5::Engine& engine, int list, const Commands& commands) {
-    const std::int64_t room = list == 1 ? engine.settings().list1 : engine.settings().list2;
-    std::int64_t positions = 0;
-    for (const rtc5::Command& command : commands) positions += rtc5::info(command.op).positions;
-    if (positions > room)
-        return fail(Trouble::refused, fmt::format("The drawing needs {} places of a list; the card's list {} has {}. Nothing was marked; draw less at once.", positions, list, room));
-    MOTIONRACK_CHECK(engine.set_start_list(static_cast<std::uint32_t>(list)));
-    for (const rtc5::Command& command : commands) MOTIONRACK_CHECK(engine.put(command));
-    return {};
-}
-
 /// On the motion thread, between runs.
 Result<json> begin(Desk& desk, const std::string& card, const Lists& lists) {
     rtc5::Engine& engine = rack::rtc5_card_of(desk.machine.rack(), card)->engine();
@@ -92,13 +81,13 @@ Result<json> begin(Desk& desk, const std::string& card, const Lists& lists) {
     }
     const auto error = static_cast<std::uint16_t>(lists.tracking_us / 10);
     if (lists.follows) engine.set_tracking_error(error, error);
-    MOTIONRACK_CHECK(put_all(engine, 1, lists.main));
+    MOTIONRACK_CHECK(mark::put_all(engine, 1, lists.main));
     if (lists.arming.empty()) {
         engine.set_control_mode(0);
         MOTIONRACK_CHECK(engine.execute_list(1));
     } else {
         // Each part's edge starts list 1; starts reset the encoders only if a correction has asked for it before.
-        MOTIONRACK_CHECK(put_all(engine, 2, lists.arming));
+        MOTIONRACK_CHECK(mark::put_all(engine, 2, lists.arming));
         engine.set_extstartpos(0);
         engine.set_control_mode(rtc5::control_ext_start | rtc5::control_reset_at_start);
         MOTIONRACK_CHECK(engine.execute_list(2));
