@@ -12,6 +12,10 @@ import { checked, type Check } from '../path/checked';
 import { program, programName } from '../program/text';
 import { Listing } from '../program/listing';
 
+/** The program reads longer messages only from who may operate. */
+const SHORT = 60_000;
+const mayCheck = (): string => whyNot(program.value.length > SHORT ? 'operate' : 'observe');
+
 async function check(): Promise<void> {
   try {
     checked.value = (await ask({ order: 'check', name: programName.value, text: program.value })) as unknown as Check;
@@ -94,7 +98,7 @@ export function Program(): JSX.Element {
           onChange={(event) => void open(event.currentTarget.files?.[0])} />
         <Button icon="open" onClick={() => file.current?.click()}>Open</Button>
         <Button pressed={editing.value} onClick={() => (editing.value = !editing.value)}>Edit</Button>
-        <Button icon="check" why={whyNot('observe')} onClick={() => void check()}>Check</Button>
+        <Button icon="check" why={mayCheck()} onClick={() => void check()}>Check</Button>
         <Switch on={single} label="Single step" why={mayOperate()} onChange={(on) => void order('set_single_step', { on })} />
       </div>
     </Panel>
