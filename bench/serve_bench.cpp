@@ -49,7 +49,7 @@ channel = "u"
 
 std::string job() {
     std::string out = "G21 G90 G64\n";
-    for (int i = 0; i < 2000; ++i) out += "G1 X20 Y10 Z5 A30 F3000\nG1 X20 Y0 Z0 A0\nG2 X0 Y0 R30\nG1 X5 Y5 Z1 A10\n";
+    for (int i = 0; i < 2000; ++i) out += "G1 X20 Y10 Z5 A30 F3000\nG1 X20 Y0 Z0 A0\nG3 X0 Y0 R30\nG1 X5 Y5 Z1 A10\n";
     return out + "M2\n";
 }
 
@@ -128,16 +128,20 @@ class Served {
 
     void run() {
         (void)machine_->enable(true);
-        if (const auto begun = machine_->begin_program(job(), "load"); !begun) fmt::print(stderr, "{}\n", begun.error().text());
+        if (const auto begun = machine_->begin_program(job(), "load"); !begun) {
+            fmt::print(stderr, "{}\n", begun.error().text());
+            std::exit(1);
+        }
         machine_->run();
         server_->stop();
     }
+    /// Any thread: the line that is being driven.
+    std::int32_t line() const { return panel_->picture()->status().line; }
     void tell() const {
         const operate::Lateness& late = pacer_.lateness();
         const auto ms = [](Duration duration) { return to_seconds(duration) * 1000; };
         fmt::print("slices          {}\nlateness p50    {:.3f} ms\nlateness p99    {:.3f} ms\nlateness p99.9  {:.3f} ms\nlateness max    {:.3f} ms\nlost            {:.3f} ms\n", late.count(),
                    ms(late.within(0.5)), ms(late.within(0.99)), ms(late.within(0.999)), ms(late.greatest()), ms(pacer_.lost()));
-        fmt::print("line            {} of {}\n", machine_->status().line, machine_->status().lines);
     }
 
   private:
@@ -178,8 +182,10 @@ int main(int argc, char** argv) {
     Served served(*rack::read_rack_text(rack_text).config);
     const std::uint16_t port = served.port();
     Counted counted;
+    std::int32_t line = 0;
     std::thread waiter([&] {
         if (::write(to_child[1], &port, sizeof port) != sizeof port || ::read(from_child[0], &counted, sizeof counted) != sizeof counted) counted = {};
+        line = served.line();
         served.machine().quit();
     });
     served.run();
@@ -189,6 +195,7 @@ int main(int argc, char** argv) {
     fmt::print("pictures        {:.0f} a second, {} of {} lost, {:.1f} MB/s, {} clients gone\n", static_cast<double>(counted.pictures) / counted.seconds, counted.lost,
                counted.pictures + counted.lost, static_cast<double>(counted.bytes) / counted.seconds * 1e-6, counted.gone);
     served.tell();
+    fmt::print("driven          {} lines\n", line);
     fmt::print("processor       {:.0f} % of one core served, {:.0f} % read\n", 100 * processor_seconds(RUSAGE_SELF) / counted.seconds, 100 * processor_seconds(RUSAGE_CHILDREN) / counted.seconds);
     return 0;
 }

@@ -42,7 +42,13 @@ Role Client::role() const {
     return service_.door().role_of(token_id_, service_.now().wall);
 }
 
+void Client::allow_for(Role role) {
+    const Limits& limits = service_.settings().limits;
+    if (wire_ != nullptr) wire_->allow(role >= Role::operate ? limits.big_body : limits.frame);
+}
+
 void Client::opened() {
+    allow_for(role());
     const ServerSettings& settings = service_.settings();
     const json hello = {{"hello",
                          {{"version", settings.version}, {"rack", settings.rack}, {"boot", settings.boot}, {"role", authority::name_of(role())},
@@ -96,6 +102,7 @@ void Client::token(const Request& request) {
     user_ = who->user;
     token_id_ = who->id;
     seen_ = true;
+    allow_for(who->role);
     answer(request.id, panel::done({{"role", authority::name_of(who->role)}, {"user", who->user}}));
 }
 

@@ -30,6 +30,8 @@ class Wire {
     virtual ~Wire() = default;
     /// Sends one message, which stays as it is until Client::written().
     virtual void write(const Outgoing& message) = 0;
+    /// From now on messages that come in may be so long.
+    virtual void allow(std::size_t bytes) = 0;
     /// Says goodbye with a code of RFC 6455 and a reason.
     virtual void close(int code, std::string_view reason) = 0;
 };
@@ -65,6 +67,8 @@ class Client : public std::enable_shared_from_this<Client> {
     authority::Role role() const;
     panel::Caller caller() const { return {user_, role(), session_}; }
     void token(const Request& request);
+    /// Who may operate may send whole programs.
+    void allow_for(authority::Role role);
     void subscribe(const Request& request);
     void ask(const Request& request, const std::string& name, bool query);
     void answer(const nlohmann::json& id, panel::Answer answer);

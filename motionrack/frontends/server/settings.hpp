@@ -22,7 +22,7 @@ struct TlsFiles {
 struct Limits {
     std::size_t connections = 500;
     std::size_t spare = 32;  ///< beyond them, for STOP only; the oldest of these goes when another comes
-    std::size_t frame = 64 * 1024;             ///< bytes of a WebSocket message that comes in
+    std::size_t frame = 64 * 1024;             ///< bytes of a WebSocket message from who may not operate; else big_body
     std::size_t small_body = 64 * 1024;        ///< bytes of a body
     std::size_t big_body = 16 * 1024 * 1024;   ///< of one that may have a program in it, from who may ask for that
     double requests_at_once = 500, requests_per_second = 200;  ///< HTTP, of an address

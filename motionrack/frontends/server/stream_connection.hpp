@@ -53,6 +53,8 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
         });
     }
 
+    void allow(std::size_t bytes) override { socket_.read_message_max(bytes); }
+
     void close(int code, std::string_view reason) override {
         reason_.emplace(static_cast<websocket::close_code>(code), beast::string_view(reason.data(), reason.size()));
         if (!writes_) return say_goodbye();
@@ -64,6 +66,8 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
     void end(std::string_view why) override { client_->goodbye(websocket::close_code::going_away, why); }
 
   private:
+    static constexpr std::size_t kept = 256 * 1024;  ///< bytes of a buffer that stay with a connection
+
     void say_goodbye() {
         socket_.async_close(*reason_, [self = this->shared_from_this()](error_code) { self->leave(); });
     }
@@ -74,6 +78,7 @@ class StreamConnection final : public Open, public Wire, public std::enable_shar
             const auto bytes = self->buffer_.cdata();
             self->client_->message({static_cast<const char*>(bytes.data()), bytes.size()}, self->socket_.got_text());
             self->buffer_.consume(bytes.size());
+            if (self->buffer_.capacity() > kept) self->buffer_.shrink_to_fit();
             self->read();
         });
     }

@@ -72,6 +72,20 @@ TEST(AStream, RefusesWithASentenceAndGoesOn) {
     EXPECT_TRUE(client.order({{"query", "status"}}).value("done", false));
 }
 
+TEST(AStream, TakesLongProgramsFromWhoMayOperate) {
+    Running running;
+    WebClient anna = running.master("anna");
+    std::string text = "(" + std::string(200'000, 'x') + ")\n" + job();
+    for (std::size_t at = 100; at < 200'000; at += 100) text[at] = '\n', text[at - 1] = ')', text[at + 1] = '(';
+    EXPECT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", text}}).value("done", false));
+    WebClient bert = running.stream(running.token("bert", Role::observe));
+    bert.say({{"id", 1}, {"order", "begin"}, {"name", "job"}, {"text", text}});
+    WebFrame frame;
+    do frame = bert.receive();
+    while (frame.kind == 1);
+    EXPECT_EQ(frame.code, 1009);
+}
+
 TEST(AStream, HasOneMasterAtATime) {
     Running running;
     WebClient anna = running.master("anna");
