@@ -142,7 +142,7 @@ class Serving {
         settings.rack_text = std::move(rack_text_);
         settings.pacer = &pacer_;
         settings.journal = journal_.get();
-        settings.link = [this] { return nlohmann::json{{"sender", grbl_ ? grbl_->sender() : "none"}, {"clients", server_ ? server_->load().clients : 0}}; };
+        settings.link = [this] { return nlohmann::json{{"sender", grbl_ ? grbl_->sender() : "none"}, {"clients", server_ ? server_->clients() : 0}}; };
         settings.elsewhere = server::door_orders(*door_);
         panel_ = std::make_unique<panel::Panel>(*machine_, lease_, std::move(settings));
     }

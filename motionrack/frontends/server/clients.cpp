@@ -52,7 +52,6 @@ void Clients::tick() {
         client->look_after(now);
         if (!client->due(now)) continue;
         client->send_picture(encode(client->channels(), picture));
-        ++pictures_;
     }
     std::erase_if(encoded_, [](const auto& one) { return one.first != nullptr && one.second.set.expired(); });
 }
@@ -61,11 +60,6 @@ void Clients::tell(const panel::Event& event) {
     const auto text = std::make_shared<const std::string>(panel::text_of({{"event", panel::to_json(event)}}));
     const std::vector<std::shared_ptr<Client>> clients = clients_;
     for (const std::shared_ptr<Client>& client : clients) client->send_event(text);
-}
-
-void Clients::goodbye(int code, std::string_view reason) {
-    const std::vector<std::shared_ptr<Client>> clients = clients_;
-    for (const std::shared_ptr<Client>& client : clients) client->goodbye(code, reason);
 }
 
 }  // namespace motionrack::server

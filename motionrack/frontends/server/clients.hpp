@@ -18,12 +18,8 @@ class Clients {
     /// Every few ms.
     void tick();
     void tell(const panel::Event& event);
-    void goodbye(int code, std::string_view reason);
-
-    // Any thread.
+    /// Any thread.
     std::int64_t count() const { return count_; }
-    /// Pictures that were given to connections so far.
-    std::int64_t pictures() const { return pictures_; }
 
   private:
     /// What all who look at one set of channels get, behind their own numbers.
@@ -38,7 +34,7 @@ class Clients {
     Service& service_;
     std::vector<std::shared_ptr<Client>> clients_;
     std::map<const panel::ChannelSet*, Encoded> encoded_;  // looked up only, never walked to the outside
-    std::atomic<std::int64_t> count_ = 0, pictures_ = 0;
+    std::atomic<std::int64_t> count_ = 0;
 };
 
 }  // namespace motionrack::server

@@ -95,7 +95,7 @@ class Server::Inside {
 
     const ServerSettings& settings() const { return hall_->service->settings(); }
     std::uint16_t port() const { return port_; }
-    Load load() const { return {hall_->clients.count(), hall_->clients.pictures()}; }
+    std::int64_t clients() const { return hall_->clients.count(); }
 
   private:
     /// Looks every few ms whether all are gone.
@@ -135,6 +135,6 @@ std::string Server::url() const {
     return fmt::format("{}://{}:{}/", settings.tls ? "https" : "http", six ? fmt::format("[{}]", settings.address) : settings.address, port());
 }
 
-Server::Load Server::load() const { return inside_->load(); }
+std::int64_t Server::clients() const { return inside_->clients(); }
 
 }  // namespace motionrack::server

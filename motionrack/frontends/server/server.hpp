@@ -29,12 +29,8 @@ class Server {
     /// "http://127.0.0.1:8080/"
     std::string url() const;
 
-    struct Load {
-        std::int64_t clients = 0;   ///< WebSockets
-        std::int64_t pictures = 0;  ///< given to their connections so far
-    };
-    /// Any thread.
-    Load load() const;
+    /// WebSockets; any thread.
+    std::int64_t clients() const;
 
   private:
     class Inside;
