@@ -73,7 +73,10 @@ class Served {
         return json::parse(body, nullptr, false);
     }
     json post(const std::string& name, const json& fields = json::object()) { return send("POST", name, fields.dump()) ? answer() : json(json::value_t::discarded); }
-    json get(const std::string& name) { return send("GET", name, "") ? answer() : json(json::value_t::discarded); }
+    json status() {
+        const json all = send("GET", "status", "") ? answer() : json(json::value_t::discarded);
+        return all.is_object() ? all.value("status", json()) : json();
+    }
 
     std::string said;
 
@@ -136,7 +139,7 @@ TEST_F(AServedRack, LosesNothingAcknowledgedInAHundredKills) {
             if (!ran.empty()) {
                 EXPECT_THAT(served.said, HasSubstr(ran));
             }
-            const json status = served.get("status");
+            const json status = served.status();
             ASSERT_TRUE(status.contains("axes")) << status.dump();
             EXPECT_FALSE(status["axes"][0]["trusted"]);
             ASSERT_EQ(status["alarms"].size(), 1u);
@@ -167,12 +170,12 @@ TEST_F(AServedRack, StandsWhereItStoodAfterAnEndThatWasAskedFor) {
         Served served(arguments());
         make_ready(served);
         EXPECT_TRUE(served.post("begin", {{"name", "there.ngc"}, {"text", "G1 X12.5 F6000\nM30\n"}}).contains("done"));
-        while (served.get("status")["axes"][0]["commanded"] != 12.5) continue;
+        while (served.status()["axes"][0]["commanded"] != 12.5) continue;
         EXPECT_EQ(served.end(SIGTERM), 0);
     }
     Served served(arguments());
     EXPECT_THAT(served.said, testing::Not(HasSubstr("cut off")));
-    const json status = served.get("status");
+    const json status = served.status();
     EXPECT_EQ(status["axes"][0]["commanded"], 12.5);
     EXPECT_TRUE(status["axes"][0]["trusted"]);
     EXPECT_TRUE(status["alarms"].empty());
@@ -182,7 +185,7 @@ TEST_F(AServedRack, StopsAMoveBeforeItEnds) {
     Served served(arguments());
     make_ready(served);
     EXPECT_TRUE(served.post("begin", {{"name", "long.ngc"}, {"text", long_way}}).contains("done"));
-    while (served.get("status")["axes"][0]["commanded"].get<double>() < 5) continue;
+    while (served.status()["axes"][0]["commanded"].get<double>() < 5) continue;
     EXPECT_EQ(served.end(SIGINT), 0);
     const std::vector<std::string> jobs = entries("job");
     ASSERT_EQ(jobs.size(), 2u);

@@ -6,6 +6,7 @@
 #include <motionrack/operate/logbook.hpp>
 #include <motionrack/panel/desk.hpp>
 #include <motionrack/panel/status_text.hpp>
+#include <utility>
 
 namespace motionrack::panel {
 
@@ -41,6 +42,7 @@ class Panel::Inside {
     /// Every slice: what changed is told; now and then a picture.
     void look(const operate::Status& status) {
         logbook_.see(status);
+        answer_orders();
         desk_.scope.slice(status.at);
         desk_.driven.add(status);
         const auto real = std::chrono::steady_clock::now();
@@ -57,16 +59,6 @@ class Panel::Inside {
         const auto ready = [this, &row, caller, fields, reply](Result<json> result) { finish(row, caller, fields, reply, std::move(result)); };
         if (doer.later != nullptr) return doer.later(desk_, caller, fields, ready);
         ready(doer.now(desk_, caller, fields));
-    }
-
-    /// An order that was taken, for everybody; `safe` hears when it is in the journal.
-    void tell_order(const AskRow& row, const Caller& caller, const json& fields, journal::Journal::Done safe) {
-        const json data = {{"order", row.name}, {"user", caller.user}};
-        const Event& event = desk_.book.add({0, desk_.machine.now(), "order", sentence(row, caller, fields), data});
-        if (desk_.settings.journal != nullptr)
-            desk_.settings.journal->write(event.at, event.kind, event.text, text_of(data), std::move(safe));
-        else if (safe)
-            safe(event.number);
     }
 
     Desk& desk() { return desk_; }
@@ -98,9 +90,21 @@ class Panel::Inside {
         const bool told = row.role != authority::Role::observe && !row.passing && !answer.body.value("again", false);
         answer.body.erase("again");
         if (!told) return reply(std::move(answer));
-        tell_order(row, caller, fields, [reply, answer = std::move(answer)](const Result<std::int64_t>& kept) {
+        taken_.push_back({&row, caller, fields, [reply, answer = std::move(answer)](const Result<std::int64_t>& kept) {
             reply(kept ? answer : refused_answer(500, "io", "The order was carried out, but could not be written into the journal: " + kept.error().message));
-        });
+        }});
+    }
+
+    /// Orders come into the journal behind what the machine became by them: what is answered is what a next run will know.
+    void answer_orders() {
+        for (Taken& one : std::exchange(taken_, {})) {
+            const json data = {{"order", one.row->name}, {"user", one.caller.user}};
+            const Event& event = desk_.book.add({0, desk_.machine.now(), "order", sentence(*one.row, one.caller, one.fields), data});
+            if (desk_.settings.journal != nullptr)
+                desk_.settings.journal->write(event.at, event.kind, event.text, text_of(data), std::move(one.safe));
+            else
+                one.safe(event.number);
+        }
     }
 
     static std::string sentence(const AskRow& row, const Caller& caller, const json& fields) {
@@ -113,11 +117,20 @@ class Panel::Inside {
         return out;
     }
 
+    /// An order that was carried out; `safe` hears when it is in the journal.
+    struct Taken {
+        const AskRow* row;
+        Caller caller;
+        json fields;
+        journal::Journal::Done safe;
+    };
+
     Panel& panel_;
     Desk desk_;
     StatusWriter writer_;
     operate::Logbook logbook_;
     std::map<std::string_view, const Doer*> doers_;
+    std::vector<Taken> taken_;
     std::chrono::steady_clock::time_point shown_{}, looked_{};
     std::uint64_t told_ = 0;
 };
