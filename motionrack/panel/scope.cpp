@@ -131,17 +131,19 @@ void Scope::restart(Instant now) {
     full_ = false;
 }
 
+/// The trigger's channel went from one value to another.
+void Scope::look_at(Instant at, double before, double value) {
+    last_value_ = value;
+    const bool above = value >= settings_.level, was = before >= settings_.level;
+    const bool fits = above != was && (settings_.edge == TriggerEdge::either || (settings_.edge == TriggerEdge::rise) == above);
+    if (!fits || at - armed_at_ < settings_.pre) return;
+    state_ = ScopeState::triggered;
+    triggered_at_ = at;
+}
+
 /// A change of a wire.
 void Scope::see(Instant at, std::size_t channel, double value) {
-    if (channel == trigger_place_ && state_ == ScopeState::armed) {
-        const bool above = value >= settings_.level, was = last_value_.value_or(base_[channel]) >= settings_.level;
-        const bool fits = above != was && (settings_.edge == TriggerEdge::either || (settings_.edge == TriggerEdge::rise) == above);
-        if (fits && at - armed_at_ >= settings_.pre) {
-            state_ = ScopeState::triggered;
-            triggered_at_ = at;
-        }
-        last_value_ = value;
-    }
+    if (channel == trigger_place_ && state_ == ScopeState::armed) look_at(at, last_value_.value_or(base_[channel]), value);
     if (edges_.size() >= most_edges) {
         if (state_ == ScopeState::triggered) {
             full_ = true;
@@ -159,13 +161,7 @@ void Scope::look_for_trigger() {
     for (; seen_ < written_ && state_ == ScopeState::armed && column != numbers_.end(); ++seen_) {
         if (seen_ < written_ - rows_) continue;
         const double value = sample_of(seen_, static_cast<std::size_t>(column - numbers_.begin()));
-        const double before = last_value_.value_or(value);
-        last_value_ = value;
-        const bool above = value >= settings_.level, was = before >= settings_.level;
-        const bool fits = above != was && (settings_.edge == TriggerEdge::either || (settings_.edge == TriggerEdge::rise) == above);
-        if (!fits || sample_time(seen_) - armed_at_ < settings_.pre) continue;
-        state_ = ScopeState::triggered;
-        triggered_at_ = sample_time(seen_);
+        look_at(sample_time(seen_), last_value_.value_or(value), value);
     }
 }
 

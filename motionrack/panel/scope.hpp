@@ -88,6 +88,7 @@ class Scope {
     void begin_numbers();
     void sample(Instant now);
     void look_for_trigger();
+    void look_at(Instant at, double before, double value);
     void see(Instant at, std::size_t channel, double value);
     void forget_old(Instant now);
     void finish();
