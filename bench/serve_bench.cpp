@@ -12,14 +12,8 @@
 #include <chrono>
 #include <cstdlib>
 #include <memory>
-#include <motionrack/authority/control_lease.hpp>
-#include <motionrack/authority/doorkeeper.hpp>
-#include <motionrack/frontends/server/server.hpp>
+#include <motionrack/frontends/server/served_rack.hpp>
 #include <motionrack/frontends/server/test/web_client.hpp>
-#include <motionrack/live/clock.hpp>
-#include <motionrack/operate/machine.hpp>
-#include <motionrack/operate/pacer.hpp>
-#include <motionrack/panel/panel.hpp>
 #include <motionrack/rack/config.hpp>
 #include <string>
 #include <thread>
@@ -104,55 +98,25 @@ Counted read_pictures(std::uint16_t port, const Load& load) {
     return out;
 }
 
-/// The parent: serves until the child has counted.
-class Served {
-  public:
-    explicit Served(const rack::RackConfig& config) {
-        operate::MachineSettings settings;
-        settings.pace = [this](Instant now) { return pacer_.pace(now); };
-        machine_ = *operate::Machine::make(config, std::move(settings));
-        door_ = *authority::Doorkeeper::open({});
-        panel_ = std::make_unique<panel::Panel>(*machine_, lease_, panel::PanelSettings{});
-        server::ServerSettings server_settings;
-        server_settings.port = 0;
-        server_settings.limits.requests_at_once = 1e6;
-        auto opened = server::Server::open(std::move(server_settings), *panel_, *door_, lease_, server::Page());
-        if (!opened) {
-            fmt::print(stderr, "{}\n", opened.error().text());
-            std::exit(1);
-        }
-        server_ = std::move(*opened);
-    }
-    std::uint16_t port() const { return server_->port(); }
-    operate::Machine& machine() { return *machine_; }
+/// The parent, which serves until the child has counted.
+std::unique_ptr<server::ServedRack> serve() {
+    server::ServedSettings settings;
+    settings.server.port = 0;
+    settings.server.limits.requests_at_once = 1e6;
+    auto served = server::ServedRack::open(*rack::read_rack_text(rack_text).config, std::move(settings));
+    if (served) (void)(*served)->machine().enable(true);
+    const Result<void> begun = served ? (*served)->machine().begin_program(job(), "load") : tl::unexpected<Error>(served.error());
+    if (begun) return std::move(*served);
+    fmt::print(stderr, "{}\n", begun.error().text());
+    std::exit(1);
+}
 
-    void run() {
-        (void)machine_->enable(true);
-        if (const auto begun = machine_->begin_program(job(), "load"); !begun) {
-            fmt::print(stderr, "{}\n", begun.error().text());
-            std::exit(1);
-        }
-        machine_->run();
-        server_->stop();
-    }
-    /// Any thread: the line that is being driven.
-    std::int32_t line() const { return panel_->picture()->status().line; }
-    void tell() const {
-        const operate::Lateness& late = pacer_.lateness();
-        const auto ms = [](Duration duration) { return to_seconds(duration) * 1000; };
-        fmt::print("slices          {}\nlateness p50    {:.3f} ms\nlateness p99    {:.3f} ms\nlateness p99.9  {:.3f} ms\nlateness max    {:.3f} ms\nlost            {:.3f} ms\n", late.count(),
-                   ms(late.within(0.5)), ms(late.within(0.99)), ms(late.within(0.999)), ms(late.greatest()), ms(pacer_.lost()));
-    }
-
-  private:
-    live::MonotonicClock clock_;
-    operate::Pacer pacer_{clock_, operate::ClockMode::real, 1};
-    authority::ControlLease lease_;
-    std::unique_ptr<operate::Machine> machine_;
-    std::unique_ptr<authority::Doorkeeper> door_;
-    std::unique_ptr<panel::Panel> panel_;
-    std::unique_ptr<server::Server> server_;
-};
+void tell(const operate::Pacer& pacer) {
+    const operate::Lateness& late = pacer.lateness();
+    const auto ms = [](Duration duration) { return to_seconds(duration) * 1000; };
+    fmt::print("slices          {}\nlateness p50    {:.3f} ms\nlateness p99    {:.3f} ms\nlateness p99.9  {:.3f} ms\nlateness max    {:.3f} ms\nlost            {:.3f} ms\n", late.count(),
+               ms(late.within(0.5)), ms(late.within(0.99)), ms(late.within(0.999)), ms(late.greatest()), ms(pacer.lost()));
+}
 
 double processor_seconds(int who) {
     rusage usage = {};
@@ -179,22 +143,23 @@ int main(int argc, char** argv) {
         std::exit(::write(from_child[1], &counted, sizeof counted) == sizeof counted ? 0 : 1);
     }
     ::close(from_child[1]);
-    Served served(*rack::read_rack_text(rack_text).config);
-    const std::uint16_t port = served.port();
+    const auto served = serve();
+    const std::uint16_t port = served->server().port();
     Counted counted;
     std::int32_t line = 0;
     std::thread waiter([&] {
         if (::write(to_child[1], &port, sizeof port) != sizeof port || ::read(from_child[0], &counted, sizeof counted) != sizeof counted) counted = {};
-        line = served.line();
-        served.machine().quit();
+        line = served->panel().picture()->status().line;
+        served->machine().quit();
     });
-    served.run();
+    served->run();
+    served->stop();
     waiter.join();
     ::waitpid(child, nullptr, 0);
     fmt::print("clients         {} at {:g} Hz, {:.1f} s\n", load.clients, load.rate_hz, counted.seconds);
     fmt::print("pictures        {:.0f} a second, {} of {} lost, {:.1f} MB/s, {} clients gone\n", static_cast<double>(counted.pictures) / counted.seconds, counted.lost,
                counted.pictures + counted.lost, static_cast<double>(counted.bytes) / counted.seconds * 1e-6, counted.gone);
-    served.tell();
+    tell(served->pacer());
     fmt::print("driven          {} lines\n", line);
     fmt::print("processor       {:.0f} % of one core served, {:.0f} % read\n", 100 * processor_seconds(RUSAGE_SELF) / counted.seconds, 100 * processor_seconds(RUSAGE_CHILDREN) / counted.seconds);
     return 0;

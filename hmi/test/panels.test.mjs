@@ -117,6 +117,20 @@ test('registers are shown with the names of their bits, and looking gives no ord
   await done(tab);
 });
 
+test('an axis is disabled alone, is not moved then, and is enabled again', async () => {
+  const tab = await at('operate');
+  const drive = tab.page.getByRole('button', { name: 'Axis Y enabled' });
+  await drive.click();
+  await until(() => tab.status.axes[1].enabled === false, 'Y is disabled');
+  assert.equal(await drive.getAttribute('aria-pressed'), 'false');
+  assert.equal(tab.status.state, 'standstill');
+  await tab.page.getByRole('button', { name: 'Home axis Y' }).click();
+  await tab.page.getByText('Not homed: axis Y is disabled; enable it first.').first().waitFor();
+  await drive.click();
+  await until(() => tab.status.axes[1].enabled === true, 'Y is enabled');
+  await done(tab);
+});
+
 test('a wire is driven by hand and released; a fault is made and mended', async () => {
   const tab = await at('faults');
   await tab.page.getByLabel('Find').fill('Y.limit_plus');

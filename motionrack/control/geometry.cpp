@@ -145,7 +145,13 @@ double distance_to_arc(const Geometry& path, const std::array<double, 3>& point)
                              point[path.third] - path.start[path.third]};
     double best = std::min(helix_square(path, seen, 0, climb / whole), helix_square(path, seen, whole, climb / whole));
     if (std::fabs(climb) < smallest_length) {
-        if (seen.angle <= whole) best = std::min(best, helix_square(path, seen, seen.angle, 0));
+        if (seen.angle > whole) return std::sqrt(best);
+        // of a spiral's turns the two that come nearest to the point's distance from the axis
+        const double grown = seen.from_axis * (1 + 0.5 * path.growth) / path.radius - 1;
+        const double nearest = path.growth == 0 ? 0 : std::floor((grown / path.growth * whole - seen.angle) / (2 * pi));
+        const double last = std::floor((whole - seen.angle) / (2 * pi));
+        for (const double turn : {nearest, nearest + 1})
+            best = std::min(best, helix_square(path, seen, seen.angle + 2 * pi * std::clamp(turn, 0.0, last), 0));
         return std::sqrt(best);
     }
     const double rise = climb / whole;

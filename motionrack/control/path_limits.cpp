@@ -26,9 +26,9 @@ double square(double x) {
     return x * x;
 }
 
-/// Are the two tangents closer than same_direction? XYZ parts are unit vectors; ABC parts are compared by their own
-/// size.
-bool same(const Point& in, const Point& out) {
+}  // namespace
+
+bool is_same_direction(const Point& in, const Point& out) {
     const double linear = square(out[0] - in[0]) + square(out[1] - in[1]) + square(out[2] - in[2]);
     if (linear > square(same_direction)) return false;
     const double rotary = square(out[3] - in[3]) + square(out[4] - in[4]) + square(out[5] - in[5]);
@@ -37,8 +37,6 @@ bool same(const Point& in, const Point& out) {
         {1.0, square(in[3]) + square(in[4]) + square(in[5]), square(out[3]) + square(out[4]) + square(out[5])});
     return rotary <= square(same_direction) * size;
 }
-
-}  // namespace
 
 PathLimits::PathLimits(const MachineLimits& limits) {
     for (int i = 0; i < axis_count; ++i) {
@@ -127,7 +125,7 @@ double PathLimits::joint_squared(const Geometry& before, double speed_before, co
     if (path == PathControl::exact_stop) return 0;
     if ((before.shape == PathShape::rotary) != (after.shape == PathShape::rotary)) return 0;
     double limit = square(std::min(speed_before, speed_after));
-    if (!same(before.tangent_out, after.tangent_in)) {
+    if (!is_same_direction(before.tangent_out, after.tangent_in)) {
         if (path == PathControl::exact_path) return 0;
         const double mean_length = 0.5 * (before.length + after.length);
         limit = std::min(limit, corner_squared(before.tangent_out, after.tangent_in, mean_length, tolerance_mm));

@@ -26,8 +26,6 @@ double mask(const RackConfig& config, Is is) {
     return bits;
 }
 
-bool can_home(const RackAxis& axis) { return axis.switches.home || axis.switches.has_cam(); }
-
 /// Of the first axis that can be homed; 0: none can.
 template <class Get>
 double of_homing(const RackConfig& config, Get get) {
@@ -55,10 +53,10 @@ constexpr std::array<Setting, 22> table = {{
     {21, 0, "hard limits",
      [](const RackConfig& c) { return mask(c, [](const RackAxis& axis) { return axis.switches.limit_minus || axis.switches.limit_plus; }) != 0 ? 1.0 : 0.0; },
      nullptr},
-    {22, 0, "homing cycle", [](const RackConfig& c) { return mask(c, can_home) != 0 ? 1.0 : 0.0; }, nullptr},
+    {22, 0, "homing cycle", [](const RackConfig& c) { return mask(c, [&](const RackAxis& axis) { return c.can_home(axis); }) != 0 ? 1.0 : 0.0; }, nullptr},
     {23, 0, "homing direction invert, mask: axes that search in - direction",
      [](const RackConfig& c) {
-         return mask(c, [](const RackAxis& axis) { return can_home(axis) && axis.homing.direction == rack::HomingDirection::minus; });
+         return mask(c, [&](const RackAxis& axis) { return c.can_home(axis) && axis.homing.direction == rack::HomingDirection::minus; });
      },
      nullptr},
     {24, 3, "homing feed, mm/min",

@@ -18,7 +18,7 @@ Result<void> Machine::set_work_zero(char axis, double value) {
 }
 
 Result<void> Machine::access(const BusAccess& access, std::function<void(std::uint32_t)> ready) {
-    const bool stands = state_ == MachineState::disabled || state_ == MachineState::standstill || state_ == MachineState::error_stop;
+    const bool stands = idle(state_);
     if (!stands || stream_->has_work())
         return fail(Trouble::refused, fmt::format("The card was not accessed: the machine is in state '{}'. Stop it, or wait until it stands.", name_of(state_)));
     MOTIONRACK_CHECK(rack::card_for_access(rack_, access.card, access.bits, access.address, access.value.has_value()));

@@ -16,10 +16,6 @@ using nlohmann::json;
 constexpr const char* kept_key = "machine";
 constexpr Duration keep_every = milliseconds(100);
 
-bool stands(MachineState state) {
-    return state == MachineState::disabled || state == MachineState::standstill || state == MachineState::hold || state == MachineState::error_stop;
-}
-
 std::string places(const std::vector<AxisStatus>& axes) {
     std::string out;
     for (const AxisStatus& axis : axes)

@@ -71,9 +71,17 @@ Result<void> Machine::ready(const char* what) {
     return {};
 }
 
-/// And every axis knows where it is.
+Result<void> Machine::all_enabled(const char* what, std::string_view axes) const {
+    for (const rack::RackAxis& axis : rack_.config().axes)
+        if (axes.find(axis.letter) != std::string_view::npos && !enabled_[static_cast<std::size_t>(axis.index())])
+            return fail(Trouble::refused, fmt::format("{}: axis {} is disabled; enable it first. Nothing was moved.", what, axis.letter));
+    return {};
+}
+
+/// And every axis is enabled and knows where it is.
 Result<void> Machine::ready_for_lines(const char* what) {
     MOTIONRACK_CHECK(ready(what));
+    MOTIONRACK_CHECK(all_enabled(what, {control::axis_letters.data(), control::axis_letters.size()}));
     if (!positions_wanted_.empty()) return fail(Trouble::refused, fmt::format("{}: positions of axes are being declared; try again at once. Nothing was moved.", what));
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (!trusted_[static_cast<std::size_t>(axis.index())])
@@ -81,14 +89,18 @@ Result<void> Machine::ready_for_lines(const char* what) {
     return {};
 }
 
-Result<void> Machine::enable(bool on) {
-    if (!on) {
-        stop();
-        disable_wanted_ = true;
-        return {};
+Result<void> Machine::enable(bool on, std::string_view axes) {
+    for (const char letter : axes)
+        if (rack_.config().axis(letter) == nullptr)
+            return fail(Trouble::bad_input, fmt::format("Nothing was {}: the machine has no axis {}.", on ? "enabled" : "disabled", letter));
+    if (!on) stop();
+    for (const rack::RackAxis& axis : rack_.config().axes) {
+        if (!axes.empty() && axes.find(axis.letter) == std::string_view::npos) continue;
+        const auto i = static_cast<std::size_t>(axis.index());
+        disable_wanted_[i] = !on;
+        if (on) enabled_[i] = true;
     }
-    disable_wanted_ = false;
-    if (state_ == MachineState::disabled) enter(MachineState::standstill);
+    if (on && state_ == MachineState::disabled) enter(MachineState::standstill);
     return {};
 }
 
@@ -159,6 +171,7 @@ void Machine::reset() {
 
 Result<void> Machine::jog(char axis, double speed) {
     if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
+    MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
     if (rack_.config().axis(axis) == nullptr) return fail(Trouble::bad_input, fmt::format("Not jogged: the machine has no axis {}.", axis));
     if (!std::isfinite(speed)) return fail(Trouble::bad_input, "Not jogged: the speed is not a number.");
     jogs_.push_back({axis, speed, std::nullopt});
@@ -168,6 +181,7 @@ Result<void> Machine::jog(char axis, double speed) {
 
 Result<void> Machine::jog_by(char axis, double distance, double speed) {
     MOTIONRACK_CHECK(ready("Not jogged"));
+    MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
     if (rack_.config().axis(axis) == nullptr) return fail(Trouble::bad_input, fmt::format("Not jogged: the machine has no axis {}.", axis));
     if (!std::isfinite(distance) || !(speed > 0)) return fail(Trouble::bad_input, fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
     jogs_.push_back({axis, speed, distance});
@@ -206,7 +220,12 @@ Result<void> Machine::jog_to(const control::Point& target, double speed) {
 }
 
 Result<void> Machine::home(std::string axes) {
+    std::string homed = axes;
+    if (axes.empty())
+        for (const rack::RackAxis& axis : rack_.config().axes)
+            if (rack_.config().can_home(axis)) homed += axis.letter;
     MOTIONRACK_CHECK(ready("Not homed"));
+    MOTIONRACK_CHECK(all_enabled("Not homed", homed));
     home_wanted_ = std::move(axes);
     home_stop_ = false;
     enter(MachineState::homing);

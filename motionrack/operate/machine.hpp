@@ -65,8 +65,8 @@ class Machine {
     void listen(std::function<void(const Status&)> call) { listeners_.push_back(std::move(call)); }
 
     // ---- orders, posted; refused ones (Trouble::refused) change nothing ----------------------------------------------------------------
-    /// Disabling stops what moves.
-    Result<void> enable(bool on);
+    /// These axes; empty: all. Disabling stops whatever moves first; an axis that is disabled is moved by nobody. Errors: bad_input.
+    Result<void> enable(bool on, std::string_view axes = {});
     /// Checks a program whole, then begins it. Errors: bad_input, its first problem with line and column.
     Result<void> begin_program(std::string text, std::string name);
     /// One line, behind those that are there. Refused: a program runs, no room.
@@ -115,7 +115,7 @@ class Machine {
     MachineState state() const { return state_; }
     /// A stop, a reset or a declared position is not carried out yet.
     bool has_orders() const { return stop_wanted_ || !positions_wanted_.empty(); }
-    bool can_home() const;
+    bool can_home() const;  ///< some axis
     /// Whether the positions of this axis mean places of the machine.
     bool trusted(const rack::RackAxis& axis) const { return trusted_[static_cast<std::size_t>(axis.index())]; }
     double feed_override() const { return feed_; }
@@ -154,11 +154,13 @@ class Machine {
     void access_bus();
     void change_positions();
     void failed(const Error& error);
-    void raise(std::string text);
+    void raise(std::string source, std::string text);
+    std::string at_work() const;
     void come_to_rest();
     void watch_button();
     bool button_pressed() const;
     Result<void> ready(const char* what);
+    Result<void> all_enabled(const char* what, std::string_view axes) const;
     Result<void> ready_for_lines(const char* what);
     void pass_event(const control::gcode::Step& step);
     void tools_off();
@@ -175,9 +177,9 @@ class Machine {
     std::optional<rack::FrameWatch> frames_;
     std::unique_ptr<control::Stream> stream_;
     bool group_holds_ = false;  ///< the card's axes; else each by itself
-    std::array<bool, control::axis_count> trusted_ = {};
+    std::array<bool, control::axis_count> trusted_ = {}, enabled_ = {}, disable_wanted_ = {};
     MachineState state_ = MachineState::disabled;
-    bool quit_ = false, stop_wanted_ = false, reset_wanted_ = false, disable_wanted_ = false;
+    bool quit_ = false, stop_wanted_ = false, reset_wanted_ = false;
     // the program, or lines one by one
     std::string program_, program_name_;
     std::optional<control::gcode::Lines> lines_;

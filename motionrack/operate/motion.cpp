@@ -7,14 +7,9 @@
 
 namespace motionrack::operate {
 
-namespace {
-
-bool can_home(const rack::RackAxis& axis) { return axis.switches.home || axis.switches.has_cam(); }
-
-}  // namespace
-
 bool Machine::can_home() const {
-    return std::any_of(rack_.config().axes.begin(), rack_.config().axes.end(), [](const rack::RackAxis& axis) { return operate::can_home(axis); });
+    const rack::RackConfig& config = rack_.config();
+    return std::any_of(config.axes.begin(), config.axes.end(), [&](const rack::RackAxis& axis) { return config.can_home(axis); });
 }
 
 // ---- who holds the card's axes ------------------------------------------------------------------------------------------------------
@@ -43,7 +38,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     group_holds_ = true;
     rack_.set_stop_flag(stream_->stop_flag());
     rack_.on_slice(settings_.slice, [this] { slice(); });
-    if (!settings_.alarm.empty()) raise(settings_.alarm);
+    if (!settings_.alarm.empty()) raise("last run", settings_.alarm);
     tell();
     return {};
 }
@@ -103,6 +98,10 @@ void Machine::step() {
     host().pass(settings_.slice);
 }
 
+namespace {
+constexpr const char* button_name = "emergency stop";
+}
+
 bool Machine::button_pressed() const {
     const Result<double> level = desk_.get("estop");
     return level && *level == 0;  // its contact opens
@@ -111,7 +110,7 @@ bool Machine::button_pressed() const {
 /// At a standstill no drive ends by it.
 void Machine::watch_button() {
     if (state_ == MachineState::error_stop || !button_pressed()) return;
-    raise("The emergency stop is pressed. Release it, then reset.");
+    raise(button_name, "The emergency stop is pressed. Release it, then reset.");
     enter(MachineState::error_stop, status_.alarms.back().text);
 }
 
@@ -127,8 +126,9 @@ void Machine::come_to_rest() {
         if (state_ == MachineState::error_stop) enter(MachineState::standstill);
     }
     if (state_ == MachineState::stopping) enter(MachineState::standstill);
-    if (disable_wanted_ && state_ == MachineState::standstill) enter(MachineState::disabled);
-    disable_wanted_ = false;
+    for (std::size_t i = 0; i < enabled_.size(); ++i) enabled_[i] = enabled_[i] && !std::exchange(disable_wanted_[i], false);
+    const bool any = std::find(enabled_.begin(), enabled_.end(), true) != enabled_.end();
+    if (!any && state_ == MachineState::standstill) enter(MachineState::disabled);
 }
 
 // ---- lines and programs -------------------------------------------------------------------------------------------------------------
@@ -230,21 +230,29 @@ void Machine::change_positions() {
 
 // ---- what is told -------------------------------------------------------------------------------------------------------------------
 
+/// What moves, or was to move, in a few words.
+std::string Machine::at_work() const {
+    if (program_runs_) return fmt::format("{}, line {}", program_name_, stream_->line_driven());
+    if (state_ == MachineState::moving || state_ == MachineState::hold) return fmt::format("line {}", stream_->line_driven());
+    return state_ == MachineState::homing ? "homing" : state_ == MachineState::jogging ? "jog" : "machine";
+}
+
 void Machine::failed(const Error& error) {
+    const std::string what = at_work();
     lines_.reset();
     program_runs_ = false;
     tools_off();
     const bool pressed = button_pressed();
     if (pressed) trusted_.fill(false);  // it stopped without a ramp
-    raise(error.text() + (pressed ? " The emergency stop is pressed: the positions are not trusted any more." : ""));
+    raise(pressed ? button_name : what, error.text() + (pressed ? " The emergency stop is pressed: the positions are not trusted any more." : ""));
     enter(MachineState::error_stop, status_.alarms.back().text);
 }
 
-void Machine::raise(std::string text) {
+void Machine::raise(std::string source, std::string text) {
     std::vector<Alarm>& alarms = status_.alarms;
     alarms.erase(std::remove_if(alarms.begin(), alarms.end(), [](const Alarm& alarm) { return !alarm.active && alarm.acknowledged; }), alarms.end());
     if (alarms.size() >= settings_.most_alarms) alarms.erase(alarms.begin());
-    alarms.push_back({next_alarm_++, now(), std::move(text)});
+    alarms.push_back({next_alarm_++, now(), std::move(source), std::move(text)});
 }
 
 void Machine::enter(MachineState state, std::string why) {
@@ -274,6 +282,7 @@ AxisStatus Machine::look_at(rack::RunningAxis& axis) {
     out.letter = axis.config.letter;
     out.rotary = axis.config.index() >= 3;
     out.trusted = trusted_[static_cast<std::size_t>(axis.config.index())];
+    out.enabled = enabled_[static_cast<std::size_t>(axis.config.index())];
     out.pulses = axis.card->pulse_counter(axis.channel);
     out.counts = axis.card->encoder_counter(axis.channel);
     out.commanded = static_cast<double>(out.pulses) / axis.config.pulses_per_unit();

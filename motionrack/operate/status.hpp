@@ -12,7 +12,7 @@
 namespace motionrack::operate {
 
 enum class MachineState : std::uint8_t {
-    disabled,    ///< takes no motion until it is enabled
+    disabled,    ///< takes no motion until an axis is enabled
     standstill,
     homing,
     moving,      ///< drives lines of G-code
@@ -23,11 +23,18 @@ enum class MachineState : std::uint8_t {
 };
 /// "standstill", "error stop".
 std::string_view name_of(MachineState state);
+/// Whether nothing moves in it and nothing waits to go on.
+constexpr bool idle(MachineState state) {
+    return state == MachineState::disabled || state == MachineState::standstill || state == MachineState::error_stop;
+}
+/// Whether nothing moves in it.
+constexpr bool stands(MachineState state) { return idle(state) || state == MachineState::hold; }
 
 /// An alarm as ISA-18.2 has them: it is there until it was acknowledged and its cause is gone.
 struct Alarm {
     std::int64_t number = 0;  ///< from 1
     Instant at{};
+    std::string source;       ///< "emergency stop", "part.ngc, line 12", "homing", "jog", "last run", "machine"
     std::string text;
     bool active = true, acknowledged = false;
 };
@@ -36,6 +43,7 @@ struct AxisStatus {
     char letter = 'X';
     bool rotary = false;        ///< degrees instead of mm
     bool trusted = false;       ///< the positions mean places of the machine
+    bool enabled = false;
     double commanded = 0;       ///< what the card's pulses say
     double actual = 0;          ///< what the encoder says; commanded without one
     double place = 0;           ///< where the table really is, whatever any counter says

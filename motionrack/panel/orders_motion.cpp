@@ -10,13 +10,9 @@ using nlohmann::json;
 
 namespace {
 
-bool stands(operate::MachineState state) {
-    return state == operate::MachineState::disabled || state == operate::MachineState::standstill || state == operate::MachineState::error_stop;
-}
-
 constexpr std::array control = {
     Doer{"take_control", [](Desk& desk, const Caller& caller, const json& fields) {
-        return taken(desk.lease.take(caller.user, caller.session, fields.value("force", false), stands(desk.machine.state())));
+        return taken(desk.lease.take(caller.user, caller.session, fields.value("force", false), operate::idle(desk.machine.state())));
     }},
     Doer{"release_control", [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.release(caller.session)); }},
     Doer{"keep_control", [](Desk& desk, const Caller& caller, const json&) { return taken(desk.lease.keep(caller.session)); }},
@@ -27,7 +23,9 @@ constexpr std::array control = {
 };
 
 constexpr std::array motion = {
-    Doer{"enable", [](Desk& desk, const Caller&, const json& fields) { return taken(desk.machine.enable(fields.at("on").get<bool>())); }},
+    Doer{"enable", [](Desk& desk, const Caller&, const json& fields) {
+        return taken(desk.machine.enable(fields.at("on").get<bool>(), fields.value("axes", "")));
+    }},
     Doer{"home", [](Desk& desk, const Caller&, const json& fields) { return taken(desk.machine.home(fields.value("axes", ""))); }},
     Doer{"jog", [](Desk& desk, const Caller&, const json& fields) -> Result<json> {
         MOTIONRACK_TRY(const char letter, axis_of(desk, fields));

@@ -19,7 +19,7 @@ json axes_of(const rack::RackConfig& config) {
     for (const rack::RackAxis& axis : config.axes)
         out.push_back({{"letter", std::string(1, axis.letter)}, {"unit", axis.unit()}, {"card", axis.card}, {"channel", axis.channel}, {"min", axis.min_position},
                        {"max", axis.max_position}, {"max_speed", axis.max_speed}, {"max_accel", axis.max_accel}, {"pulses_per_unit", axis.pulses_per_unit()},
-                       {"counts_per_unit", axis.counts_per_unit()}, {"servo", axis.servo.has_value()}, {"can_home", axis.switches.home || axis.switches.has_cam()}});
+                       {"counts_per_unit", axis.counts_per_unit()}, {"servo", axis.servo.has_value()}, {"can_home", config.can_home(axis)}});
     return out;
 }
 

@@ -2,7 +2,10 @@
 #include <motionrack/panel/status_text.hpp>
 
 #include <motionrack/panel/desk.hpp>
+#include <algorithm>
+#include <cmath>
 #include <motionrack/operate/pacer.hpp>
+#include <motionrack/rack/card_types.hpp>
 #include <utility>
 
 namespace motionrack::panel {
@@ -11,11 +14,8 @@ using nlohmann::json;
 
 namespace {
 
-/// A wire of an axis that is low while its switch acts.
-struct Led {
-    std::string_view name, end;
-};
-constexpr Led leds_of_axes[] = {{"hard_minus", "limit_minus"}, {"hard_plus", "limit_plus"}, {"home", "home"}, {"cam", "cam"}};
+/// Ends of an axis; switches are low while they act.
+constexpr rack::Lamp axis_lamps[] = {{"hard_minus", "limit_minus", 0}, {"hard_plus", "limit_plus", 0}, {"home", "home", 0}, {"cam", "cam", 0}, {"index", "enc_z"}};
 
 /// What the motion thread noted for one picture.
 struct Noted {
@@ -45,25 +45,45 @@ json phases_of(const std::string& states) {
 
 }  // namespace
 
+namespace {
+
+/// A servo comes to rest somewhere in what its card lets go; pulses and counts differ by their rounding.
+double near_of(const rack::RackAxis& axis) {
+    const double counts = axis.counts_per_unit();
+    const double rounding = 2 * std::max(1 / axis.pulses_per_unit(), counts > 0 ? 1 / counts : 0);
+    return std::max(rounding, axis.servo ? axis.servo->hold_within.value_or(0) : 0);
+}
+
+}  // namespace
+
 /// What does not change.
 struct StatusWriter::Facts {
     struct Axis {
         std::string unit;
         bool can_home = false;
         double least = 0, greatest = 0, max_speed = 0;
-        std::vector<std::pair<std::string_view, std::string>> leds;  // name, wire
+        double near = 0;  // in position: so near to where the card wants it
+        struct Led {
+            std::string_view name;
+            std::string wire;
+            int lit = 1;
+        };
+        std::vector<Led> leds;
     };
     std::vector<Axis> axes;
 };
 
 StatusWriter::StatusWriter(operate::Machine& machine) {
     auto facts = std::make_shared<Facts>();
-    for (const rack::RackAxis& axis : machine.rack().config().axes) {
-        Facts::Axis one{std::string(axis.unit()), axis.switches.home || axis.switches.has_cam(), axis.min_position, axis.max_position, axis.max_speed, {}};
-        for (const Led& led : leds_of_axes) {
-            const std::string wire = std::string(1, axis.letter) + "." + std::string(led.end);
-            if (machine.wires().knows(wire)) one.leds.emplace_back(led.name, wire);
-        }
+    const rack::RackConfig& config = machine.rack().config();
+    for (const rack::RackAxis& axis : config.axes) {
+        Facts::Axis one{std::string(axis.unit()), config.can_home(axis), axis.min_position, axis.max_position, axis.max_speed, near_of(axis), {}};
+        const auto add = [&](const rack::Lamp& lamp, const std::string& before) {
+            std::string wire = before + std::string(lamp.pin);
+            if (machine.wires().knows(wire)) one.leds.push_back({lamp.name, std::move(wire), lamp.lit});
+        };
+        for (const rack::Lamp& lamp : axis_lamps) add(lamp, std::string(1, axis.letter) + ".");
+        for (const rack::Lamp& lamp : rack::find_card_type(config.card(axis.card)->type)->lamps) add(lamp, axis.card + "." + axis.channel);
         facts->axes.push_back(std::move(one));
     }
     facts_ = std::move(facts);
@@ -73,7 +93,7 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(Desk& de
     auto noted = std::make_shared<Noted>();
     for (const Facts::Axis& axis : facts_->axes) {
         auto& leds = noted->leds.emplace_back();
-        for (const auto& [name, wire] : axis.leds) leds.emplace_back(name, desk.machine.wires().get(wire).value_or(1) == 0);
+        for (const Facts::Axis::Led& led : axis.leds) leds.emplace_back(led.name, desk.machine.wires().get(led.wire).value_or(1 - led.lit) == led.lit);
     }
     noted->estop_pressed = desk.machine.wires().get("estop").value_or(1) == 0;
     noted->holder = desk.lease.holder();
@@ -82,6 +102,7 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(Desk& de
     const operate::Status& now = desk.machine.status();
     if (now.program_runs && desk.plan) noted->remaining_s = desk.plan->after(now.line) / std::max(0.01, now.feed_override);
     return [facts = facts_, noted](const operate::Status& status) {
+        const bool stands = operate::stands(status.state);
         json axes = json::array();
         for (std::size_t i = 0; i < status.axes.size(); ++i) {
             const operate::AxisStatus& axis = status.axes[i];
@@ -91,15 +112,16 @@ std::function<std::string(const operate::Status&)> StatusWriter::writer(Desk& de
                 leds["soft_minus"] = axis.commanded <= fact.least;
                 leds["soft_plus"] = axis.commanded >= fact.greatest;
             }
+            leds["in_position"] = stands && std::fabs(axis.commanded - axis.actual) <= fact.near;
             for (const auto& [name, on] : noted->leds[i]) leds[std::string(name)] = on;
-            axes.push_back({{"letter", std::string(1, axis.letter)}, {"unit", fact.unit}, {"trusted", axis.trusted}, {"can_home", fact.can_home},
+            axes.push_back({{"letter", std::string(1, axis.letter)}, {"unit", fact.unit}, {"trusted", axis.trusted}, {"enabled", axis.enabled}, {"can_home", fact.can_home},
                             {"commanded", axis.commanded}, {"actual", axis.actual}, {"error", axis.commanded - axis.actual}, {"speed", axis.speed},
                             {"pulses", axis.pulses}, {"counts", axis.counts}, {"min", fact.least}, {"max", fact.greatest}, {"max_speed", fact.max_speed},
                             {"leds", std::move(leds)}});
         }
         json alarms = json::array();
         for (const operate::Alarm& alarm : status.alarms)
-            alarms.push_back({{"number", alarm.number}, {"at", to_seconds(alarm.at)}, {"text", alarm.text}, {"active", alarm.active}, {"acknowledged", alarm.acknowledged}, {"source", "machine"}});
+            alarms.push_back({{"number", alarm.number}, {"at", to_seconds(alarm.at)}, {"text", alarm.text}, {"active", alarm.active}, {"acknowledged", alarm.acknowledged}, {"source", alarm.source}});
         json out = {{"at", to_seconds(status.at)}, {"sequence", status.sequence}, {"state", operate::name_of(status.state)}, {"why", status.why}, {"simulation", true},
                     {"estop", {{"wired", true}, {"pressed", noted->estop_pressed}}},
                     {"axes", std::move(axes)},

@@ -34,7 +34,7 @@ constexpr FieldRow card_name = text("card", 32, "name of a card of the rack");
 constexpr FieldRow speed = number("speed", 0, far, "mm/s or degrees/s", "above 0, at most the axis' greatest");
 
 constexpr std::array take_control_fields = {flag("force", "take it from another holder; only while the machine stands", false)};
-constexpr std::array enable_fields = {flag("on", "false: what moves is stopped first")};
+constexpr std::array enable_fields = {flag("on", "false: what moves is stopped first"), text("axes", 6, "letters; without it all", false)};
 constexpr std::array home_fields = {text("axes", 6, "letters; without it all that have a home switch", false)};
 constexpr std::array jog_fields = {axis, number("speed", -far, far, "mm/s or degrees/s", "the sign is the direction; 0 lets go")};
 constexpr std::array jog_by_fields = {axis, number("distance", -far, far, "mm or degrees", "signed"), speed};
@@ -85,7 +85,7 @@ constexpr std::array order_rows = {
     AskRow{"release_control", Role::operate, false, {}, "Gives the control lease back."},
     AskRow{"keep_control", Role::operate, false, {}, "Renews the control lease.", "", false, true},
     AskRow{"stop", Role::nobody, false, {}, "Decelerates whatever moves, and forgets programs and lines. Never refused."},
-    AskRow{"enable", Role::operate, true, enable_fields, "Enables or disables the machine."},
+    AskRow{"enable", Role::operate, true, enable_fields, "Enables or disables axes."},
     AskRow{"home", Role::operate, true, home_fields, "Searches home."},
     AskRow{"jog", Role::operate, true, jog_fields, "Jogs for as long as it is asked again within 250 ms."},
     AskRow{"jog_by", Role::operate, true, jog_by_fields, "Jogs by a distance."},

@@ -36,6 +36,13 @@ struct DefaultWire {
     std::string_view end;
 };
 
+/// A signal of an axis that its card has at a pin of the axis' channel, for people to look at.
+struct Lamp {
+    std::string_view name;  ///< "alarm", "capture", "compare"
+    std::string_view pin;
+    int lit = 1;            ///< the level that means yes
+};
+
 /// What is wrong between the settings of a card and others: the key to blame and a sentence.
 struct CardFlaw {
     std::string_view key;
@@ -64,6 +71,7 @@ struct CardType {
     std::optional<CardFlaw> (*flaw)(const RackCard& card, std::span<const RackCard> before) = nullptr;
     /// Of cards whose settings say how many of the chip pins there are. May be nullptr: all of them.
     std::size_t (*chip_pin_count)(const RackCard& card) = nullptr;
+    std::span<const Lamp> lamps = {};
 
     int channel_count() const { return channels.empty() ? (channel_pins.empty() ? 0 : 1) : static_cast<int>(channels.size()); }
     /// "x"; empty for the one channel without a letter.

@@ -332,6 +332,8 @@ struct RackConfig {
     const RackTrack* track(std::string_view track_name) const;
     /// Whether the axis is on a card that positions it by itself.
     bool positions_alone(const RackAxis& axis) const;
+    /// Whether the axis has the switch that homing on its card needs.
+    bool can_home(const RackAxis& axis) const { return axis.switches.home || (axis.switches.has_cam() && positions_alone(axis)); }
     /// Whether every axis is on a card that positions it by itself, so that none can move along a path together.
     bool point_to_point() const;
     /// What each axis may do, for the planner; axes that the rack has not are not present.

@@ -11,7 +11,7 @@ namespace {
 
 namespace gb = grating_bus;
 
-std::string state_name(std::uint32_t state) { return "S" + std::to_string(state); }
+std::string state_name(std::uint32_t state) { return fmt::format("S{}", state); }
 std::string address_name(std::uint32_t address) { return fmt::format("{}", address); }
 
 /// Collects the changes of chosen wires.

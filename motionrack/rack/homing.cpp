@@ -83,7 +83,7 @@ class Homing {
         std::string letters = settings_.axes;
         if (letters.empty())
             for (const RunningAxis& axis : rack_.axes())
-                if (axis.config.switches.home || (axis.config.switches.has_cam() && rack_.config().positions_alone(axis.config))) letters += axis.config.letter;
+                if (rack_.config().can_home(axis.config)) letters += axis.config.letter;
         if (letters.empty())
             return fail(Trouble::refused, "No axis of the rack has a home switch. Nothing was moved; give an axis one (home_mm in its switches).");
         for (const char letter : letters) {

@@ -23,6 +23,7 @@ export interface AxisStatus {
   letter: string;
   unit: string;
   trusted: boolean;
+  enabled: boolean;
   can_home: boolean;
   commanded: number;
   actual: number;

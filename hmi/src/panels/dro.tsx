@@ -63,8 +63,11 @@ function Axis({ axis }: { axis: AxisStatus }): JSX.Element {
       </span>
       <Lamps axis={axis} />
       {!narrow.value && (
-        <Button machine class="homeone" icon="home" why={mayOperate() || (axis.can_home ? '' : `Axis ${axis.letter} has no home switch; declare its position instead.`)}
-          label={`Home axis ${axis.letter}`} onClick={() => void order('home', { axes: axis.letter })}>{''}</Button>
+        <div class="ways">
+          <Button machine icon="power" pressed={axis.enabled} why={mayOperate()} label={`Axis ${axis.letter} enabled`} onClick={() => void order('enable', { on: !axis.enabled, axes: axis.letter })}>{''}</Button>
+          <Button machine icon="home" why={mayOperate() || (axis.can_home ? '' : `Axis ${axis.letter} has no home switch; declare its position instead.`)}
+            label={`Home axis ${axis.letter}`} onClick={() => void order('home', { axes: axis.letter })}>{''}</Button>
+        </div>
       )}
     </div>
   );

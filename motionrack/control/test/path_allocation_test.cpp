@@ -1,9 +1,10 @@
-// The look-ahead takes memory when it is made, and none for a move.
+// The look-ahead and the curve take memory when they are made, and none for a move.
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <cstdlib>
+#include <motionrack/control/curve/curve.hpp>
 #include <motionrack/control/path.hpp>
 #include <new>
 
@@ -50,6 +51,37 @@ TEST(Planner, TakesNoMemoryForAMove) {
     while (planner.pull(planned)) seconds += seconds_of(planned);
     EXPECT_EQ(allocations, before);
     EXPECT_GT(seconds, 5);
+}
+
+TEST(Curve, TakesNoMemoryForAMove) {
+    MachineLimits limits;
+    for (AxisLimits& axis : limits) axis = {true, -1e6, 1e6, 100, 1000, 1e5, 1, 1000};
+    CurveBuilder builder(limits, Point{});
+    CurveItem item;
+    Move move;
+    move.feed = 50;
+    move.path = PathControl::continuous;
+    move.tolerance_mm = 0.01;
+    double length = 0;
+    const auto pull = [&] {
+        while (builder.pull(item)) length += item.rest ? 0 : item.piece.length;
+    };
+    const std::uint64_t before = allocations;
+    for (int i = 0; i < 5000; ++i) {
+        move.kind = i % 700 == 699 ? MoveKind::dwell : i % 50 == 25 ? MoveKind::arc : MoveKind::feed;
+        move.turns = 1;
+        move.centre_first = move.end[0] + 1;
+        move.centre_second = move.end[1];
+        move.end[0] += move.kind == MoveKind::arc ? 2 : 0.1;
+        move.end[1] += move.kind == MoveKind::arc ? 0 : i % 50 == 0 ? 0.5 : 0.001;
+        if (!builder.has_room()) pull();
+        builder.push(move);
+    }
+    if (!builder.has_room()) pull();
+    builder.flush();
+    pull();
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(length, 500);
 }
 
 }  // namespace

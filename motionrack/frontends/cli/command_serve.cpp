@@ -5,8 +5,6 @@
 #include <atomic>
 #include <cstdio>
 #include <memory>
-#include <motionrack/authority/control_lease.hpp>
-#include <motionrack/authority/doorkeeper.hpp>
 #include <motionrack/authority/secrets.hpp>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
@@ -14,17 +12,9 @@
 #include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/system_service.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/frontends/server/door_orders.hpp>
-#include <motionrack/frontends/server/grbl_ports.hpp>
-#include <motionrack/frontends/server/server.hpp>
-#include <motionrack/journal/journal.hpp>
-#include <motionrack/live/clock.hpp>
+#include <motionrack/frontends/server/served_rack.hpp>
 #include <motionrack/operate/logbook.hpp>
-#include <motionrack/operate/machine.hpp>
-#include <motionrack/operate/pacer.hpp>
-#include <motionrack/panel/panel.hpp>
 #include <motionrack/rack/counted.hpp>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 namespace motionrack::cli {
@@ -77,7 +67,7 @@ class Serving {
         greet(*config);
         stop_on_signals();
         tell_service_manager("READY=1");
-        machine_->run();
+        served_->run();
         return end();
     }
 
@@ -86,17 +76,21 @@ class Serving {
         allow_many_files();
         if (options_.certificate.empty() != options_.key.empty())
             return fail(Trouble::bad_input, "TLS needs both --tls-cert and --tls-key. Nothing was started.");
-        MOTIONRACK_TRY(server::Page page, load_page(options_.page));
-        MOTIONRACK_TRY(rack_text_, options_.rack.empty() ? Result<std::string>(demonstration_rack()) : read_text(options_.rack));
-        MOTIONRACK_CHECK(pacer_.set(options_.paused ? operate::ClockMode::paused : options_.free ? operate::ClockMode::free : operate::ClockMode::real, options_.speed));
-        operate::MachineSettings settings;
-        settings.pace = [this](Instant now) { return pace(now); };
-        if (!options_.journal.empty()) MOTIONRACK_CHECK(open_journal(config, settings));
-        MOTIONRACK_TRY(machine_, operate::Machine::make(config, std::move(settings)));
-        MOTIONRACK_CHECK(open_door());
-        MOTIONRACK_CHECK(open_grbl());
-        make_panel();
-        return open_server(config, std::move(page));
+        server::ServedSettings settings;
+        settings.clock = options_.paused ? operate::ClockMode::paused : options_.free ? operate::ClockMode::free : operate::ClockMode::real;
+        settings.factor = options_.speed;
+        settings.meanwhile = [this] { stop_if_asked(); };
+        settings.version = MOTIONRACK_VERSION;
+        settings.boot = authority::random_token().substr(0, 8);
+        settings.door = door_settings();
+        settings.server = server_settings();
+        settings.grbl = grbl_settings();
+        MOTIONRACK_TRY(settings.page, load_page(options_.page));
+        MOTIONRACK_TRY(settings.panel.rack_text, options_.rack.empty() ? Result<std::string>(demonstration_rack()) : read_text(options_.rack));
+        if (!options_.journal.empty()) MOTIONRACK_CHECK(open_journal(config, settings.machine));
+        settings.journal = journal_.get();
+        MOTIONRACK_TRY(served_, server::ServedRack::open(config, std::move(settings)));
+        return {};
     }
 
     Result<void> open_journal(const rack::RackConfig& config, operate::MachineSettings& settings) {
@@ -109,7 +103,7 @@ class Serving {
         return {};
     }
 
-    Result<void> open_door() {
+    authority::DoorkeeperSettings door_settings() {
         authority::DoorkeeperSettings settings;
         const fs::path folder = options_.users.empty() ? state_folder() : fs::path();
         settings.users_file = !options_.users.empty() ? fs::path(options_.users) : folder.empty() ? fs::path() : folder / "users.json";
@@ -118,36 +112,10 @@ class Serving {
             settings.on_start_code = [this](const std::string& code) {
                 if (greeted_) say(fmt::format("A code was used. The next one is {}", code));
             };
-        MOTIONRACK_TRY(door_, authority::Doorkeeper::open(std::move(settings)));
-        return {};
+        return settings;
     }
 
-    Result<void> open_grbl() {
-        if (!options_.grbl_port && options_.grbl_terminal.empty()) return {};
-        server::GrblPortSettings settings;
-        settings.port = options_.grbl_port;
-        settings.link = options_.grbl_terminal;
-        settings.axes = options_.grbl_axes;
-        if (journal_) settings.on_setting = [this](const std::string& sender, const std::string& text) {
-            journal_->write(machine_->now(), "setting", fmt::format("{}: {}", sender, text));
-        };
-        MOTIONRACK_TRY(grbl_, server::GrblPorts::open(settings, *machine_, lease_));
-        return {};
-    }
-
-    void make_panel() {
-        panel::PanelSettings settings;
-        settings.version = MOTIONRACK_VERSION;
-        settings.boot = boot_;
-        settings.rack_text = std::move(rack_text_);
-        settings.pacer = &pacer_;
-        settings.journal = journal_.get();
-        settings.link = [this] { return nlohmann::json{{"sender", grbl_ ? grbl_->sender() : "none"}, {"clients", server_ ? server_->clients() : 0}}; };
-        settings.elsewhere = server::door_orders(*door_);
-        panel_ = std::make_unique<panel::Panel>(*machine_, lease_, std::move(settings));
-    }
-
-    Result<void> open_server(const rack::RackConfig& config, server::Page page) {
+    server::ServerSettings server_settings() const {
         server::ServerSettings settings;
         settings.address = options_.address;
         settings.port = options_.port;
@@ -155,52 +123,48 @@ class Serving {
         settings.hosts = options_.hosts;
         settings.origins = options_.origins;
         if (options_.no_pairing) settings.loopback_role = authority::Role::maintain;
-        settings.version = MOTIONRACK_VERSION;
-        settings.rack = config.name;
-        settings.boot = boot_;
-        if (journal_) settings.audit = [this](const server::AuditEntry& entry) { write_down(entry); };
-        MOTIONRACK_TRY(server_, server::Server::open(std::move(settings), *panel_, *door_, lease_, std::move(page)));
-        return {};
+        return settings;
     }
 
-    void write_down(const server::AuditEntry& entry) {
-        const nlohmann::json data = {{"user", entry.user}, {"address", entry.address}, {"order", entry.what}, {"status", entry.status}};
-        journal_->write(panel_->picture()->at(), "audit",
-                        fmt::format("{} from {}: {}: {}", entry.user.empty() ? "somebody" : entry.user, entry.address, entry.what, entry.outcome), panel::text_of(data));
+    std::optional<server::GrblPortSettings> grbl_settings() const {
+        if (!options_.grbl_port && options_.grbl_terminal.empty()) return std::nullopt;
+        server::GrblPortSettings settings;
+        settings.port = options_.grbl_port;
+        settings.link = options_.grbl_terminal;
+        settings.axes = options_.grbl_axes;
+        return settings;
     }
 
     /// On the motion thread, again and again.
-    bool pace(Instant now) {
-        if (stop_asked && !stopping_) {
-            stopping_ = true;
-            say("Stopping: the axes come to rest.");
-            tell_service_manager("STOPPING=1");
-            // A clock that stands would let nothing come to rest.
-            if (pacer_.mode() != operate::ClockMode::free) (void)pacer_.set(operate::ClockMode::real, std::max(1.0, pacer_.factor()));
-            machine_->quit();
-        }
-        return pacer_.pace(now);
+    void stop_if_asked() {
+        if (!stop_asked || stopping_) return;
+        stopping_ = true;
+        say("Stopping: the axes come to rest.");
+        tell_service_manager("STOPPING=1");
+        // A clock that stands would let nothing come to rest.
+        operate::Pacer& pacer = served_->pacer();
+        if (pacer.mode() != operate::ClockMode::free) (void)pacer.set(operate::ClockMode::real, std::max(1.0, pacer.factor()));
+        served_->machine().quit();
     }
 
     void greet(const rack::RackConfig& config) {
-        const std::string code = door_->start_code();
+        const std::string code = served_->door().start_code();
         say(fmt::format("{} runs ({}, {}; simulated).", config.name, rack::counted(config.axes.size(), "axis", "axes"), rack::counted(config.cards.size(), "card")));
-        say(fmt::format("  page     {}{}", server_->url(), code.empty() ? "" : "#pair=" + code));
+        say(fmt::format("  page     {}{}", served_->server().url(), code.empty() ? "" : "#pair=" + code));
         if (!code.empty()) say(fmt::format("  code     {}   (good once, lets in to maintain; the next one is printed here)", code));
         if (options_.no_pairing) say("  pairing  none: whoever works on this computer may do everything");
         say(fmt::format("  users    {}", users_file_.empty() ? "kept in memory only" : users_file_));
         say(fmt::format("  journal  {}", options_.journal.empty() ? "none; --journal FILE keeps one" : options_.journal));
-        if (options_.grbl_port) say(fmt::format("  senders  127.0.0.1:{} (Grbl 1.1 over TCP)", grbl_->port()));
+        if (options_.grbl_port) say(fmt::format("  senders  127.0.0.1:{} (Grbl 1.1 over TCP)", served_->grbl()->port()));
         if (!options_.grbl_terminal.empty()) say(fmt::format("  senders  {} (Grbl 1.1, a serial line)", options_.grbl_terminal));
         say("Open the page in a browser, take control there, enable the machine. Ctrl-C brings the axes to rest and ends.");
         greeted_ = true;
     }
 
     int end() {
-        server_->stop();
-        grbl_.reset();
+        served_->stop();
         std::string places;
-        for (const operate::AxisStatus& axis : machine_->status().axes) places += fmt::format(" {}{:.3f}", axis.letter, axis.commanded);
+        for (const operate::AxisStatus& axis : served_->machine().status().axes) places += fmt::format(" {}{:.3f}", axis.letter, axis.commanded);
         int code = exit_done;
         if (journal_)
             if (const Result<void> closed = journal_->close(); !closed) code = report(closed.error());
@@ -209,16 +173,9 @@ class Serving {
     }
 
     const ServeOptions& options_;
-    std::string boot_ = authority::random_token().substr(0, 8), users_file_, rack_text_;
-    live::MonotonicClock clock_;
-    operate::Pacer pacer_{clock_, operate::ClockMode::real, 1};
-    authority::ControlLease lease_;
+    std::string users_file_;
     std::unique_ptr<journal::Journal> journal_;
-    std::unique_ptr<operate::Machine> machine_;
-    std::unique_ptr<authority::Doorkeeper> door_;
-    std::unique_ptr<panel::Panel> panel_;
-    std::unique_ptr<server::Server> server_;
-    std::unique_ptr<server::GrblPorts> grbl_;
+    std::unique_ptr<server::ServedRack> served_;
     std::atomic<bool> greeted_{false};
     bool stopping_ = false;
 };

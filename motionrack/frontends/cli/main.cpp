@@ -39,6 +39,7 @@ int main(int argc, char** argv) {
     add_registers(app, chosen);
     add_trace(app, chosen);
     add_canon(app, chosen);
+    add_plan(app, chosen);
     add_decode(app, chosen);
     add_frames(app, chosen);
     add_mark(app, chosen);

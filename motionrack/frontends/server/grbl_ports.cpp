@@ -93,9 +93,7 @@ class Port : public std::enable_shared_from_this<Port> {
     }
     Result<void> take_control() {
         if (lease_.check(id_)) return {};
-        const operate::MachineState state = machine_.state();
-        const bool stands = state == operate::MachineState::standstill || state == operate::MachineState::disabled || state == operate::MachineState::error_stop;
-        return lease_.take(user_, id_, true, stands);
+        return lease_.take(user_, id_, true, operate::idle(machine_.state()));
     }
 
     operate::Machine& machine_;

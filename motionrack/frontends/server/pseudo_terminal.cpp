@@ -82,7 +82,7 @@ PseudoTerminal::~PseudoTerminal() {
     if (slave_.number() >= 0 && !link_.empty() && fs::read_symlink(link_, trouble) == name_) fs::remove(link_, trouble);
 }
 
-void PseudoTerminal::forget_unread() { ::tcflush(slave_.number(), TCIOFLUSH); }
+void PseudoTerminal::forget_unread() { ::tcflush(slave_.number(), TCIFLUSH); }
 
 PseudoTerminal::Look PseudoTerminal::look() {
     Look out;

@@ -32,7 +32,7 @@ class PseudoTerminal {
     ~PseudoTerminal();
 
     OpenFile take_master() { return std::move(master_); }
-    /// Throws away what is under way in both directions.
+    /// Throws away what clients have not read; what they wrote is heard.
     void forget_unread();
     /// What clients have done since the last look.
     struct Look {

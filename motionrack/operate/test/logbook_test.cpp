@@ -136,6 +136,7 @@ TEST_F(ALogbook, AfterAKillItKnowsWhatRanAndWhereAndTrustsNothing) {
     EXPECT_FALSE(machine->status().axes[0].trusted);
     ASSERT_EQ(machine->status().alarms.size(), 1u);
     EXPECT_THAT(machine->status().alarms[0].text, HasSubstr("cut off"));
+    EXPECT_EQ(machine->status().alarms[0].source, "last run");
     ASSERT_TRUE(machine->enable(true));
     EXPECT_FALSE(machine->begin_program("G0 X1\nM30\n", "again.ngc"));
 }

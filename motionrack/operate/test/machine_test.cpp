@@ -1,85 +1,16 @@
-// A machine as people operate it: programs, hold, stop, jog, home, alarms; orders come at given instants of virtual time.
+// A machine as people operate it: programs, hold, stop, jog, home; orders come at given instants of virtual time.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <deque>
-#include <motionrack/operate/machine.hpp>
-#include <motionrack/rack/template.hpp>
 #include <thread>
+
+#include "operated.hpp"
 
 namespace motionrack::operate {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-/// Two axes that stand where the file says; `more` for the file.
-rack::RackConfig two_axes(const std::string& more = "") {
-    const rack::RackReading reading = rack::read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n"
-                                                           "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n" + more);
-    EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].text());
-    return *reading.config;
-}
-
-rack::RackConfig router() { return *rack::read_rack_text(*rack::rack_template("router")).config; }
-
-/// A machine, and orders that are given when their time has come.
-class Operated {
-  public:
-    explicit Operated(const rack::RackConfig& config) {
-        MachineSettings settings;
-        settings.pace = [this](Instant now) { return give(to_seconds(now)), true; };
-        settings.on_status = [this](const Status& status) { look(status); };
-        settings.on_event = [this](const control::gcode::Step& step) { events.push_back(step.kind); };
-        auto made = Machine::make(config, std::move(settings));
-        EXPECT_TRUE(made) << made.error().message;
-        machine = std::move(*made);
-        EXPECT_TRUE(machine->enable(true));
-    }
-    void at(double seconds, std::function<void(Machine&)> order) { orders_.push_back({seconds, std::move(order)}); }
-    /// Until `seconds`.
-    void run(double seconds) {
-        at(seconds, [](Machine& m) { m.quit(); });
-        machine->run();
-    }
-    double x() const { return machine->status().axes[0].commanded; }
-    double y() const { return machine->status().axes[1].commanded; }
-
-    std::unique_ptr<Machine> machine;
-    std::vector<std::string> states;  ///< as they followed each other
-    std::vector<control::gcode::StepKind> events;
-    double top_speed = 0, stood_since = 0;
-
-  private:
-    struct Order {
-        double seconds;
-        std::function<void(Machine&)> give;
-    };
-    void give(double now) {
-        while (machine && !orders_.empty() && now >= orders_.front().seconds) {
-            const Order order = orders_.front();
-            orders_.pop_front();
-            order.give(*machine);
-        }
-    }
-    void look(const Status& status) {
-        if (states.empty() || states.back() != name_of(status.state)) states.emplace_back(name_of(status.state));
-        for (const AxisStatus& axis : status.axes) {
-            top_speed = std::max(top_speed, std::fabs(axis.speed));
-            if (axis.speed != 0) stood_since = to_seconds(status.at);
-        }
-    }
-    std::deque<Order> orders_;
-};
-
-TEST(AMachine, IsDisabledAtFirstAndTakesNoMotion) {
-    auto machine = *Machine::make(two_axes(), {});
-    EXPECT_EQ(machine->state(), MachineState::disabled);
-    EXPECT_THAT(machine->jog('X', 5).error().message, HasSubstr("enable it first"));
-    EXPECT_THAT(machine->line("G1 X20 F600", 1).error().message, HasSubstr("enable it first"));
-    EXPECT_THAT(machine->begin_program("G0 X1\n", "p").error().message, HasSubstr("disabled"));
-}
 
 TEST(AMachine, DrivesAProgramToItsEnd) {
     Operated o(two_axes());
@@ -238,62 +169,6 @@ TEST(AMachine, TrustsADeclaredPosition) {
     EXPECT_TRUE(o.machine->status().axes[1].trusted);
     EXPECT_FALSE(o.machine->status().axes[0].trusted);
     EXPECT_NEAR(o.y(), 33, 1e-9);
-}
-
-TEST(AMachine, PressedToAnEmergencyStopTrustsNothingAndWantsAReset) {
-    Operated o(two_axes());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F3000\nG1 X90\n", "p")); });
-    o.at(1, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
-    o.at(2, [](Machine& m) {
-        EXPECT_EQ(m.state(), MachineState::error_stop);
-        EXPECT_FALSE(m.status().axes[0].trusted);
-        ASSERT_EQ(m.status().alarms.size(), 1u);
-        EXPECT_THAT(m.status().alarms[0].text, HasSubstr("emergency"));
-        EXPECT_FALSE(m.line("G1 X1 F600", 1));
-        m.reset();
-    });
-    o.at(3, [](Machine& m) {
-        EXPECT_EQ(m.state(), MachineState::error_stop) << "it is still pressed";
-        EXPECT_THAT(m.status().why, HasSubstr("still pressed"));
-        EXPECT_TRUE(m.wires().set("estop", 1));
-        m.reset();
-    });
-    o.at(4, [](Machine& m) {
-        EXPECT_EQ(m.state(), MachineState::standstill);
-        EXPECT_FALSE(m.status().alarms[0].active);
-        EXPECT_TRUE(m.acknowledge(1));
-        EXPECT_FALSE(m.acknowledge(7));
-        EXPECT_THAT(m.line("G1 X1 F600", 1).error().message, HasSubstr("not trusted"));
-    });
-    o.run(5);
-}
-
-TEST(AMachine, SaysWhenTheEmergencyStopIsPressedAtAStandstill) {
-    Operated o(two_axes());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.wires().set("estop", 0)); });
-    o.run(1);
-    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "error stop"));
-    EXPECT_EQ(o.machine->status().alarms.size(), 1u);
-    EXPECT_TRUE(o.machine->status().axes[0].trusted) << "nothing moved";
-}
-
-TEST(AMachine, RunIntoALimitSwitchStopsWithAnAlarmAndKeepsItsPosition) {
-    Operated o(two_axes("[axis.X.switches]\nlimit_plus_mm = 40\n"));
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X80\n", "p")); });
-    o.run(6);
-    EXPECT_EQ(o.states.back(), "error stop");
-    EXPECT_THAT(o.machine->status().alarms[0].text, HasSubstr("limit"));
-    EXPECT_TRUE(o.machine->status().axes[0].trusted);
-    EXPECT_LT(o.x(), 42);
-}
-
-TEST(AMachine, DisabledWhileItMovesStopsFirst) {
-    Operated o(two_axes());
-    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F3000\nG1 X90\n", "p")); });
-    o.at(1, [](Machine& m) { EXPECT_TRUE(m.enable(false)); });
-    o.run(2);
-    EXPECT_THAT(o.states, ElementsAre("disabled", "standstill", "moving", "stopping", "disabled"));
-    EXPECT_LT(o.stood_since, 1.5);
 }
 
 TEST(AMachine, HearsManyThreadsAtOnce) {

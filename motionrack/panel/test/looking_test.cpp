@@ -243,6 +243,9 @@ TEST(APicture, IsEncodedOnceAndHasWhatThePageShows) {
         EXPECT_TRUE(status["axes"][0]["can_home"].get<bool>());
         EXPECT_TRUE(status["axes"][0]["leds"].contains("hard_plus"));
         EXPECT_FALSE(status["axes"][0]["leds"]["hard_plus"].get<bool>());
+        for (const char* led : {"index", "alarm", "capture", "compare"}) EXPECT_TRUE(status["axes"][0]["leds"].contains(led)) << led;
+        EXPECT_TRUE(status["axes"][0]["leds"]["in_position"].get<bool>());
+        EXPECT_FALSE(status["axes"][0]["enabled"].get<bool>());
         EXPECT_EQ(status["clock"]["mode"], "free");
         EXPECT_TRUE(status["control"]["holder"].is_null());
         EXPECT_TRUE(status["simulation"].get<bool>());
@@ -253,6 +256,12 @@ TEST(APicture, IsEncodedOnceAndHasWhatThePageShows) {
     a.at(0.8, eve, "status", json::object(), [](const Answer& answer) {
         EXPECT_EQ(answer.body["status"]["state"], "homing");
         EXPECT_TRUE(answer.body["status"]["homing"]["phases"].contains("X")) << answer.body["status"]["homing"];
+        EXPECT_FALSE(answer.body["status"]["axes"][0]["leds"]["in_position"].get<bool>());
+    });
+    a.good(0.9, "set_wire", {{"name", "motion.yalarm"}, {"value", 0}});
+    a.at(1.0, eve, "status", json::object(), [](const Answer& answer) {
+        EXPECT_TRUE(answer.body["status"]["axes"][1]["leds"]["alarm"].get<bool>());
+        EXPECT_FALSE(answer.body["status"]["axes"][0]["leds"]["alarm"].get<bool>());
     });
     a.at(30, eve, "homing", json::object(), [](const Answer& answer) { EXPECT_TRUE(answer.body["homing"]["axes"][0]["homed"].get<bool>()) << answer.body; });
     a.run(31);

@@ -78,6 +78,7 @@ class Client {
 class SenderPorts : public testing::Test {
   protected:
     void SetUp() override {
+        if (OpenFile(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)).number() < 0) GTEST_SKIP() << "There are no pseudo-terminals here: /dev/pts is not mounted.";
         const std::string axes = "[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n";
         machine_ = *operate::Machine::make(*rack::read_rack_text(axes).config, {});
         settings_.port = 0;
@@ -86,6 +87,7 @@ class SenderPorts : public testing::Test {
         std::filesystem::create_directories(folder_);
     }
     void TearDown() override {
+        if (machine_ == nullptr) return;
         machine_->quit();
         if (thread_.joinable()) thread_.join();
         ports_.reset();

@@ -130,7 +130,7 @@ TEST(AHostileStream, ThatAsksTogetherWithOthersOfItsAddressIsRefused) {
 
 TEST(AHostileStream, ThatReadsNoAnswersIsLetGo) {
     Running running([](ServerSettings& settings) { settings.limits.texts_waiting = 50; });
-    WebClient client(running.server->port(), false, true);
+    WebClient client(running.port(), false, true);
     ASSERT_EQ(client.upgrade().status, 101);
     for (int i = 0; i < 20'000; ++i) client.send_frame(1, "{\"id\":1,\"query\":\"nothing\"}");
     EXPECT_TRUE(client.ended());
@@ -141,7 +141,7 @@ TEST(AHostileStream, ThatReadsNoAnswersIsLetGo) {
 std::list<WebClient> crowd(const Running& running, int count) {
     std::list<WebClient> out;
     for (int i = 0; i < count; ++i) {
-        out.emplace_back(running.server->port());
+        out.emplace_back(running.port());
         if (i % 3 == 0) out.back().send("GET /api/status HTTP/1.1\r\nHost: localhost\r\n\r\n");
         if (i % 3 == 1) out.back().send("GET /api/st");
     }

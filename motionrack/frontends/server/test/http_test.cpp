@@ -49,7 +49,7 @@ TEST_F(AServer, TakesNoOrdersWithoutAToken) {
 }
 
 TEST_F(AServer, PairsByACodeAndTakesOrdersWithItsToken) {
-    const std::string code = running.door->start_code();
+    const std::string code = running.served->door().start_code();
     const WebAnswer paired = client.ask("POST", "/api/pair", nlohmann::json{{"code", code}, {"name", "anna"}}.dump());
     ASSERT_EQ(paired.status, 200) << paired.body;
     EXPECT_EQ(paired.json()["role"], "maintain");
@@ -208,7 +208,7 @@ TEST(AServersAddress, IsLoopbackUnlessThereIsTls) {
 TEST(AServersPort, ThatIsTakenIsToldWithWhatToDo) {
     Running running;
     try {
-        Running second([&](ServerSettings& settings) { settings.port = running.server->port(); });
+        Running second([&](ServerSettings& settings) { settings.port = running.port(); });
         FAIL() << "it was served";
     } catch (const std::runtime_error& error) {
         EXPECT_THAT(error.what(), HasSubstr("taken by another program"));

@@ -7,11 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
-#include <motionrack/authority/control_lease.hpp>
-#include <motionrack/frontends/server/door_orders.hpp>
-#include <motionrack/frontends/server/server.hpp>
-#include <motionrack/live/clock.hpp>
-#include <motionrack/operate/pacer.hpp>
+#include <motionrack/frontends/server/served_rack.hpp>
 #include <motionrack/rack/config.hpp>
 #include <mutex>
 #include <string>
@@ -27,54 +23,48 @@ class Running {
   public:
     using Change = std::function<void(ServerSettings&)>;
     explicit Running(const Change& change = {}, Page page = {}) {
-        const rack::RackReading reading = rack::read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n"
+        const rack::RackReading reading = rack::read_rack_text("[rack]\nname = \"two\"\n[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\n"
                                                                "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n");
-        operate::MachineSettings settings;
-        settings.pace = [this](Instant now) { return pacer.pace(now); };
-        settings.on_status = [this](const operate::Status& status) { look(status); };
-        machine = *operate::Machine::make(*reading.config, std::move(settings));
-        authority::DoorkeeperSettings door_settings;
-        door_settings.on_start_code = [](const std::string&) {};
-        door = *authority::Doorkeeper::open(door_settings);
-        panel::PanelSettings panel_settings;
-        panel_settings.elsewhere = door_orders(*door);
-        panel = std::make_unique<panel::Panel>(*machine, lease, std::move(panel_settings));
-        ServerSettings server_settings;
-        server_settings.port = 0;
-        server_settings.version = "0.1.0";
-        server_settings.rack = "two";
-        server_settings.boot = "b007";
-        server_settings.limits.requests_at_once = server_settings.limits.messages_at_once = 1e9;
-        server_settings.clock = [this] {
+        ServedSettings settings;
+        settings.factor = 20;
+        settings.version = "0.1.0";
+        settings.boot = "b007";
+        settings.machine.on_status = [this](const operate::Status& status) { look(status); };
+        settings.door.on_start_code = [](const std::string&) {};
+        settings.page = std::move(page);
+        settings.server.port = 0;
+        settings.server.limits.requests_at_once = settings.server.limits.messages_at_once = 1e9;
+        settings.server.clock = [this] {
             const std::lock_guard<std::mutex> alone(lock);
             return authority::Now{std::chrono::system_clock::now() + later, std::chrono::steady_clock::now() + later};
         };
-        server_settings.audit = [this](const AuditEntry& entry) {
+        settings.server.audit = [this](const AuditEntry& entry) {
             const std::lock_guard<std::mutex> alone(lock);
             audit.push_back(entry);
         };
-        if (change) change(server_settings);
-        auto opened = Server::open(std::move(server_settings), *panel, *door, lease, std::move(page));
+        if (change) change(settings.server);
+        auto opened = ServedRack::open(*reading.config, std::move(settings));
         if (!opened) throw std::runtime_error(opened.error().text());
-        server = std::move(*opened);
-        thread = std::thread([this] { machine->run(); });
+        served = std::move(*opened);
+        thread = std::thread([this] { served->run(); });
     }
     ~Running() {
-        machine->quit();
+        served->machine().quit();
         thread.join();
-        server->stop();
+        served->stop();
     }
 
-    WebClient client() const { return WebClient(server->port()); }
+    std::uint16_t port() const { return served->server().port(); }
+    WebClient client() const { return WebClient(port()); }
     /// A token of this role for a name.
     std::string token(const std::string& name, authority::Role role = authority::Role::maintain) {
         const authority::Now now{std::chrono::system_clock::now(), std::chrono::steady_clock::now()};
-        const std::string code = role == authority::Role::maintain ? door->start_code() : *door->invite(role, now);
-        return door->pair(code, name, "127.0.0.1", now)->token;
+        const std::string code = role == authority::Role::maintain ? served->door().start_code() : *served->door().invite(role, now);
+        return served->door().pair(code, name, "127.0.0.1", now)->token;
     }
     /// A WebSocket with this token, past hello.
     WebClient stream(const std::string& token) const {
-        WebClient client(server->port());
+        WebClient client(port());
         EXPECT_EQ(client.upgrade().status, 101);
         client.receive();
         if (!token.empty()) {
@@ -105,13 +95,7 @@ class Running {
         return path_;
     }
 
-    live::MonotonicClock clock;
-    operate::Pacer pacer{clock, operate::ClockMode::real, 20};
-    authority::ControlLease lease;
-    std::unique_ptr<operate::Machine> machine;
-    std::unique_ptr<authority::Doorkeeper> door;
-    std::unique_ptr<panel::Panel> panel;
-    std::unique_ptr<Server> server;
+    std::unique_ptr<ServedRack> served;
     std::thread thread;
     std::mutex lock;
     std::chrono::hours later{0};

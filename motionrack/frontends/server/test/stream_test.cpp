@@ -127,7 +127,7 @@ TEST(AStream, WhoseClientLeavesOrLoadsItsPageAgainChangesNothing) {
 
 TEST(AStream, LosesPicturesOfASlowReaderAndNobodyElses) {
     Running running;
-    WebClient slow(running.server->port(), false, true);
+    WebClient slow(running.port(), false, true);
     ASSERT_EQ(slow.upgrade().status, 101);
     slow.say({{"id", 1}, {"subscribe", {{"rate_hz", 100}}}});
     WebClient quick = running.stream("");
@@ -162,7 +162,7 @@ TEST(AStream, IsEndedWhenItsTokenIsRevoked) {
 TEST(AStream, IsSaidGoodbyeWhenTheServerEnds) {
     Running running;
     WebClient client = running.stream("");
-    running.server->stop();
+    running.served->server().stop();
     WebFrame frame;
     do frame = client.receive();
     while (frame.kind == 1);

@@ -55,14 +55,14 @@ class ATlsServer : public testing::Test {
 
 TEST_F(ATlsServer, ServesOtherAddressesToWhoIsPaired) {
     Running running(tls());
-    EXPECT_EQ(running.server->url().substr(0, 8), "https://");
-    WebClient client(running.server->port(), true);
+    EXPECT_EQ(running.served->server().url().substr(0, 8), "https://");
+    WebClient client(running.port(), true);
     ASSERT_TRUE(client.connected());
     EXPECT_EQ(client.ask("GET", "/").status, 200);
     EXPECT_EQ(client.ask("GET", "/api/status").status, 200);
     EXPECT_EQ(client.ask("GET", "/api/status", "", "Origin: https://" + client.host + "\r\n").status, 200);
     EXPECT_EQ(client.ask("GET", "/api/status", "", "Origin: http://" + client.host + "\r\n").status, 403);
-    WebClient stream(running.server->port(), true);
+    WebClient stream(running.port(), true);
     ASSERT_EQ(stream.upgrade().status, 101);
     EXPECT_TRUE(stream.order({{"token", running.token("anna")}}).value("done", false));
     EXPECT_TRUE(stream.order({{"order", "take_control"}}).value("done", false));
@@ -71,9 +71,9 @@ TEST_F(ATlsServer, ServesOtherAddressesToWhoIsPaired) {
 
 TEST_F(ATlsServer, SaysNothingToWhoSpeaksWithoutTls) {
     Running running(tls());
-    WebClient client(running.server->port());
+    WebClient client(running.port());
     EXPECT_EQ(client.ask("GET", "/").status, 0);
-    WebClient good(running.server->port(), true);
+    WebClient good(running.port(), true);
     EXPECT_EQ(good.ask("POST", "/api/stop").status, 200);
 }
 
@@ -94,7 +94,7 @@ TEST_F(ATlsServer, IsNotStartedWithFilesThatDoNotBelongTogether) {
 /// Who comes from another computer: its address is none of loopback.
 TEST_F(ATlsServer, GivesNothingButThePageAndStopToStrangers) {
     Running running(tls());
-    Service service({}, *running.panel, *running.door, running.lease, Page(), std::make_shared<Post>([](const std::function<void()>& work) { work(); }));
+    Service service({}, running.served->panel(), running.served->door(), running.served->lease(), Page(), std::make_shared<Post>([](const std::function<void()>& work) { work(); }));
     Head head;
     head.peer = {"192.0.2.7", "192.0.2.1", false, true, false};
     head.host = "192.0.2.1";

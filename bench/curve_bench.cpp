@@ -1,0 +1,132 @@
+// Speed of making curves of moves, and of finding the speed along them: what a block costs, whatever it is.
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <motionrack/base/trig.hpp>
+#include <motionrack/control/curve/curve.hpp>
+#include <motionrack/control/ride/ride.hpp>
+#include <vector>
+
+namespace motionrack::control {
+namespace {
+
+MachineLimits machine() {
+    MachineLimits limits;
+    for (AxisLimits& axis : limits) axis = {true, -1e9, 1e9, 200, 2000, 40'000, 2, 1000};
+    return limits;
+}
+
+Move feed_to(const Point& end) {
+    Move move;
+    move.kind = MoveKind::feed;
+    move.path = PathControl::continuous;
+    move.tolerance_mm = 0.02;
+    move.feed = 100;
+    move.end = end;
+    return move;
+}
+
+/// Short lines on a smooth curve, as a CAM system writes them; rounded to `grid` mm.
+std::vector<Move> chords(double step, double grid) {
+    std::vector<Move> moves;
+    Point at = {};
+    double heading = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        heading += 0.1 * step * sin_cos(i * step * 0.05).sin;
+        const SinCos along = sin_cos(heading);
+        at[0] += step * along.cos;
+        at[1] += step * along.sin;
+        Point end = at;
+        if (grid > 0)
+            for (double& x : end) x = grid * std::floor(x / grid + 0.5);
+        moves.push_back(feed_to(end));
+    }
+    return moves;
+}
+
+std::vector<Move> long_lines() {
+    std::vector<Move> moves;
+    for (int i = 0; i < 20'000; ++i) moves.push_back(feed_to({20.0 * i, i % 2 * 15.0, 0}));
+    return moves;
+}
+
+/// Quarters of circles, left and right, tangent to each other.
+std::vector<Move> arcs(double radius) {
+    std::vector<Move> moves;
+    for (int i = 0; i < 20'000; ++i) {
+        const double x = i * radius, y = i * radius;
+        Move move = feed_to({x + radius, y + radius, 0});
+        move.kind = MoveKind::arc;
+        const bool left = i % 2 == 0;
+        move.turns = left ? 1 : -1;
+        move.centre_first = left ? x : x + radius;
+        move.centre_second = left ? y + radius : y;
+        moves.push_back(move);
+    }
+    return moves;
+}
+
+/// Each block with another feed, so that none is merged.
+std::vector<Move> inverse_time(double step) {
+    std::vector<Move> moves = chords(step, 0);
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        moves[i].feed_mode = FeedMode::inverse_time;
+        moves[i].feed = 100 / step + static_cast<double>(i % 5);
+        moves[i].end[4] = 0.01 * static_cast<double>(i);
+    }
+    return moves;
+}
+
+void curve(benchmark::State& state, const std::vector<Move>& moves) {
+    CurveBuilder builder(machine(), Point{});
+    CurveItem item;
+    std::size_t i = 0;
+    double pieces = 0;
+    for (auto _ : state) {
+        while (!builder.has_room() && builder.pull(item)) ++pieces;
+        builder.push(moves[i]);
+        while (builder.pull(item)) ++pieces;
+        if (++i == moves.size()) {
+            builder.flush();
+            while (builder.pull(item)) ++pieces;
+            builder = CurveBuilder(machine(), Point{});
+            i = 0;
+        }
+    }
+    benchmark::DoNotOptimize(item);
+    state.SetItemsProcessed(state.iterations());
+    state.counters["pieces_a_block"] = pieces / static_cast<double>(state.iterations());
+}
+
+BENCHMARK_CAPTURE(curve, chords_of_0_1_mm, chords(0.1, 0));
+BENCHMARK_CAPTURE(curve, chords_of_0_1_mm_rounded, chords(0.1, 0.001));
+BENCHMARK_CAPTURE(curve, chords_of_2_um, chords(0.002, 0));
+BENCHMARK_CAPTURE(curve, chords_in_inverse_time, inverse_time(0.1));
+BENCHMARK_CAPTURE(curve, long_lines, long_lines());
+BENCHMARK_CAPTURE(curve, arcs_of_1_mm, arcs(1));
+BENCHMARK_CAPTURE(curve, arcs_of_20_mm, arcs(20));
+
+/// Curve and speed of the whole program, again and again.
+void ride(benchmark::State& state, const std::vector<Move>& moves) {
+    double cells = 0;
+    for (auto _ : state) {
+        Ride ride(machine(), Point{}, [&](const Stretch& stretch) { cells += static_cast<double>(stretch.feed.size()); });
+        for (const Move& move : moves) ride.push(move);
+        ride.flush();
+    }
+    const double blocks = static_cast<double>(state.iterations()) * static_cast<double>(moves.size());
+    state.SetItemsProcessed(static_cast<std::int64_t>(blocks));
+    state.counters["cells_a_block"] = cells / blocks;
+    state.counters["each"] = benchmark::Counter(blocks, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+BENCHMARK_CAPTURE(ride, chords_of_0_1_mm, chords(0.1, 0));
+BENCHMARK_CAPTURE(ride, chords_of_0_1_mm_rounded, chords(0.1, 0.001));
+BENCHMARK_CAPTURE(ride, long_lines, long_lines());
+BENCHMARK_CAPTURE(ride, arcs_of_1_mm, arcs(1));
+
+}  // namespace
+}  // namespace motionrack::control
+
+BENCHMARK_MAIN();

@@ -1,0 +1,311 @@
+// Greedy merging: a chord grows while the ends of the moves in it lie along it, in order, and close enough.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <motionrack/base/result.hpp>
+#include <motionrack/control/curve/spans.hpp>
+#include <motionrack/control/path_limits.hpp>
+
+namespace motionrack::control {
+namespace {
+
+/// Tolerances above this (mm) say no more than this.
+constexpr double widest_tolerance = 10;
+
+/// Distance from the axis (mm) at which a rotary axis may be off by the tolerance.
+constexpr double rotary_radius = 100;
+constexpr double degrees_per_radian = 57.295779513082320877;
+
+/// Where an axis has no pulses: mm or degrees.
+constexpr double no_pulse = 1e-4;
+
+/// Paths that turn by more than 120 degrees rest.
+constexpr double sharpest_turn = -0.5;
+
+/// Turns whose own width would be less than this (mm or degrees) are rests.
+constexpr double least_width = 1e-6;
+
+/// Arcs that turn by less (rad) are shallow.
+constexpr double shallow = 0.1;
+
+double dot(const Point& a, const Point& b, int first) {
+    return a[first] * b[first] + a[first + 1] * b[first + 1] + a[first + 2] * b[first + 2];
+}
+
+double finest_pulse(const MachineLimits& limits, int first) {
+    double most = 0;
+    for (int i = first; i < first + 3; ++i)
+        if (limits[i].present) most = std::max(most, limits[i].pulses_per_unit);
+    return most > 0 ? 1 / most : no_pulse;
+}
+
+double merge_room(double tolerance, double pulse) {
+    return std::clamp(pulse, least_merge_share * tolerance, most_merge_share * tolerance);
+}
+
+bool same_feed(double a, double b) {
+    return a == b || std::fabs(a - b) <= 1e-9 * std::min(a, b);
+}
+
+}  // namespace
+
+SpanMaker::SpanMaker(const MachineLimits& limits, const Point& start)
+    : limits_(limits), half_pulse_{0.5 * finest_pulse(limits, 0), 0.5 * finest_pulse(limits, 3)}, position_(start) {}
+
+Tolerance SpanMaker::tolerance_of(const Move& move) const {
+    if (move.path != PathControl::continuous) return half_pulse_;
+    const double linear = std::min(move.tolerance_mm, widest_tolerance);
+    return {std::max(linear, half_pulse_.linear),
+            std::max(linear / rotary_radius * degrees_per_radian, half_pulse_.rotary)};
+}
+
+/// The move's shape; an arc that no one can tell from a line is a line, which has the arc's tangents if it is a shallow
+/// one.
+Geometry SpanMaker::shape_of(const Move& move) const {
+    const Geometry path = geometry_of(move, position_);
+    if (path.shape != PathShape::arc) return path;
+    const double turned = path.length / curvature_radius(path);
+    const double height = std::min(2 * path.radius, turned * path.length / 8) * (1 + std::fabs(path.growth));
+    if (height > least_merge_share * tolerance_of(move).linear) return path;
+    Move straight = move;
+    straight.kind = MoveKind::feed;
+    Geometry line = geometry_of(straight, position_);
+    if (line.shape == PathShape::line && turned < shallow) {
+        line.tangent_in = path.tangent_in;
+        line.tangent_out = path.tangent_out;
+    }
+    return line;
+}
+
+Tolerance SpanMaker::room_to_merge(const Tolerance& tolerance) const {
+    return {merge_room(tolerance.linear, 2 * half_pulse_.linear), merge_room(tolerance.rotary, 2 * half_pulse_.rotary)};
+}
+
+bool SpanMaker::is_left_out(const Geometry& path) const {
+    if (path.shape == PathShape::nothing) return true;
+    if (path.shape == PathShape::arc || path.length > half_pulse_.linear) return false;
+    double linear = 0, rotary = 0;
+    for (int i = 0; i < axis_count; ++i) {
+        double& most = i < 3 ? linear : rotary;
+        most = std::max(most, std::fabs(path.end[i] - path.start[i]));
+    }
+    return linear < half_pulse_.linear * left_out_share && rotary < half_pulse_.rotary * left_out_share;
+}
+
+/// Length and tangents of a line from `start` to `end`.
+void SpanMaker::make_line(Span& span) const {
+    Point change;
+    for (int i = 0; i < axis_count; ++i) change[i] = span.end[i] - span.start[i];
+    span.length = span.rotary ? std::max({std::fabs(change[3]), std::fabs(change[4]), std::fabs(change[5])})
+                              : std::sqrt(dot(change, change, 0));
+    for (int i = 0; i < axis_count; ++i) span.tangent_in[i] = span.tangent_out[i] = change[i] / span.length;
+}
+
+Span SpanMaker::span_of(const Move& move, const Geometry& path) const {
+    Span span;
+    span.kind = SpanKind::line;
+    span.rotary = path.shape == PathShape::rotary;
+    span.line = move.line;
+    span.start = path.start;
+    span.end = path.end;
+    span.tolerance = tolerance_of(move);
+    Point worst;
+    if (path.shape == PathShape::arc) {
+        span.kind = SpanKind::arc;
+        span.bow = Bow(path);
+        span.length = span.bow.length();
+        span.tangent_in = span.bow.at(0).tangent;
+        span.tangent_out = span.bow.at(span.length).tangent;
+        worst = worst_components(path);
+    } else {
+        if (move.kind == MoveKind::arc) span.merged = room_to_merge(span.tolerance);
+        make_line(span);
+        worst = span.tangent_in;
+    }
+    double fastest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < axis_count; ++i)
+        if (worst[i] != 0) fastest = std::min(fastest, limits_[i].max_speed / std::fabs(worst[i]));
+    if (move.kind == MoveKind::traverse)
+        span.feed = move.haste < 1 ? move.haste * fastest : std::numeric_limits<double>::infinity();
+    else
+        span.feed = move.feed_mode == FeedMode::inverse_time ? move.feed * span.length : move.feed;
+    span.speed = std::min(span.feed, fastest);
+    return span;
+}
+
+/// Does the path stand still between the last move and this one?
+bool SpanMaker::rests_between(const Geometry& path, const Span& span) const {
+    if (!open_ || stop_left_out_ || last_move_.path == PathControl::exact_stop || span.rotary != last_.rotary)
+        return true;
+    const Point& in = last_tangent_;
+    const Point& out = path.tangent_in;
+    if (is_same_direction(in, out)) return false;
+    if (last_move_.path == PathControl::exact_path) return true;
+    const int first = span.rotary ? 3 : 0;
+    if (dot(in, out, first) < sharpest_turn * std::sqrt(dot(in, in, first) * dot(out, out, first))) return true;
+    double linear = 0, rotary = 0;
+    for (int i = 0; i < axis_count; ++i) {
+        double& most = i < 3 ? linear : rotary;
+        most = std::max(most, std::fabs(out[i] - in[i]));
+    }
+    const Tolerance room{std::min(last_.tolerance.linear, span.tolerance.linear), std::min(last_.tolerance.rotary, span.tolerance.rotary)};
+    if (room.linear < least_width * linear || room.rotary < least_width * rotary) return true;
+    return !is_better_passed(corner_between(span, in, out, room));
+}
+
+/// How far from the corner's sides the path may be at a stop between these.
+double SpanMaker::room_to_cut(const Span& next) const {
+    if (last_move_.path != PathControl::continuous || next.rotary || last_.rotary) return 0;
+    return std::max(0.0, corner_share * std::min(last_.tolerance.linear, next.tolerance.linear) - last_.merged.linear);
+}
+
+/// The turn as wide as its tolerance allows, but within its moves.
+Corner SpanMaker::corner_between(const Span& next, const Point& in, const Point& out, const Tolerance& room) const {
+    Corner corner;
+    corner.sides = {side_of(last_, in), side_of(next, out)};
+    double linear = 0, rotary = 0;
+    for (std::size_t i = 0; i < in.size(); ++i) {
+        const double change = std::fabs(out[i] - in[i]);
+        if (i < 3) linear += change * change;
+        else rotary = std::max(rotary, change);
+        corner.per_accel = std::max(corner.per_accel, change / limits_[i].max_accel);
+        if (limits_[i].max_jerk > 0) corner.per_jerk = std::max(corner.per_jerk, change / limits_[i].max_jerk);
+    }
+    corner.width = std::min(last_.length, next.length);
+    if (linear > 0) corner.width = std::min(corner.width, corner_share * 12 * room.linear / std::sqrt(linear));
+    if (rotary > 0) corner.width = std::min(corner.width, corner_share * 12 * room.rotary / rotary);
+    return corner;
+}
+
+CornerSide SpanMaker::side_of(const Span& span, const Point& tangent) const {
+    CornerSide side{span.length, span.speed, 1e300, 1e300};
+    for (std::size_t i = 0; i < tangent.size(); ++i) {
+        if (tangent[i] == 0) continue;
+        side.accel = std::min(side.accel, limits_[i].max_accel / std::fabs(tangent[i]));
+        if (limits_[i].max_jerk > 0) side.jerk = std::min(side.jerk, limits_[i].max_jerk / std::fabs(tangent[i]));
+    }
+    side.jerk = std::min(side.jerk, 1e6 * side.accel);
+    return side;
+}
+
+void SpanMaker::push(const Move& move) {
+    MOTIONRACK_ASSERT(has_room());
+    if (move.kind == MoveKind::dwell) {
+        rest(move.seconds, move.line);
+        return;
+    }
+    Geometry path = shape_of(move);
+    if (is_left_out(path)) {
+        any_left_out_ = true;
+        left_out_ = move;
+        stop_left_out_ = stop_left_out_ || move.path == PathControl::exact_stop;
+        return;
+    }
+    Span span = span_of(move, path);
+    bool rests = rests_between(path, span);
+    if (rests && any_left_out_) {
+        add_left_out();
+        path = shape_of(move);
+        span = span_of(move, path);
+    }
+    any_left_out_ = stop_left_out_ = false;
+    if (rests || !merge(move, span)) {
+        if (rests && open_) {
+            const double room = room_to_cut(span);
+            rest(0, last_move_.line);
+            spans_[(made_ - 1) % capacity].room_mm = room;
+        }
+        close();
+        span.tangent = !rests && is_same_direction(last_tangent_, path.tangent_in);
+        last_ = span;
+        open_ = true;
+        inner_count_ = 0;
+    }
+    last_move_ = move;
+    last_tangent_ = path.tangent_out;
+    position_ = move.end;
+}
+
+/// Makes the last span longer by a line, if all that is in it then lies along it.
+bool SpanMaker::merge(const Move& move, const Span& next) {
+    const bool alike = last_.kind == SpanKind::line && next.kind == SpanKind::line && move.kind != MoveKind::arc &&
+                       move.kind == last_move_.kind && move.path == last_move_.path && inner_count_ < most_merged &&
+                       next.tolerance.linear == last_.tolerance.linear && same_feed(next.feed, last_.feed);
+    if (!alike || !lies_along(next.end, next)) return false;
+    inner_[inner_count_++] = last_.end;
+    last_.merged = room_to_merge(last_.tolerance);
+    last_.end = next.end;
+    make_line(last_);
+    last_.feed = std::min(last_.feed, next.feed);
+    last_.speed = std::min(last_.speed, next.speed);
+    return true;
+}
+
+bool SpanMaker::lies_along(const Point& end, const Span& next) const {
+    const int first = next.rotary ? 3 : 0;
+    const Tolerance room = room_to_merge(next.tolerance);
+    const double near = next.rotary ? room.rotary : room.linear;
+    Point change;
+    for (int i = 0; i < axis_count; ++i) change[i] = end[i] - last_.start[i];
+    const double square = dot(change, change, first);
+    if (!(square > near * near)) return false;
+    double done = 0;
+    for (std::size_t k = 0; k <= inner_count_; ++k) {
+        const Point& at = k < inner_count_ ? inner_[k] : last_.end;
+        Point way;
+        for (int i = 0; i < axis_count; ++i) way[i] = at[i] - last_.start[i];
+        const double part = dot(way, change, first) / square;
+        if (!(part > done && part < 1)) return false;
+        done = part;
+        for (int i = 0; i < axis_count; ++i) way[i] -= part * change[i];
+        if (dot(way, way, first) > near * near) return false;
+        for (int i = 3; i < axis_count; ++i)
+            if (std::fabs(way[i]) > room.rotary) return false;
+    }
+    return true;
+}
+
+/// Before a rest: what was left out becomes part of the last line, or a line of its own.
+void SpanMaker::add_left_out() {
+    any_left_out_ = stop_left_out_ = false;
+    Move move = left_out_;
+    if (move.kind == MoveKind::arc) move.kind = MoveKind::feed;
+    const Geometry path = geometry_of(move, position_);
+    if (path.shape == PathShape::nothing) return;
+    const bool rotary = path.shape == PathShape::rotary;
+    if (open_ && last_.kind == SpanKind::line && last_.length > 1000 * path.length && (rotary || !last_.rotary)) {
+        last_.end = position_ = move.end;
+        make_line(last_);
+        return;
+    }
+    if (open_) rest(0, last_move_.line);
+    position_ = move.end;
+    last_move_ = move;
+    last_ = span_of(move, path);
+    open_ = true;
+    inner_count_ = 0;
+}
+
+void SpanMaker::close() {
+    if (!open_) return;
+    open_ = false;
+    spans_[made_++ % capacity] = last_;
+}
+
+void SpanMaker::rest(double seconds, std::int32_t line) {
+    if (any_left_out_) add_left_out();
+    close();
+    Span& span = spans_[made_++ % capacity];
+    span = Span{};
+    span.seconds = seconds;
+    span.line = line;
+    span.start = span.end = position_;
+}
+
+void SpanMaker::flush() {
+    if (any_left_out_) add_left_out();
+    if (open_) rest(0, last_move_.line);
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,109 @@
+// From moves to spans: chords are merged, joints are told apart into rests, tangent joins and corners.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <motionrack/control/curve/bow.hpp>
+#include <motionrack/control/curve/corner.hpp>
+#include <motionrack/control/geometry.hpp>
+#include <motionrack/control/limits.hpp>
+#include <motionrack/control/move.hpp>
+
+namespace motionrack::control {
+
+/// Parts of the tolerance. Merging chords takes an eighth, or as much as a pulse if this is no more than a quarter:
+/// roundings of the program's coordinates are of this size. An arc's ends take more at a tangent joint than at a
+/// corner, where the corner needs it; two arcs' ends may meet. Moves that are left out take a 500th. What is left is
+/// for spreading turns.
+inline constexpr double least_merge_share = 0.125;
+inline constexpr double most_merge_share = 0.25;
+inline constexpr double arc_tangent_share = 0.37;
+inline constexpr double arc_corner_share = 0.12;
+inline constexpr double inner_share = 0.1;
+/// Of a corner, by which its width is judged.
+inline constexpr double corner_share = 0.75;
+inline constexpr double left_out_share = 0.002;
+
+/// How far the curve may be from the program, by all or by some of its reasons.
+struct Tolerance {
+    double linear = 0;  ///< mm
+    double rotary = 0;  ///< degrees
+};
+
+enum class SpanKind : std::uint8_t { line, arc, rest };
+
+/// A straight line, an arc, or a rest.
+struct Span {
+    SpanKind kind = SpanKind::rest;
+    bool rotary = false;   ///< only ABC move; lengths are degrees
+    bool tangent = false;  ///< meets the span before it in the same direction
+    std::int32_t line = 0;
+    double length = 0;  ///< of u
+    Point start = {};
+    Point end = {};
+    Point tangent_in = {};
+    Point tangent_out = {};
+    Tolerance tolerance;  ///< in all
+    Tolerance merged;     ///< of this, by merging chords
+    double feed = 0;      ///< greatest du/dt by the program
+    double speed = 0;     ///< the lesser of this and of what the axes can do
+    double seconds = 0;   ///< rest
+    double room_mm = 0;   ///< rest: how far the path may be from the sides of the corner here
+    Bow bow;              ///< arc
+};
+
+/// Takes moves, gives spans in order.
+class SpanMaker {
+  public:
+    SpanMaker(const MachineLimits& limits, const Point& start);
+
+    bool has_room() const { return made_ - taken_ + most_a_push <= capacity; }
+    void push(const Move& move);
+    void flush();
+
+    /// How many spans are complete.
+    std::size_t size() const { return made_ - taken_; }
+    /// Of these the i-th, from 0.
+    const Span& at(std::size_t i) const { return spans_[(taken_ + i) % capacity]; }
+    void pop() { ++taken_; }
+
+  private:
+    static constexpr std::size_t capacity = 16;
+    static constexpr std::size_t most_a_push = 5;
+    static constexpr std::size_t most_merged = 32;
+
+    Tolerance tolerance_of(const Move& move) const;
+    Tolerance room_to_merge(const Tolerance& tolerance) const;
+    Geometry shape_of(const Move& move) const;
+    bool is_left_out(const Geometry& path) const;
+    Span span_of(const Move& move, const Geometry& path) const;
+    void make_line(Span& span) const;
+    bool rests_between(const Geometry& path, const Span& span) const;
+    double room_to_cut(const Span& next) const;
+    Corner corner_between(const Span& next, const Point& in, const Point& out, const Tolerance& room) const;
+    CornerSide side_of(const Span& span, const Point& tangent) const;
+    bool merge(const Move& move, const Span& next);
+    bool lies_along(const Point& end, const Span& next) const;
+    void add_left_out();
+    void close();
+    void rest(double seconds, std::int32_t line);
+
+    MachineLimits limits_;
+    Tolerance half_pulse_;
+    std::array<Span, capacity> spans_;
+    std::size_t made_ = 0;
+    std::size_t taken_ = 0;
+    Point position_;  ///< where the last move that was not left out ends
+    bool any_left_out_ = false;
+    Move left_out_;               ///< the last move that was left out; the program is where it ends
+    bool stop_left_out_ = false;  ///< of the moves that were left out, one ends at rest
+    bool open_ = false;           ///< there is a last span that may still grow
+    Span last_;
+    Move last_move_;
+    Point last_tangent_ = {};               ///< at the end of the last move
+    std::array<Point, most_merged> inner_;  ///< ends of the moves in last_, but its own
+    std::size_t inner_count_ = 0;
+};
+
+}  // namespace motionrack::control

@@ -1,0 +1,89 @@
+// Power series instead of hyperbolic and circular functions: cells are short, so a few terms do, and every compiler finds the same sums.
+#include <motionrack/control/feed/feed_piece.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace motionrack::control {
+
+namespace {
+
+/// sinh(q)/q and (cosh(q) - 1)/(q^2/2) for q^2 = `square`, which may be negative (then sin and cos).
+struct Series {
+    double sine, cosine;
+};
+Series series_of(double square) {
+    Series out{1, 1};
+    double sine = 1, cosine = 1;
+    for (int k = 1; k < 60; ++k) {
+        sine *= square / (2.0 * k * (2 * k + 1));
+        cosine *= square / ((2.0 * k + 1) * (2 * k + 2));
+        out.sine += sine;
+        out.cosine += cosine;
+        if (std::fabs(sine) < 1e-18 && std::fabs(cosine) < 1e-18) break;
+    }
+    return out;
+}
+
+/// Place on a cell after `time`.
+double moved(const FeedPiece& cell, double speed, double time) {
+    const Series series = series_of(0.5 * cell.bend * time * time);
+    return speed * time * series.sine + 0.25 * cell.slope * time * time * series.cosine;
+}
+
+double square_at(const FeedPiece& cell, double x) {
+    return std::max(0.0, cell.square + x * (cell.slope + 0.5 * cell.bend * x));
+}
+
+}  // namespace
+
+FeedPiece feed_cell(double begin, double length, double square, double slope, double bend) {
+    FeedPiece cell{FeedPhase::cell, begin, length, 0, square, slope, bend, 0};
+    // The speed has no greatest value inside that is below those at the ends, so the time is between these.
+    const double speed = std::sqrt(square), end = std::sqrt(square_at(cell, length));
+    double least = 0, most = length / std::min(speed, end), time = std::min(most, 2 * length / (speed + end));
+    for (int step = 0; step < 60; ++step) {
+        const double there = moved(cell, speed, time);
+        (there < length ? least : most) = time;
+        double next = time + (length - there) / std::sqrt(square_at(cell, std::clamp(there, 0.0, length)));
+        if (!(next > least && next < most)) next = 0.5 * (least + most);
+        const bool settled = std::fabs(next - time) <= 4e-16 * time;
+        time = next;
+        if (settled) break;
+    }
+    cell.seconds = time;
+    return cell;
+}
+
+FeedPiece feed_ramp(double begin, double length, double seconds, double speed, double accel, double jerk) {
+    return {FeedPhase::ramp, begin, length, seconds, speed * speed, 2 * accel, 0, jerk};
+}
+
+// speed = jerk t^2/2, length = jerk t^3/6
+FeedPiece feed_launch(double begin, double length, double square) {
+    const double speed = std::sqrt(square), seconds = 3 * length / speed;
+    return {FeedPhase::launch, begin, length, seconds, 0, 0, 0, 2 * speed / (seconds * seconds)};
+}
+
+FeedPiece feed_landing(double begin, double length, double square) {
+    FeedPiece out = feed_launch(begin, length, square);
+    out.phase = FeedPhase::landing;
+    return out;
+}
+
+FeedState FeedPiece::at(double time) const {
+    if (phase == FeedPhase::launch) return {begin + jerk * time * time * time / 6, jerk * time * time / 2, jerk * time, jerk};
+    if (phase == FeedPhase::landing) {
+        const double left = seconds - time;
+        return {begin + length - jerk * left * left * left / 6, jerk * left * left / 2, -jerk * left, jerk};
+    }
+    if (phase == FeedPhase::ramp) {
+        const double speed = std::sqrt(square), accel = 0.5 * slope;
+        return {begin + time * (speed + time * (0.5 * accel + time * (1.0 / 6) * jerk)), speed + time * (accel + 0.5 * time * jerk), accel + time * jerk, jerk};
+    }
+    const double x = std::clamp(moved(*this, std::sqrt(square), time), 0.0, length);
+    const double speed = std::sqrt(square_at(*this, x));
+    return {begin + x, speed, 0.5 * (slope + bend * x), 0.5 * bend * speed};
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,286 @@
+// Cells, two passes, a hull.
+#include <motionrack/control/feed/feed_planner.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/profile.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+/// Cells grow away from a rest or a narrow place by this much of the way.
+constexpr double growth = 0.25;
+/// At least so many cells between two rests, and at most so many of the size that a span's speed asks for.
+constexpr double least_cells = 48, most_cells_of_a_span = 256;
+/// A launch and a landing take this part of a path at most: on a short one constant jerk ends after a twelfth.
+constexpr double most_launch = 1.0 / 14;
+constexpr double alike_jerk = 1.5;
+/// No cell is shorter than this part of the path: places have no more digits.
+constexpr double least_part = 1e-13;
+/// The speed is taken for this much above what a hull found when the next one is sought; then nearer.
+constexpr double first_guess = 2, guess_falls = 0.45;
+
+FeedSpan least_of(const FeedSpan& a, const FeedSpan& b) {
+    return {a.length, std::min(a.speed, b.speed), std::min(a.accel, b.accel), std::min(a.jerk, b.jerk)};
+}
+
+bool all_alike(std::span<const FeedSpan> spans) {
+    return std::all_of(spans.begin(), spans.end(), [&](const FeedSpan& span) {
+        return span.speed == spans[0].speed && span.accel == spans[0].accel && span.jerk == spans[0].jerk;
+    });
+}
+
+}  // namespace
+
+std::span<const FeedPiece> FeedPlanner::plan(std::span<const FeedSpan> spans) {
+    pieces_.clear();
+    ends_.clear();
+    length_ = 0;
+    for (const FeedSpan& span : spans) ends_.push_back(length_ += span.length);
+    if (!(length_ > 0)) return pieces_;
+    if (all_alike(spans)) {
+        write_s_curve(spans.front());
+        return pieces_;
+    }
+    cut(spans);
+    bound();
+    slope_limits();
+    rise_both();
+    narrow(left_, first_guess);
+    seek();
+    double guess = first_guess;
+    for (int i = 0; i < settings_.refinements; ++i, guess = 1 + (guess - 1) * guess_falls)
+        if (is_loose(guess)) {
+            narrow(square_, guess);
+            seek();
+        }
+    write();
+    return pieces_;
+}
+
+// ---- cells --------------------------------------------------------------------------------------------------------------------------
+
+/// As long as acceleration and speed allow with the full jerk, over spans whose jerks are alike.
+FeedPlanner::End FeedPlanner::end_of(std::span<const FeedSpan> spans, bool back) const {
+    End end{length_ * most_launch, 0};
+    FeedSpan least = spans[back ? spans.size() - 1 : 0];
+    double before = 0;
+    for (std::size_t n = 0; n < spans.size() && before < end.length; ++n) {
+        const FeedSpan& span = spans[back ? spans.size() - 1 - n : n];
+        const FeedSpan all = least_of(least, span);
+        const double time = std::min(all.accel / all.jerk, std::sqrt(2 * all.speed / all.jerk));
+        const double fits = all.jerk * time * time * time / 6;
+        const bool alike = span.jerk < alike_jerk * least.jerk && least.jerk < alike_jerk * span.jerk;
+        if (n > 0 && (fits <= before || !alike)) {
+            end.length = before;
+            break;
+        }
+        least = all;
+        end.length = std::min(end.length, fits);
+        before += span.length;
+    }
+    end.jerk = least.jerk;
+    return end;
+}
+
+/// How long cells should be for a span's own sake.
+double FeedPlanner::wanted(const FeedSpan& span) const {
+    return std::min(std::max(span.speed * settings_.cell_seconds, span.length / most_cells_of_a_span), length_ / least_cells);
+}
+
+/// How great cells may be at the ends of the spans: what a span's speed asks for there, and growing away from the narrow ones.
+void FeedPlanner::grade(std::span<const FeedSpan> spans) {
+    sizes_.assign(spans.size() + 1, 0);
+    sizes_.front() = launch_.length / 3;
+    sizes_.back() = landing_.length / 3;
+    for (std::size_t k = 1; k < spans.size(); ++k) {
+        const FeedSpan least = least_of(spans[k - 1], spans[k]);
+        // Between unlike speeds the jerk needs about this length to reach or leave the lesser one.
+        const double ramp = spans[k - 1].speed == spans[k].speed ? length_ : least.speed * std::sqrt(least.speed / least.jerk);
+        sizes_[k] = std::min({wanted(spans[k - 1]), wanted(spans[k]), ramp});
+    }
+    for (std::size_t k = 1; k < sizes_.size(); ++k) sizes_[k] = std::min(sizes_[k], sizes_[k - 1] + growth * spans[k - 1].length);
+    for (std::size_t k = sizes_.size() - 1; k-- > 0;) sizes_[k] = std::min(sizes_[k], sizes_[k + 1] + growth * spans[k].length);
+}
+
+void FeedPlanner::cut(std::span<const FeedSpan> spans) {
+    launch_ = end_of(spans, false);
+    landing_ = end_of(spans, true);
+    grade(spans);
+    cells_.clear();
+    const double end = length_ - landing_.length;
+    std::size_t at = 0;
+    for (double begin = launch_.length; begin < end;) {
+        while (at + 1 < spans.size() && ends_[at] <= begin) ++at;
+        const double from_left = begin - (ends_[at] - spans[at].length), to_right = ends_[at] - begin;
+        double size = std::min({wanted(spans[at]), sizes_[at] + growth * from_left, sizes_[at + 1] + growth / (1 + growth) * to_right});
+        size = std::max(size, least_part * length_);
+        if (begin + 1.5 * size >= end) size = end - begin;
+        else if (begin + 2.5 * size >= end) size = (end - begin) / 2;
+        const double next = size == end - begin ? end : begin + size;
+        add_cell(spans, at, begin, next);
+        begin = next;
+    }
+}
+
+/// `at`: the span in which it begins.
+void FeedPlanner::add_cell(std::span<const FeedSpan> spans, std::size_t at, double begin, double end) {
+    FeedSpan least = spans[at];
+    for (; at + 1 < spans.size() && ends_[at] < end; ++at) least = least_of(least, spans[at + 1]);
+    cells_.push_back({begin, end - begin, least.speed * least.speed, 2 * least.accel, 2 * least.jerk});
+}
+
+/// Bounds of control points, and the ways between them.
+void FeedPlanner::bound() {
+    const std::size_t n = cells_.size();
+    way_.assign(n + 1, 0);
+    bound_.assign(n + 2, 0);
+    for (std::size_t i = 0; i < n; ++i) bound_[i + 1] = std::min({cells_[i].square, cells_[i == 0 ? 0 : i - 1].square, cells_[std::min(i + 1, n - 1)].square});
+    for (std::size_t k = 0; k <= n; ++k) way_[k] = 0.5 * ((k == 0 ? 1.5 * launch_.length : cells_[k - 1].length) + (k == n ? 1.5 * landing_.length : cells_[k].length));
+}
+
+/// Whether a tighter bound would be news: where points could bend more, or slopes change more.
+bool FeedPlanner::is_loose(double guess) const {
+    for (std::size_t i = 1; i <= cells_.size(); ++i) {
+        const bool eased = steepest_[i - 1] < cells_[i - 1].slope || steepest_[i] < cells_[i - 1].slope;
+        if ((eased ? bound_[i] : left_[i]) > guess * square_[i]) return true;
+    }
+    return false;
+}
+
+/// Nothing will be above `guess` times what was found. Where that is slower, the jerk lets more bend.
+void FeedPlanner::narrow(const std::vector<double>& found, double guess) {
+    for (std::size_t i = 1; i <= cells_.size(); ++i) bound_[i] = std::min(bound_[i], guess * found[i]);
+    for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].square = std::min(cells_[i].square, std::max({bound_[i], bound_[i + 1], bound_[i + 2]}));
+}
+
+void FeedPlanner::seek() {
+    slope_limits();
+    ease_slopes();
+    rise_both();
+    hull();
+}
+
+void FeedPlanner::rise_both() {
+    rise(left_, false);
+    rise(right_, true);
+    for (std::size_t i = 0; i < left_.size(); ++i) left_[i] = std::min(left_[i], right_[i]);
+}
+
+/// The greatest slope at each knot. At a rest the straight line from (a quarter of the launch, 0) through the launch's end is what constant
+/// jerk makes of w there, whatever jerk it is.
+void FeedPlanner::slope_limits() {
+    const std::size_t n = cells_.size();
+    steepest_.assign(n + 1, 0);
+    for (std::size_t k = 0; k <= n; ++k) steepest_[k] = std::min(cells_[k == 0 ? 0 : k - 1].slope, cells_[std::min(k, n - 1)].slope);
+    // Constant jerk: w' = 2 jerk t, u = jerk t^3 / 6.
+    const auto end_slope = [](const End& end) { return 2 * end.jerk * cube_root(6 * end.length / end.jerk); };
+    steepest_.front() = std::min(steepest_.front(), end_slope(launch_));
+    steepest_.back() = std::min(steepest_.back(), end_slope(landing_));
+}
+
+/// No greatest slope changes faster than the jerk lets a slope change, or a bend that begins where more is allowed would reach over.
+void FeedPlanner::ease_slopes() {
+    const std::size_t n = cells_.size();
+    const auto change = [&](const Cell& cell) { return cell.bend / std::sqrt(cell.square) * cell.length; };
+    for (std::size_t k = 1; k <= n; ++k) steepest_[k] = std::min(steepest_[k], steepest_[k - 1] + change(cells_[k - 1]));
+    for (std::size_t k = n; k-- > 0;) steepest_[k] = std::min(steepest_[k], steepest_[k + 1] + change(cells_[k]));
+}
+
+// ---- passes -------------------------------------------------------------------------------------------------------------------------
+
+/// As steep as can be from one end, ignoring what lies ahead: a lower bound is taken at once.
+void FeedPlanner::rise(std::vector<double>& out, bool back) const {
+    const std::size_t n = cells_.size();
+    const auto point = [&](std::size_t i) { return back ? n + 1 - i : i; };
+    out.assign(n + 2, 0);
+    double slope = 0, square = 0;
+    for (std::size_t i = 0; i <= n; ++i) {
+        const double way = way_[back ? n - i : i];
+        const double steepest = steepest_[back ? n - i : i];
+        if (i == 0) {
+            slope = steepest;
+        } else {
+            // The jerk's bend at the speed that would be reached with the bend of the present one, which is more than will be.
+            const Cell& cell = cells_[back ? n - i : i - 1];
+            const double more = cell.bend * cell.length;
+            const double most = square + std::min(steepest, slope + more / std::sqrt(square)) * way;
+            slope = std::min(steepest, slope + more / std::sqrt(std::max(most, square)));
+        }
+        const double next = square + slope * way, bound = bound_[point(i + 1)];
+        if (next > bound) slope = std::max(0.0, (bound - square) / way);
+        out[point(i + 1)] = square = std::min(next, bound);
+    }
+}
+
+/// The greatest points under left_ that bend downwards no more than the jerk allows at the speed of left_: a convex hull. All sums are of
+/// what lies between two corners, so that small speeds near a rest keep their digits.
+void FeedPlanner::hull() {
+    const std::size_t n = cells_.size();
+    square_.resize(n + 2);
+    fall_.assign(n + 2, 0);
+    for (std::size_t i = 1; i <= n; ++i) fall_[i] = cells_[i - 1].bend / std::sqrt(std::max({left_[i - 1], left_[i], left_[i + 1]})) * cells_[i - 1].length;
+    edges_.clear();
+    for (std::size_t i = 1; i < n + 2; ++i) {
+        Edge edge{i - 1, way_[i - 1], 0, 0, left_[i] - left_[i - 1]};
+        // The corner between two edges is on the hull if the slope falls there by less than it may.
+        while (!edges_.empty() && edges_.back().slope_out() - fall_[edge.from] >= edge.slope_in()) {
+            const Edge& before = edges_.back();
+            const double fall = before.fall + fall_[edge.from];
+            edge = {before.from, before.length + edge.length, fall + edge.fall, before.moment + fall * edge.length + edge.moment, before.rise + edge.rise};
+            edges_.pop_back();
+        }
+        edges_.push_back(edge);
+    }
+    for (std::size_t k = 0; k < edges_.size(); ++k) follow(edges_[k], k + 1 < edges_.size() ? edges_[k + 1].from : n + 1);
+}
+
+/// From its lower end, where digits count.
+void FeedPlanner::follow(const Edge& edge, std::size_t to) {
+    square_[edge.from] = left_[edge.from];
+    square_[to] = left_[to];
+    if (left_[edge.from] <= left_[to]) {
+        double slope = edge.slope_in();
+        for (std::size_t i = edge.from; i + 1 < to; slope -= fall_[++i]) square_[i + 1] = square_[i] + slope * way_[i];
+    } else {
+        double slope = edge.slope_out();
+        for (std::size_t i = to; i > edge.from + 1; slope += fall_[--i]) square_[i - 1] = square_[i] - slope * way_[i - 1];
+    }
+}
+
+/// Where no limit changes the quickest is known.
+void FeedPlanner::write_s_curve(const FeedSpan& limits) {
+    const SCurve curve(length_, limits.speed, limits.accel, limits.jerk);
+    const auto ends = curve.phase_ends();
+    double begin = 0, from = 0;
+    for (std::size_t phase = 0; phase < ends.size(); ++phase) {
+        const double seconds = ends[phase] - from;
+        if (!(seconds > 0)) continue;
+        const ProfileSample at = curve.sample(from), then = curve.sample(ends[phase]);
+        const double length = then.position - begin;
+        const bool even = phase % 2 == 1;  // constant acceleration, or cruise
+        if (phase == 0) pieces_.push_back(feed_launch(begin, length, then.speed * then.speed));
+        else if (phase == 6) pieces_.push_back(feed_landing(begin, length, at.speed * at.speed));
+        else pieces_.push_back(feed_ramp(begin, length, seconds, at.speed, phase == 3 ? 0 : at.accel, even ? 0 : -limits.jerk));
+        begin = then.position;
+        from = ends[phase];
+    }
+}
+
+void FeedPlanner::write() {
+    const std::size_t n = cells_.size();
+    const auto slope = [&](std::size_t knot) { return (square_[knot + 1] - square_[knot]) / way_[knot]; };
+    const double first = slope(0) * 0.75 * launch_.length, last = -slope(n) * 0.75 * landing_.length;
+    pieces_.push_back(feed_launch(0, launch_.length, first));
+    double before = slope(0);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double after = slope(i + 1);
+        const Cell& cell = cells_[i];
+        pieces_.push_back(feed_cell(cell.begin, cell.length, square_[i + 1] - 0.5 * before * cell.length, before, (after - before) / cell.length));
+        before = after;
+    }
+    pieces_.push_back(feed_landing(length_ - landing_.length, landing_.length, last));
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,90 @@
+// The speed along a path from rest to rest: as fast as speed, acceleration and jerk allow, place by place.
+//
+//   w, the square of the speed, over the path u. Acceleration is w'/2, jerk is sqrt(w) w''/2: conditions on w, its slope and its bend.
+//
+//      ┌──────────┐    ┌───────┐        1. limits of the spans, cut into cells
+//      │          │    │       │        2. from the left: as steep as can be, its slope growing as the jerk allows (╱)
+//     ╱│╲        ╱│╲__╱│╲     ╱│╲       3. from the right: the same (╲)
+//    ╱   ╲______╱   valleys     ╲       4. the lesser of both bends upwards no more than the jerk allows; what bends downwards too much
+//                                          is cut off below: the greatest function under it that bends no more is a convex hull
+//                                          (w + C is convex, where C'' is the bend that the jerk allows)
+//
+// All is done with the control points of a parabola in each cell (a quadratic B-spline): slopes are between neighbours, bends are their
+// differences, and the curve lies between the points. What holds for the points holds at every place. See docs/decisions/0011-feed-profile.md.
+#pragma once
+
+#include <motionrack/control/feed/feed_piece.hpp>
+#include <motionrack/control/feed/feed_span.hpp>
+#include <span>
+#include <vector>
+
+namespace motionrack::control {
+
+struct FeedSettings {
+    double cell_seconds = 0.004;  ///< a cell takes about so long at its limit
+    int refinements = 4;          ///< steps from a safe to a tight idea of the speed, on which the jerk's bend depends
+};
+
+/// Allocates only when a path is longer than all before it.
+class FeedPlanner {
+  public:
+    explicit FeedPlanner(FeedSettings settings = {}) : settings_(settings) {}
+
+    /// From rest to rest over these spans, whose limits are above 0. The answer is valid until the next call; empty without spans.
+    std::span<const FeedPiece> plan(std::span<const FeedSpan> spans);
+
+  private:
+    /// What a cell asks, and its control point.
+    struct Cell {
+        double begin = 0, length = 0;
+        double square = 0;  ///< greatest
+        double slope = 0;   ///< greatest, both ways
+        double bend = 0;    ///< greatest, times the speed
+    };
+    /// Of the hull, from control point `from`: what the slope falls between its ends, and what the square loses by it.
+    struct Edge {
+        std::size_t from = 0;
+        double length = 0, fall = 0, moment = 0, rise = 0;
+        double slope_in() const { return (rise + moment) / length; }
+        double slope_out() const { return slope_in() - fall; }
+    };
+    /// A stretch of constant jerk from or into rest.
+    struct End {
+        double length = 0, jerk = 0;
+    };
+
+    void cut(std::span<const FeedSpan> spans);
+    End end_of(std::span<const FeedSpan> spans, bool back) const;
+    double wanted(const FeedSpan& span) const;
+    void grade(std::span<const FeedSpan> spans);
+    void add_cell(std::span<const FeedSpan> spans, std::size_t at, double begin, double end);
+    void bound();
+    bool is_loose(double guess) const;
+    void narrow(const std::vector<double>& found, double guess);
+    void seek();
+    void rise_both();
+    void slope_limits();
+    void ease_slopes();
+    void rise(std::vector<double>& out, bool back) const;
+    void hull();
+    void follow(const Edge& edge, std::size_t to);
+    void write();
+    void write_s_curve(const FeedSpan& limits);
+
+    FeedSettings settings_;
+    double length_ = 0;
+    End launch_, landing_;
+    std::vector<double> ends_;   ///< of the spans
+    std::vector<double> sizes_;  ///< greatest cell at each end of a span
+    std::vector<Cell> cells_;
+    // by knot: 0 the launch's end, cells().size() the landing's begin
+    std::vector<double> steepest_;
+    std::vector<double> way_;  ///< between the control points beside it
+    // by control point: 0 and cells().size() + 1 are the rests
+    std::vector<double> bound_, left_, right_, square_;
+    std::vector<double> fall_;  ///< the most that the slope may fall there
+    std::vector<Edge> edges_;
+    std::vector<FeedPiece> pieces_;
+};
+
+}  // namespace motionrack::control

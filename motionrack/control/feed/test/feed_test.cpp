@@ -1,0 +1,215 @@
+// Feed profiles: what holds at every instant, how near they are to the quickest, and that they fit together.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <motionrack/control/feed/feed_planner.hpp>
+#include <motionrack/control/profile.hpp>
+#include <random>
+#include <vector>
+
+namespace motionrack::control {
+namespace {
+
+/// Spans at random: every number between its bounds, evenly by order of magnitude.
+class RandomSpans {
+  public:
+    explicit RandomSpans(unsigned seed) : random_(seed) {}
+    std::vector<FeedSpan> next(int most) {
+        std::vector<FeedSpan> out(1 + random_() % static_cast<unsigned>(most));
+        for (FeedSpan& span : out) span = {between(1e-4, 100), between(0.1, 300), between(10, 1e4), between(1e3, 1e6)};
+        return out;
+    }
+    double between(double least, double most) { return least * std::exp(std::log(most / least) * std::uniform_real_distribution<>(0, 1)(random_)); }
+
+  private:
+    std::mt19937 random_;
+};
+
+double length_of(const std::vector<FeedSpan>& spans) {
+    double length = 0;
+    for (const FeedSpan& span : spans) length += span.length;
+    return length;
+}
+
+double seconds_of(std::span<const FeedPiece> pieces) {
+    double seconds = 0;
+    for (const FeedPiece& piece : pieces) seconds += piece.seconds;
+    return seconds;
+}
+
+/// Greatest parts of the limits, and of any jump between pieces, that a profile has anywhere.
+struct Peaks {
+    double speed = 0, accel = 0, jerk = 0, jump = 0;
+};
+Peaks peaks_of(std::span<const FeedPiece> pieces, const std::vector<FeedSpan>& spans) {
+    Peaks out;
+    const double length = length_of(spans);
+    FeedState last;
+    const auto jump = [&](const FeedState& state) {
+        out.jump = std::max({out.jump, std::fabs(state.place - last.place) / length, std::fabs(state.speed - last.speed) / (state.speed + last.speed + 1e-6),
+                             std::fabs(state.accel - last.accel) / spans.front().accel});
+    };
+    std::size_t k = 0;
+    double end = spans.front().length;
+    for (const FeedPiece& piece : pieces) {
+        for (int i = 0; i <= 6; ++i) {
+            const FeedState state = piece.at(piece.seconds * i / 6);
+            if (i == 0) jump(state);
+            while (k + 1 < spans.size() && state.place > end + 1e-10 * length) end += spans[++k].length;
+            // Where two spans meet those of either hold.
+            FeedSpan span = spans[k];
+            if (k + 1 < spans.size() && state.place > end - 1e-10 * length)
+                span = {0, std::max(span.speed, spans[k + 1].speed), std::max(span.accel, spans[k + 1].accel), std::max(span.jerk, spans[k + 1].jerk)};
+            out.speed = std::max(out.speed, state.speed / span.speed);
+            out.accel = std::max(out.accel, std::fabs(state.accel) / span.accel);
+            out.jerk = std::max(out.jerk, std::fabs(state.jerk) / span.jerk);
+            last = state;
+        }
+    }
+    jump({length, 0, 0, 0});
+    return out;
+}
+
+TEST(AFeedProfile, OfSpansThatAreAlikeIsTheQuickestSCurve) {
+    FeedPlanner planner;
+    for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001})
+        for (const double speed : {100.0, 5.0}) {
+            const std::vector<FeedSpan> spans = {{0.3 * length, speed, 1000, 20'000}, {0.7 * length, speed, 1000, 20'000}};
+            const auto pieces = planner.plan(spans);
+            EXPECT_NEAR(seconds_of(pieces) / SCurve(length, speed, 1000, 20'000).duration(), 1, 1e-12) << length;
+            const Peaks peaks = peaks_of(pieces, spans);
+            EXPECT_LE(std::max({peaks.speed, peaks.accel, peaks.jerk}), 1 + 1e-9) << length;
+            EXPECT_LE(peaks.jump, 1e-9) << length;
+        }
+}
+
+TEST(AFeedProfile, OfSpansThatAreNearlyAlikeIsNearlyThat) {
+    FeedPlanner planner;
+    for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001}) {
+        const std::vector<FeedSpan> spans = {{0.5 * length, 100, 1000, 20'000}, {0.5 * length, 100.000001, 1000, 20'000}};
+        const double quickest = SCurve(length, 100, 1000, 20'000).duration();
+        const double seconds = seconds_of(planner.plan(spans));
+        EXPECT_GE(seconds, quickest * (1 - 1e-6)) << length;
+        EXPECT_LE(seconds, quickest * 1.01) << length;
+    }
+}
+
+TEST(AFeedProfile, KeepsEveryLimitAtEveryInstant) {
+    FeedPlanner planner;
+    RandomSpans random(20261122);
+    for (int run = 0; run < 3000; ++run) {
+        const std::vector<FeedSpan> spans = random.next(12);
+        const Peaks peaks = peaks_of(planner.plan(spans), spans);
+        ASSERT_LE(peaks.speed, 1 + 1e-6) << run;
+        ASSERT_LE(peaks.accel, 1 + 1e-6) << run;
+        ASSERT_LE(peaks.jerk, 1 + 1e-6) << run;
+        ASSERT_LE(peaks.jump, 1e-6) << run;
+    }
+}
+
+/// Through places that are much narrower than their neighbours a stop may be quicker: it needs no speed at which the place is left.
+TEST(AFeedProfile, IsQuickerThanStoppingBetweenSpans) {
+    FeedPlanner planner;
+    RandomSpans random(7);
+    int slower = 0;
+    for (int run = 0; run < 1000; ++run) {
+        const std::vector<FeedSpan> spans = random.next(6);
+        double stopping = 0;
+        for (const FeedSpan& span : spans) stopping += SCurve(span.length, span.speed, span.accel, span.jerk).duration();
+        const double seconds = seconds_of(planner.plan(spans));
+        ASSERT_LE(seconds, 1.5 * stopping) << run;
+        slower += seconds > 1.01 * stopping;
+    }
+    EXPECT_LT(slower, 60);
+}
+
+TEST(AFeedProfile, GoesThroughANarrowPlaceAtItsSpeed) {
+    FeedPlanner planner;
+    const std::vector<FeedSpan> spans = {{50, 100, 1000, 20'000}, {2, 20, 1000, 20'000}, {50, 100, 1000, 20'000}};
+    double slowest = 100, fastest = 0;
+    for (const FeedPiece& piece : planner.plan(spans)) {
+        const FeedState state = piece.at(0);
+        if (state.place > 50.2 && state.place < 51.8) slowest = std::min(slowest, state.speed);
+        fastest = std::max(fastest, state.speed);
+    }
+    EXPECT_NEAR(slowest, 20, 1e-6);
+    EXPECT_NEAR(fastest, 100, 1e-6);
+}
+
+/// A slalom: the speed that its curvature allows rises and falls, and the profile follows it.
+TEST(AFeedProfile, FollowsLimitsThatChangeSlowly) {
+    FeedPlanner planner;
+    std::vector<FeedSpan> spans;
+    double quickest = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const double speed = 100 + 50 * std::sin(i * 0.002);
+        spans.push_back({0.1, speed, 2000, 100'000});
+        quickest += 0.1 / speed;
+    }
+    const double ends = 2 * (SCurve(1000, 100, 2000, 100'000).duration() - 10);
+    EXPECT_LE(seconds_of(planner.plan(spans)), 1.003 * quickest + ends);
+}
+
+TEST(AFeedProfile, DoesNotDependOnWhatWasPlannedBefore) {
+    FeedPlanner used, fresh;
+    RandomSpans random(3);
+    for (int run = 0; run < 50; ++run) {
+        const std::vector<FeedSpan> spans = random.next(9);
+        fresh = FeedPlanner();
+        const auto a = used.plan(spans), b = fresh.plan(spans);
+        ASSERT_EQ(a.size(), b.size());
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            ASSERT_EQ(a[i].square, b[i].square);
+            ASSERT_EQ(a[i].seconds, b[i].seconds);
+        }
+    }
+}
+
+TEST(AFeedProfile, TakesLimitsOfAnySize) {
+    FeedPlanner planner;
+    RandomSpans random(11);
+    for (int run = 0; run < 500; ++run) {
+        std::vector<FeedSpan> spans(1 + run % 5);
+        for (FeedSpan& span : spans) span = {random.between(1e-9, 1e4), random.between(1e-6, 1e6), random.between(1e-3, 1e7), random.between(1e-3, 1e10)};
+        const auto pieces = planner.plan(spans);
+        const double seconds = seconds_of(pieces);
+        ASSERT_TRUE(seconds > 0 && seconds < 1e12) << run << ": " << seconds;
+        ASSERT_LT(pieces.size(), 2000U) << run;
+        for (const FeedPiece& piece : pieces) ASSERT_TRUE(piece.seconds >= 0) << run;
+    }
+}
+
+TEST(AFeedProfile, HasTheSameBitsOnEveryCompilerAndCpu) {
+    std::vector<FeedSpan> spans;
+    for (int i = 0; i < 300; ++i) spans.push_back({0.05 + 0.3 * (i % 7), 10.0 + i * 37 % 90, 500.0 + i * 13 % 700, 9000.0 + i * 101 % 20'000});
+    std::uint64_t fold = 0;
+    FeedPlanner planner;
+    for (const FeedPiece& piece : planner.plan(spans))
+        for (const double value : {piece.begin, piece.length, piece.seconds, piece.square, piece.slope, piece.bend, piece.jerk, piece.at(0.3 * piece.seconds).place})
+            fold = (fold ^ std::bit_cast<std::uint64_t>(value)) * 0x9E3779B97F4A7C15u;
+    EXPECT_EQ(fold, 15269621513994817506u);
+}
+
+TEST(AFeedProfile, OfNothingIsEmpty) {
+    FeedPlanner planner;
+    EXPECT_TRUE(planner.plan({}).empty());
+}
+
+TEST(AFeedPiece, IsAsLongAsItSaysAndMovesAsItsSquareSays) {
+    const FeedPiece cell = feed_cell(5, 2, 100, 30, 8);
+    EXPECT_NEAR(cell.at(0).speed, 10, 1e-12);
+    EXPECT_NEAR(cell.at(cell.seconds).place, 7, 1e-12);
+    EXPECT_NEAR(cell.at(cell.seconds).speed, std::sqrt(100 + 60 + 16), 1e-12);
+    const double time = 0.3 * cell.seconds, step = 1e-5;
+    const auto before = cell.at(time - step), here = cell.at(time), after = cell.at(time + step);
+    EXPECT_NEAR((after.place - before.place) / (2 * step), here.speed, 1e-6);
+    EXPECT_NEAR((after.speed - before.speed) / (2 * step), here.accel, 1e-6);
+    EXPECT_NEAR((after.accel - before.accel) / (2 * step), here.jerk, 1e-6);
+}
+
+}  // namespace
+}  // namespace motionrack::control

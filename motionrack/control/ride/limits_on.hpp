@@ -1,0 +1,19 @@
+// What the axes' limits mean for the speed along a curve.
+#pragma once
+
+#include <motionrack/control/curve/curve.hpp>
+#include <motionrack/control/feed/feed_span.hpp>
+#include <motionrack/control/limits.hpp>
+
+namespace motionrack::control {
+
+/// Speed, acceleration and jerk along a piece that no axis notices beyond its own: with v, a and j along the piece an axis has
+///     p' v,   p' a + p'' v^2,   p' j + 3 p'' v a + p''' v^3.
+/// Of an axis' acceleration and jerk the greatest speed leaves some for changing it. An axis without a limit of its jerk gets one that it
+/// reaches its acceleration with in `jerk_seconds`.
+/// The slower `most_speed`, the more is left.
+FeedSpan limits_on(const CurvePiece& piece, const MachineLimits& limits, double most_speed);
+
+inline constexpr double jerk_seconds = 0.002;
+
+}  // namespace motionrack::control

@@ -1,0 +1,82 @@
+// A program driven along its curve: moves go in, stretches from rest to rest come out, each with its place and its time.
+//
+//   moves ──CurveBuilder──► cubic pieces ──limits_on──► spans ──FeedPlanner──► feed profile        place(t) = curve(u(t))
+//
+// Along a stretch each axis keeps its speed, acceleration and jerk at every instant, the path stays within its tolerance, and the programmed
+// feed is not exceeded.
+#pragma once
+
+#include <functional>
+#include <motionrack/control/curve/curve.hpp>
+#include <motionrack/control/feed/feed_planner.hpp>
+#include <motionrack/control/limits.hpp>
+#include <motionrack/control/move.hpp>
+#include <motionrack/control/ride/overlap.hpp>
+#include <span>
+#include <vector>
+
+namespace motionrack::control {
+
+/// From rest to rest; valid while the ride's callback runs.
+struct Stretch {
+    std::span<const CurvePiece> curve;  ///< empty: a dwell
+    std::span<const FeedPiece> feed;
+    double seconds = 0;      ///< of the motion
+    double overlap = 0;      ///< s by which it begins before the stretch before it has ended
+    StretchEnd before;       ///< where there is an overlap: how that one ends
+    double rest_seconds = 0;  ///< of the dwell behind it
+    std::int32_t line = 0;   ///< of the move that ends here
+    Point end = {};
+};
+
+/// All axes at one instant: per s, s^2, s^3.
+struct RideState {
+    double u = 0;
+    Point place = {}, speed = {}, accel = {}, jerk = {};
+    std::int32_t line = 0;
+};
+
+/// Looks at a stretch at rising times.
+class StretchView {
+  public:
+    explicit StretchView(const Stretch& stretch) : stretch_(stretch) {}
+    /// `seconds` from the stretch's begin, not before the last ones; from 0 to its end. With what is left of the stretch before.
+    RideState at(double seconds);
+
+  private:
+    void add_before(RideState& state, double seconds) const;
+
+    Stretch stretch_;
+    std::size_t feed_ = 0, piece_ = 0;
+    double feed_begin_ = 0;  ///< s
+};
+
+class Ride {
+  public:
+    using OnStretch = std::function<void(const Stretch&)>;
+    /// The axes stand at `start`.
+    Ride(const MachineLimits& limits, const Point& start, OnStretch on_stretch);
+
+    /// Begins where the last move ended. All its numbers are finite, and feeds above 0.
+    void push(const Move& move);
+    /// The program rests here.
+    void flush();
+
+  private:
+    void take();
+    void plan();
+    bool narrow();
+
+    MachineLimits limits_;
+    OnStretch on_stretch_;
+    CurveBuilder builder_;
+    FeedPlanner planner_;
+    std::vector<CurvePiece> curve_;
+    std::vector<FeedSpan> spans_;
+    std::vector<FeedPiece> feed_;  ///< the quickest found
+    double seconds_ = 0;           ///< of it
+    StretchEnd end_;               ///< of the stretch before
+    double room_mm_ = 0;           ///< at its end
+};
+
+}  // namespace motionrack::control

@@ -1,0 +1,58 @@
+#include <motionrack/frontends/server/served_rack.hpp>
+
+#include <fmt/format.h>
+
+#include <motionrack/frontends/server/door_orders.hpp>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace motionrack::server {
+
+Result<std::unique_ptr<ServedRack>> ServedRack::open(const rack::RackConfig& config, ServedSettings settings) {
+    std::unique_ptr<ServedRack> served(new ServedRack());
+    MOTIONRACK_CHECK(served->make(config, std::move(settings)));
+    return served;
+}
+
+Result<void> ServedRack::make(const rack::RackConfig& config, ServedSettings settings) {
+    journal_ = settings.journal;
+    MOTIONRACK_CHECK(pacer_.set(settings.clock, settings.factor));
+    settings.machine.pace = [this, meanwhile = std::move(settings.meanwhile)](Instant now) {
+        if (meanwhile) meanwhile();
+        return pacer_.pace(now);
+    };
+    MOTIONRACK_TRY(machine_, operate::Machine::make(config, std::move(settings.machine)));
+    MOTIONRACK_TRY(door_, authority::Doorkeeper::open(std::move(settings.door)));
+    if (settings.grbl) {
+        if (journal_ != nullptr)
+            settings.grbl->on_setting = [this](const std::string& sender, const std::string& text) {
+                journal_->write(machine_->now(), "setting", fmt::format("{}: {}", sender, text));
+            };
+        MOTIONRACK_TRY(grbl_, GrblPorts::open(*settings.grbl, *machine_, lease_));
+    }
+    settings.panel.version = settings.server.version = settings.version;
+    settings.panel.boot = settings.server.boot = settings.boot;
+    settings.panel.pacer = &pacer_;
+    settings.panel.journal = journal_;
+    settings.panel.link = [this] { return nlohmann::json{{"sender", grbl_ ? grbl_->sender() : "none"}, {"clients", server_ ? server_->clients() : 0}}; };
+    settings.panel.elsewhere = door_orders(*door_);
+    panel_ = std::make_unique<panel::Panel>(*machine_, lease_, std::move(settings.panel));
+    settings.server.rack = config.name;
+    if (journal_ != nullptr) settings.server.audit = [this](const AuditEntry& entry) { write_down(entry); };
+    MOTIONRACK_TRY(server_, Server::open(std::move(settings.server), *panel_, *door_, lease_, std::move(settings.page)));
+    return {};
+}
+
+void ServedRack::stop() {
+    server_->stop();
+    grbl_.reset();
+}
+
+/// On the network thread.
+void ServedRack::write_down(const AuditEntry& entry) {
+    const nlohmann::json data = {{"user", entry.user}, {"address", entry.address}, {"order", entry.what}, {"status", entry.status}};
+    journal_->write(panel_->picture()->at(), "audit",
+                    fmt::format("{} from {}: {}: {}", entry.user.empty() ? "somebody" : entry.user, entry.address, entry.what, entry.outcome), panel::text_of(data));
+}
+
+}  // namespace motionrack::server

@@ -1,0 +1,77 @@
+// A rack that runs in step with a clock, with everybody who may work on it, in the order in which they need each other.
+//
+//   clock ──► pacer ──► machine ◄──── panel ◄──── server ◄── browsers, programs
+//                         ▲ ▲           │ journal    │
+//                         │ └── lease ──┴──── door ──┘
+//                         └──── Grbl ports ◄── senders
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <motionrack/authority/control_lease.hpp>
+#include <motionrack/authority/doorkeeper.hpp>
+#include <motionrack/frontends/server/grbl_ports.hpp>
+#include <motionrack/frontends/server/page.hpp>
+#include <motionrack/frontends/server/server.hpp>
+#include <motionrack/frontends/server/settings.hpp>
+#include <motionrack/journal/journal.hpp>
+#include <motionrack/live/clock.hpp>
+#include <motionrack/operate/machine.hpp>
+#include <motionrack/operate/pacer.hpp>
+#include <motionrack/panel/panel.hpp>
+#include <motionrack/rack/config.hpp>
+#include <optional>
+#include <string>
+
+namespace motionrack::server {
+
+/// What a part needs of another one is filled in: the pacer, the journal, orders about people, the audit, versions.
+struct ServedSettings {
+    operate::ClockMode clock = operate::ClockMode::real;
+    double factor = 1;                        ///< seconds of the rack for a second
+    std::function<void()> meanwhile = {};     ///< on the motion thread, again and again while it waits for the clock; must not wait
+    journal::Journal* journal = nullptr;      ///< what happens, what is asked and who asked is written to it
+    std::string version = {}, boot = {};      ///< as the server greets
+    operate::MachineSettings machine = {};
+    authority::DoorkeeperSettings door = {};
+    panel::PanelSettings panel = {};
+    std::optional<GrblPortSettings> grbl = {};
+    ServerSettings server = {};
+    Page page = {};
+};
+
+class ServedRack {
+  public:
+    /// Everything is there and the ports are open; the machine stands until run(). Errors: those of the parts.
+    static Result<std::unique_ptr<ServedRack>> open(const rack::RackConfig& config, ServedSettings settings);
+
+    /// Works until machine().quit().
+    void run() { machine_->run(); }
+    /// Closes the ports; nobody is served any more.
+    void stop();
+
+    operate::Pacer& pacer() { return pacer_; }
+    authority::ControlLease& lease() { return lease_; }
+    operate::Machine& machine() { return *machine_; }
+    authority::Doorkeeper& door() { return *door_; }
+    panel::Panel& panel() { return *panel_; }
+    Server& server() { return *server_; }
+    const GrblPorts* grbl() const { return grbl_.get(); }  ///< nullptr: none were asked for
+
+  private:
+    ServedRack() = default;
+    Result<void> make(const rack::RackConfig& config, ServedSettings settings);
+    void write_down(const AuditEntry& entry);
+
+    live::MonotonicClock clock_;
+    operate::Pacer pacer_{clock_, operate::ClockMode::real, 1};
+    authority::ControlLease lease_;
+    journal::Journal* journal_ = nullptr;
+    std::unique_ptr<operate::Machine> machine_;
+    std::unique_ptr<authority::Doorkeeper> door_;
+    std::unique_ptr<panel::Panel> panel_;
+    std::unique_ptr<Server> server_;
+    std::unique_ptr<GrblPorts> grbl_;
+};
+
+}  // namespace motionrack::server

@@ -1,0 +1,75 @@
+// A machine whose orders come at given instants of virtual time.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <motionrack/operate/machine.hpp>
+#include <motionrack/rack/template.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::operate {
+
+/// Two axes that stand where the file says; `more` for the file.
+inline rack::RackConfig two_axes(const std::string& more = "") {
+    const rack::RackReading reading = rack::read_rack_text("[card.m]\ntype = \"mcx314\"\n[axis.X]\ncard = \"m\"\nchannel = \"x\"\nstart_mm = 10\n"
+                                                           "[axis.Y]\ncard = \"m\"\nchannel = \"y\"\n" + more);
+    EXPECT_TRUE(reading.config) << (reading.errors.empty() ? "" : reading.errors[0].text());
+    return *reading.config;
+}
+
+inline rack::RackConfig router() { return *rack::read_rack_text(*rack::rack_template("router")).config; }
+
+/// A machine, and orders that are given when their time has come.
+class Operated {
+  public:
+    explicit Operated(const rack::RackConfig& config) {
+        MachineSettings settings;
+        settings.pace = [this](Instant now) { return give(to_seconds(now)), true; };
+        settings.on_status = [this](const Status& status) { look(status); };
+        settings.on_event = [this](const control::gcode::Step& step) { events.push_back(step.kind); };
+        auto made = Machine::make(config, std::move(settings));
+        EXPECT_TRUE(made) << made.error().message;
+        machine = std::move(*made);
+        EXPECT_TRUE(machine->enable(true));
+    }
+    void at(double seconds, std::function<void(Machine&)> order) { orders_.push_back({seconds, std::move(order)}); }
+    /// Until `seconds`.
+    void run(double seconds) {
+        at(seconds, [](Machine& m) { m.quit(); });
+        machine->run();
+    }
+    double x() const { return machine->status().axes[0].commanded; }
+    double y() const { return machine->status().axes[1].commanded; }
+
+    std::unique_ptr<Machine> machine;
+    std::vector<std::string> states;  ///< as they followed each other
+    std::vector<control::gcode::StepKind> events;
+    double top_speed = 0, stood_since = 0;
+
+  private:
+    struct Order {
+        double seconds;
+        std::function<void(Machine&)> give;
+    };
+    void give(double now) {
+        while (machine && !orders_.empty() && now >= orders_.front().seconds) {
+            const Order order = orders_.front();
+            orders_.pop_front();
+            order.give(*machine);
+        }
+    }
+    void look(const Status& status) {
+        if (states.empty() || states.back() != name_of(status.state)) states.emplace_back(name_of(status.state));
+        for (const AxisStatus& axis : status.axes) {
+            top_speed = std::max(top_speed, std::fabs(axis.speed));
+            if (axis.speed != 0) stood_since = to_seconds(status.at);
+        }
+    }
+    std::deque<Order> orders_;
+};
+
+}  // namespace motionrack::operate
