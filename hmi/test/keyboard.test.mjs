@@ -123,9 +123,9 @@ test('i is the next jog increment, c continuous', async () => {
   await chooseStep(tab, '0.01');
   const pressed = () => tab.page.getByRole('group', { name: 'Jog step' }).locator('[aria-pressed=true]').innerText();
   await tab.page.keyboard.press('i');
-  assert.equal(await pressed(), '0.1');
+  await until(async () => (await pressed()) === '0.1', 'the next step');
   await tab.page.keyboard.press('c');
-  assert.equal(await pressed(), 'hold');
+  await until(async () => (await pressed()) === 'hold', 'continuous');
   await rest(tab);
 });
 

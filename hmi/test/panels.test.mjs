@@ -29,7 +29,7 @@ test('axes are homed, with their phases and what was found; then they are truste
   await state(tab, 'homing');
   await until(() => tab.status.state === 'standstill', 'all axes are homed', 60000);
   await until(() => tab.status.axes.every((axis) => axis.trusted), 'all positions are trusted');
-  assert.equal(await tab.page.locator('.homed.yes').count(), 4);
+  await until(async () => (await tab.page.locator('.homed.yes').count()) === 4, 'all axes are shown as homed');
   await tab.page.getByText('Homed; what was found').click();
   await tab.page.locator('.homing td').first().waitFor();
   await done(tab);
@@ -122,7 +122,7 @@ test('an axis is disabled alone, is not moved then, and is enabled again', async
   const drive = tab.page.getByRole('button', { name: 'Axis Y enabled' });
   await drive.click();
   await until(() => tab.status.axes[1].enabled === false, 'Y is disabled');
-  assert.equal(await drive.getAttribute('aria-pressed'), 'false');
+  await until(async () => (await drive.getAttribute('aria-pressed')) === 'false', 'the button shows it');
   assert.equal(tab.status.state, 'standstill');
   await tab.page.getByRole('button', { name: 'Home axis Y' }).click();
   await tab.page.getByText('Not homed: axis Y is disabled; enable it first.').first().waitFor();
