@@ -21,6 +21,11 @@ constexpr double least_part = 1e-13;
 /// The speed is taken for this much above what a hull found when the next one is sought; then nearer.
 constexpr double first_guess = 2, guess_falls = 0.45;
 
+/// Of a limit: so much beyond it a motion may begin.
+constexpr double rounding = 1e-7;
+/// Of the square that a motion goes on with.
+constexpr double least_square = 1e-6;
+
 FeedSpan least_of(const FeedSpan& a, const FeedSpan& b) {
     return {a.length, std::min(a.speed, b.speed), std::min(a.accel, b.accel), std::min(a.jerk, b.jerk)};
 }
@@ -34,19 +39,44 @@ bool all_alike(std::span<const FeedSpan> spans) {
 }  // namespace
 
 std::span<const FeedPiece> FeedPlanner::plan(std::span<const FeedSpan> spans) {
-    pieces_.clear();
-    ends_.clear();
-    length_ = 0;
-    for (const FeedSpan& span : spans) ends_.push_back(length_ += span.length);
+    start_ = {};
+    measure(spans);
     if (!(length_ > 0)) return pieces_;
     if (all_alike(spans)) {
         write_s_curve(spans.front());
         return pieces_;
     }
     cut(spans);
+    approach();
+    write();
+    return pieces_;
+}
+
+std::span<const FeedPiece> FeedPlanner::plan_from(const FeedStart& start, std::span<const FeedSpan> spans) {
+    if (!(start.square > 0)) return plan(spans);
+    start_ = start;
+    measure(spans);
+    if (!(length_ > 0)) return pieces_;
+    cut(spans);
+    approach();
+    if (found_) write();
+    return pieces_;
+}
+
+void FeedPlanner::measure(std::span<const FeedSpan> spans) {
+    pieces_.clear();
+    ends_.clear();
+    length_ = 0;
+    for (const FeedSpan& span : spans) ends_.push_back(length_ += span.length);
+}
+
+/// The limits first, then nearer and nearer to what they allow.
+void FeedPlanner::approach() {
+    found_ = can_start_ = true;
     bound();
     slope_limits();
     rise_both();
+    keep_start();
     narrow(left_, first_guess);
     seek();
     double guess = first_guess;
@@ -55,8 +85,6 @@ std::span<const FeedPiece> FeedPlanner::plan(std::span<const FeedSpan> spans) {
             narrow(square_, guess);
             seek();
         }
-    write();
-    return pieces_;
 }
 
 // ---- cells --------------------------------------------------------------------------------------------------------------------------
@@ -89,10 +117,16 @@ double FeedPlanner::wanted(const FeedSpan& span) const {
     return std::min(std::max(span.speed * settings_.cell_seconds, span.length / most_cells_of_a_span), length_ / least_cells);
 }
 
+/// Where a motion goes on: no longer than its speed and its acceleration last.
+double FeedPlanner::first_size(double wanted) const {
+    const double by_speed = 2 * settings_.cell_seconds * std::sqrt(start_.square), slope = std::fabs(start_.slope);
+    return std::min({wanted, by_speed, slope > 0 ? 0.25 * start_.square / slope : wanted});
+}
+
 /// How great cells may be at the ends of the spans: what a span's speed asks for there, and growing away from the narrow ones.
 void FeedPlanner::grade(std::span<const FeedSpan> spans) {
     sizes_.assign(spans.size() + 1, 0);
-    sizes_.front() = launch_.length / 3;
+    sizes_.front() = moving() ? first_size(wanted(spans.front())) : launch_.length / 3;
     sizes_.back() = landing_.length / 3;
     for (std::size_t k = 1; k < spans.size(); ++k) {
         const FeedSpan least = least_of(spans[k - 1], spans[k]);
@@ -105,7 +139,7 @@ void FeedPlanner::grade(std::span<const FeedSpan> spans) {
 }
 
 void FeedPlanner::cut(std::span<const FeedSpan> spans) {
-    launch_ = end_of(spans, false);
+    launch_ = moving() ? End{} : end_of(spans, false);
     landing_ = end_of(spans, true);
     grade(spans);
     cells_.clear();
@@ -138,6 +172,13 @@ void FeedPlanner::bound() {
     bound_.assign(n + 2, 0);
     for (std::size_t i = 0; i < n; ++i) bound_[i + 1] = std::min({cells_[i].square, cells_[i == 0 ? 0 : i - 1].square, cells_[std::min(i + 1, n - 1)].square});
     for (std::size_t k = 0; k <= n; ++k) way_[k] = 0.5 * ((k == 0 ? 1.5 * launch_.length : cells_[k - 1].length) + (k == n ? 1.5 * landing_.length : cells_[k].length));
+    if (!moving()) return;
+    // As if a cell like the first were before it: the two points about the start are what is going on.
+    way_[0] = cells_[0].length;
+    const double most = bound_[1];
+    bound_[1] = start_.square + 0.5 * start_.slope * cells_[0].length;
+    bound_[0] = bound_[1] - start_.slope * way_[0];
+    can_start_ = std::max(start_.square, bound_[1]) <= most * (1 + rounding) && std::fabs(start_.slope) <= cells_[0].slope * (1 + rounding);
 }
 
 /// Whether a tighter bound would be news: where points could bend more, or slopes change more.
@@ -151,15 +192,30 @@ bool FeedPlanner::is_loose(double guess) const {
 
 /// Nothing will be above `guess` times what was found. Where that is slower, the jerk lets more bend.
 void FeedPlanner::narrow(const std::vector<double>& found, double guess) {
-    for (std::size_t i = 1; i <= cells_.size(); ++i) bound_[i] = std::min(bound_[i], guess * found[i]);
+    for (std::size_t i = moving() ? 2 : 1; i <= cells_.size(); ++i) bound_[i] = std::min(bound_[i], guess * found[i]);
     for (std::size_t i = 0; i < cells_.size(); ++i) cells_[i].square = std::min(cells_[i].square, std::max({bound_[i], bound_[i + 1], bound_[i + 2]}));
 }
 
 void FeedPlanner::seek() {
     slope_limits();
     ease_slopes();
+    stalls_ = false;
     rise_both();
+    found_ = !moving() || (can_start_ && !stalls_ && left_[1] >= bound_[1]);
+    keep_start();
     hull();
+    // What goes on bends into what follows as the jerk allows: then the second point is a corner of the hull.
+    if (moving()) found_ = found_ && edges_.size() > 1 && edges_[1].from == 1;
+    keep_start();
+}
+
+/// The start's points stand, whatever follows.
+void FeedPlanner::keep_start() {
+    if (!moving()) return;
+    for (std::size_t i = 0; i < 2; ++i) {
+        left_[i] = bound_[i];
+        if (i < square_.size()) square_[i] = bound_[i];
+    }
 }
 
 void FeedPlanner::rise_both() {
@@ -176,7 +232,7 @@ void FeedPlanner::slope_limits() {
     for (std::size_t k = 0; k <= n; ++k) steepest_[k] = std::min(cells_[k == 0 ? 0 : k - 1].slope, cells_[std::min(k, n - 1)].slope);
     // Constant jerk: w' = 2 jerk t, u = jerk t^3 / 6.
     const auto end_slope = [](const End& end) { return 2 * end.jerk * cube_root(6 * end.length / end.jerk); };
-    steepest_.front() = std::min(steepest_.front(), end_slope(launch_));
+    if (!moving()) steepest_.front() = std::min(steepest_.front(), end_slope(launch_));
     steepest_.back() = std::min(steepest_.back(), end_slope(landing_));
 }
 
@@ -191,26 +247,36 @@ void FeedPlanner::ease_slopes() {
 // ---- passes -------------------------------------------------------------------------------------------------------------------------
 
 /// As steep as can be from one end, ignoring what lies ahead: a lower bound is taken at once.
-void FeedPlanner::rise(std::vector<double>& out, bool back) const {
+void FeedPlanner::rise(std::vector<double>& out, bool back) {
     const std::size_t n = cells_.size();
     const auto point = [&](std::size_t i) { return back ? n + 1 - i : i; };
     out.assign(n + 2, 0);
     double slope = 0, square = 0;
-    for (std::size_t i = 0; i <= n; ++i) {
+    const bool from_motion = moving() && !back;
+    const double least = from_motion ? least_square * start_.square : 0;
+    if (from_motion) {
+        out[0] = bound_[0];
+        out[1] = square = bound_[1];
+        slope = start_.slope;
+    }
+    for (std::size_t i = from_motion ? 1 : 0; i <= n; ++i) {
         const double way = way_[back ? n - i : i];
         const double steepest = steepest_[back ? n - i : i];
         if (i == 0) {
             slope = steepest;
         } else {
-            // The jerk's bend at the speed that would be reached with the bend of the present one, which is more than will be.
+            // The jerk's bend at the speed that would be reached with the bend of the present one, which is more than will be; on the way
+            // down from a motion that goes on, at the speed before.
             const Cell& cell = cells_[back ? n - i : i - 1];
             const double more = cell.bend * cell.length;
             const double most = square + std::min(steepest, slope + more / std::sqrt(square)) * way;
-            slope = std::min(steepest, slope + more / std::sqrt(std::max(most, square)));
+            slope = std::min(steepest, slope + more / std::sqrt(std::max({most, square, out[point(i - 1)]})));
         }
-        const double next = square + slope * way, bound = bound_[point(i + 1)];
+        const std::size_t at = point(i + 1);
+        const double next = square + slope * way, bound = moving() && at < 2 ? next : bound_[at];
         if (next > bound) slope = std::max(0.0, (bound - square) / way);
-        out[point(i + 1)] = square = std::min(next, bound);
+        stalls_ = stalls_ || next < least;
+        out[at] = square = std::max(std::min(next, bound), least);
     }
 }
 
@@ -272,7 +338,7 @@ void FeedPlanner::write() {
     const std::size_t n = cells_.size();
     const auto slope = [&](std::size_t knot) { return (square_[knot + 1] - square_[knot]) / way_[knot]; };
     const double first = slope(0) * 0.75 * launch_.length, last = -slope(n) * 0.75 * landing_.length;
-    pieces_.push_back(feed_launch(0, launch_.length, first));
+    if (!moving()) pieces_.push_back(feed_launch(0, launch_.length, first));
     double before = slope(0);
     for (std::size_t i = 0; i < n; ++i) {
         const double after = slope(i + 1);

@@ -20,6 +20,12 @@
 
 namespace motionrack::control {
 
+/// The motion where a path begins.
+struct FeedStart {
+    double square = 0;  ///< of the speed; 0: rest
+    double slope = 0;   ///< of the square over the path: twice the acceleration
+};
+
 struct FeedSettings {
     double cell_seconds = 0.004;  ///< a cell takes about so long at its limit
     int refinements = 4;          ///< steps from a safe to a tight idea of the speed, on which the jerk's bend depends
@@ -32,6 +38,9 @@ class FeedPlanner {
 
     /// From rest to rest over these spans, whose limits are above 0. The answer is valid until the next call; empty without spans.
     std::span<const FeedPiece> plan(std::span<const FeedSpan> spans);
+
+    /// The same from a motion that goes on. Empty if none was found that keeps the limits: perhaps there is none.
+    std::span<const FeedPiece> plan_from(const FeedStart& start, std::span<const FeedSpan> spans);
 
   private:
     /// What a cell asks, and its control point.
@@ -53,25 +62,34 @@ class FeedPlanner {
         double length = 0, jerk = 0;
     };
 
+    bool moving() const { return start_.square > 0; }
+    void measure(std::span<const FeedSpan> spans);
+    void approach();
     void cut(std::span<const FeedSpan> spans);
     End end_of(std::span<const FeedSpan> spans, bool back) const;
     double wanted(const FeedSpan& span) const;
+    double first_size(double wanted) const;
     void grade(std::span<const FeedSpan> spans);
     void add_cell(std::span<const FeedSpan> spans, std::size_t at, double begin, double end);
     void bound();
     bool is_loose(double guess) const;
     void narrow(const std::vector<double>& found, double guess);
     void seek();
+    void keep_start();
     void rise_both();
     void slope_limits();
     void ease_slopes();
-    void rise(std::vector<double>& out, bool back) const;
+    void rise(std::vector<double>& out, bool back);
     void hull();
     void follow(const Edge& edge, std::size_t to);
     void write();
     void write_s_curve(const FeedSpan& limits);
 
     FeedSettings settings_;
+    FeedStart start_;
+    bool can_start_ = true;  ///< start_ is within the limits of the first cells
+    bool stalls_ = false;    ///< it slows down so hard that it comes to a stand before its end
+    bool found_ = true;      ///< what was sought last goes on from start_
     double length_ = 0;
     End launch_, landing_;
     std::vector<double> ends_;   ///< of the spans

@@ -8,10 +8,10 @@
 
 #include <functional>
 #include <motionrack/control/curve/curve.hpp>
-#include <motionrack/control/feed/feed_planner.hpp>
 #include <motionrack/control/limits.hpp>
 #include <motionrack/control/move.hpp>
-#include <motionrack/control/ride/overlap.hpp>
+#include <motionrack/control/ride/ride_state.hpp>
+#include <motionrack/control/ride/stretch_planner.hpp>
 #include <span>
 #include <vector>
 
@@ -29,13 +29,6 @@ struct Stretch {
     Point end = {};
 };
 
-/// All axes at one instant: per s, s^2, s^3.
-struct RideState {
-    double u = 0;
-    Point place = {}, speed = {}, accel = {}, jerk = {};
-    std::int32_t line = 0;
-};
-
 /// Looks at a stretch at rising times.
 class StretchView {
   public:
@@ -44,8 +37,6 @@ class StretchView {
     RideState at(double seconds);
 
   private:
-    void add_before(RideState& state, double seconds) const;
-
     Stretch stretch_;
     std::size_t feed_ = 0, piece_ = 0;
     double feed_begin_ = 0;  ///< s
@@ -64,17 +55,13 @@ class Ride {
 
   private:
     void take();
-    void plan();
-    bool narrow();
 
     MachineLimits limits_;
     OnStretch on_stretch_;
     CurveBuilder builder_;
-    FeedPlanner planner_;
+    StretchPlanner planner_;
     std::vector<CurvePiece> curve_;
     std::vector<FeedSpan> spans_;
-    std::vector<FeedPiece> feed_;  ///< the quickest found
-    double seconds_ = 0;           ///< of it
     StretchEnd end_;               ///< of the stretch before
     double room_mm_ = 0;           ///< at its end
 };

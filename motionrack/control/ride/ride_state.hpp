@@ -1,0 +1,24 @@
+// All axes at one instant of a ride.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/control/curve/curve.hpp>
+#include <motionrack/control/feed/feed_piece.hpp>
+#include <motionrack/control/ride/overlap.hpp>
+
+namespace motionrack::control {
+
+/// Per s, s^2, s^3.
+struct RideState {
+    double u = 0;
+    Point place = {}, speed = {}, accel = {}, jerk = {};
+    std::int32_t line = 0;
+};
+
+/// Where the motion along a piece has the axes; a place beside the piece counts as its end.
+RideState state_on(const CurvePiece& piece, const FeedState& along);
+
+/// Adds a stretch that has still `seconds` to its end, which is straight there: what it has still to go is missing.
+void add_landing(RideState& state, const StretchEnd& end, double seconds);
+
+}  // namespace motionrack::control

@@ -1,0 +1,247 @@
+// Moves to pieces to plans, and the way along them.
+#include <motionrack/control/ride/rider.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <motionrack/control/ride/limits_on.hpp>
+#include <utility>
+
+namespace motionrack::control {
+
+namespace {
+
+constexpr double no_speed_limit = 1e300;
+/// s before it has to slow down at which a path is planned further: more than anybody passes at once.
+constexpr double margin = 0.15;
+/// s until another plan is sought where none was found.
+constexpr double patience = 0.008;
+/// Passed pieces are dropped by so many.
+constexpr std::size_t least_drop = 1'024;
+/// Curves carry the number of the move in the place of its line, and numbers come round.
+constexpr std::int64_t tags = std::int64_t{1} << 30;
+
+double fastest_of_axes(const CurvePiece& piece, const MachineLimits& limits) {
+    double speed = no_speed_limit;
+    for (const Point& tangent : {piece.tangent, tangent_on(piece, 0.5 * piece.length), tangent_on(piece, piece.length)})
+        for (std::size_t i = 0; i < limits.size(); ++i)
+            if (tangent[i] != 0) speed = std::min(speed, limits[i].max_speed / std::fabs(tangent[i]));
+    return speed;
+}
+
+}  // namespace
+
+void Rider::Part::clear() {
+    curve.clear();
+    programmed.clear();
+    spans.clear();
+    feed.clear();
+    whole = false;
+    rest = {};
+}
+
+Rider::Rider(const MachineLimits& limits, const Point& start, RiderSettings settings)
+    : limits_(limits), settings_(settings), builder_(limits, start), planner_(limits) {}
+
+// ---- moves and pieces ---------------------------------------------------------------------------------------------------------------
+
+void Rider::push(const Move& move, bool overridable) {
+    Move tagged = move;
+    tagged.line = static_cast<std::int32_t>(pushed_++ % tags);
+    moves_.push_back({move.line, overridable});
+    builder_.push(tagged);
+    gather();
+}
+
+void Rider::flush() {
+    builder_.flush();
+    gather();
+}
+
+std::int64_t Rider::move_of(std::int32_t tag) const {
+    return first_move_ + (tag - first_move_ % tags + tags) % tags;
+}
+
+void Rider::gather() {
+    for (;;) {
+        Part& part = now_.whole ? then_ : now_;
+        if (part.whole || part.curve.size() - (now_.whole ? 0 : piece_) >= settings_.window) return;
+        CurveItem item;
+        if (!builder_.pull(item)) return;
+        if (item.rest) {
+            part.whole = true;
+            part.rest = item;
+        } else {
+            append(part, item.piece);
+        }
+    }
+}
+
+void Rider::append(Part& part, const CurvePiece& piece) {
+    part.curve.push_back(piece);
+    part.programmed.push_back(piece.feed);
+    part.spans.emplace_back();
+    set_feed(part, part.curve.size() - 1);
+}
+
+/// With the overrides, and without what an earlier plan knew.
+void Rider::set_feed(Part& part, std::size_t i) const {
+    CurvePiece& piece = part.curve[i];
+    const auto move = static_cast<std::size_t>(move_of(piece.line) - first_move_);
+    piece.feed = part.programmed[i];
+    if (moves_[move].overridable) {
+        if (piece.feed < std::numeric_limits<double>::infinity())
+            piece.feed *= feed_override_;
+        else if (rapid_override_ < 1)
+            piece.feed = rapid_override_ * fastest_of_axes(piece, limits_);
+    }
+    part.spans[i] = limits_on(piece, limits_, no_speed_limit);
+}
+
+void Rider::drop_passed() {
+    if (piece_ < least_drop) return;
+    const auto drop = [this](auto& column) { column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(piece_)); };
+    drop(now_.curve);
+    drop(now_.programmed);
+    drop(now_.spans);
+    piece_ = 0;
+    const std::int64_t first = move_of(now_.curve.front().line);
+    for (; first_move_ < first; ++first_move_) moves_.pop_front();
+}
+
+void Rider::to_next_part() {
+    std::swap(now_, then_);
+    then_.clear();
+    piece_ = feed_ = 0;
+    place_ = on_feed_ = 0;
+    reach_ = 0;
+    dwelt_ = holding_ = met_ = false;
+    planned_to_ = now_.known();
+    measure();
+    gather();
+}
+
+void Rider::set_overrides(double feed, double rapid) {
+    if (feed == feed_override_ && rapid == rapid_override_) return;
+    feed_override_ = feed;
+    rapid_override_ = rapid;
+    new_feeds_ = true;
+    patience_ = 0;
+    part_from_next();
+    for (std::size_t i = 0; i < then_.curve.size(); ++i) set_feed(then_, i);
+}
+
+// ---- what comes next ----------------------------------------------------------------------------------------------------------------
+
+RideNext Rider::next(bool early) {
+    for (gather();;) {
+        if (left_ > 0) {
+            tend(early);
+            return RideNext::motion;
+        }
+        if (held_) return RideNext::nothing;
+        if (place_ < now_.known()) {
+            if (!is_ready(now_, piece_, early)) return RideNext::nothing;
+            begin();
+            continue;
+        }
+        if (!now_.whole) return RideNext::nothing;
+        if (now_.rest.seconds > 0 && !dwelt_) return RideNext::dwell;
+        to_next_part();
+    }
+}
+
+bool Rider::is_ready(const Part& part, std::size_t from, bool early) const {
+    return part.whole || early || part.curve.size() - from >= settings_.window;
+}
+
+/// From rest, wherever on its stretch it stands.
+void Rider::begin() {
+    drop_passed();
+    holding_ = new_feeds_ = false;
+    for (std::size_t i = piece_; i < now_.curve.size(); ++i) set_feed(now_, i);
+    const auto from = static_cast<std::ptrdiff_t>(piece_);
+    planner_.plan({}, {now_.curve.begin() + from, now_.curve.end()}, {now_.spans.begin() + from, now_.spans.end()}, place_, now_.known());
+    Spot here;
+    here.piece = piece_;
+    here.along.place = place_;
+    take(here, 0, now_.known());
+}
+
+/// Keeps the plan ahead of the motion.
+void Rider::tend(bool early) {
+    if (try_again()) {
+        bool tried = true, found = true;
+        if (held_)
+            tried = !holding_, found = !tried || slow_down();
+        else if (new_feeds_)
+            found = ease_into_feeds();
+        else if (holding_ || (planned_to_ < now_.known() && left_ - braking_ <= margin))
+            found = go_on();
+        else
+            tried = false;
+        if (tried && !found) patience_ = patience;
+    }
+    meet_next(early);
+}
+
+/// The next stretch may begin before this one has ended.
+void Rider::meet_next(bool early) {
+    if (met_ || held_ || !now_.whole || planned_to_ < now_.known() || left_ > now_.feed.back().seconds + margin) return;
+    if (then_.curve.empty() || now_.rest.seconds > 0 || !is_ready(then_, 0, early)) return;
+    met_ = true;
+    if (!planner_.plan({}, then_.curve, then_.spans, 0, then_.known())) return;
+    then_.feed.assign(planner_.feed().begin(), planner_.feed().end());
+    const double overlap = overlap_of({now_.curve.back(), now_.feed.back()}, {then_.curve.front(), then_.feed.front()}, now_.rest.room_mm, limits_);
+    reach_ = std::min({overlap, left_, now_.feed.back().seconds});
+}
+
+/// It does not after all.
+void Rider::part_from_next() {
+    met_ = false;
+    reach_ = 0;
+    then_.feed.clear();
+}
+
+// ---- along the plan -----------------------------------------------------------------------------------------------------------------
+
+Rider::Spot Rider::spot_at(double seconds) const {
+    Spot out{feed_, piece_, on_feed_ + seconds, {}};
+    while (out.feed + 1 < now_.feed.size() && out.on_feed > now_.feed[out.feed].seconds) out.on_feed -= now_.feed[out.feed++].seconds;
+    out.along = now_.feed[out.feed].at(std::clamp(out.on_feed, 0.0, now_.feed[out.feed].seconds));
+    if (seconds >= left_) out.along = {planned_to_, 0, out.along.accel, out.along.jerk};
+    while (out.piece + 1 < now_.curve.size() && out.along.place > now_.curve[out.piece + 1].begin) ++out.piece;
+    return out;
+}
+
+RideState Rider::at(double seconds) const {
+    const Spot spot = spot_at(seconds);
+    RideState out = state_on(now_.curve[spot.piece], spot.along);
+    if (now_.whole && seconds >= left_ && planned_to_ >= now_.known()) out.place = now_.rest.at;
+    if (seconds < before_left_) add_landing(out, before_, before_left_ - seconds);
+    return out;
+}
+
+void Rider::pass(double seconds) {
+    before_left_ = std::max(0.0, before_left_ - seconds);
+    patience_ = std::max(0.0, patience_ - seconds);
+    if (seconds >= left()) {
+        before_ = {now_.curve.back(), now_.feed.back()};
+        before_left_ = reach_;
+        if (reach_ > 0) return to_next_part();
+        place_ = planned_to_;
+        piece_ = spot_at(left_).piece;
+        left_ = 0;
+        now_.feed.clear();
+        return;
+    }
+    const Spot spot = spot_at(seconds);
+    feed_ = spot.feed;
+    on_feed_ = spot.on_feed;
+    piece_ = spot.piece;
+    place_ = spot.along.place;
+    left_ -= seconds;
+    drop_passed();
+}
+
+}  // namespace motionrack::control

@@ -1,0 +1,147 @@
+// A program driven along its curve while it still comes: moves go in, the motion comes out bit by bit, and can be held, slowed and let go.
+//
+//   push ──► | known, without speeds | planned, to a rest | passed ──► at(), pass()
+//                                    ^ planned anew from where the motion is: when more is known, on hold, on other overrides
+//
+// What is planned always ends at rest, so that whatever happens next the motion can stop on its path. It is planned further before it has to
+// slow down for that end. Each plan goes on from the speed and the acceleration of the one before; where none is found that keeps the limits,
+// the one before goes on for a little, and another is sought.
+#pragma once
+
+#include <deque>
+#include <motionrack/control/curve/curve.hpp>
+#include <motionrack/control/limits.hpp>
+#include <motionrack/control/move.hpp>
+#include <motionrack/control/ride/ride_state.hpp>
+#include <motionrack/control/ride/stretch_planner.hpp>
+#include <vector>
+
+namespace motionrack::control {
+
+struct RiderSettings {
+    std::size_t window = 16'384;  ///< so many pieces of the curve are known before a motion begins, unless its end is known; 1 or more
+};
+
+enum class RideNext : std::uint8_t {
+    nothing,  ///< all is driven, or held, or more has to be known first
+    motion,
+    dwell
+};
+
+/// Allocates only when more is known at once than ever before.
+class Rider {
+  public:
+    /// The axes stand at `start`.
+    Rider(const MachineLimits& limits, const Point& start, RiderSettings settings = {});
+
+    bool has_room() const { return builder_.has_room(); }
+    /// Needs has_room(). A move that begins where the last one ended; all its numbers are finite, and feeds above 0. One that is not
+    /// `overridable` goes at its own feed.
+    void push(const Move& move, bool overridable = true);
+    /// The path ends here at rest, for now. Needs has_room().
+    void flush();
+
+    /// What comes next. `early`: what is known is driven although there may be more.
+    RideNext next(bool early);
+
+    // ---- a motion, from here on ----------------------------------------------------------------------------------------------------------
+    /// s that can be told and passed before next() is asked again.
+    double left() const { return left_ - reach_; }
+    /// s until it stands, if nothing more comes.
+    double until_rest() const { return left_; }
+    /// `seconds` from now, 0 .. left().
+    RideState at(double seconds) const;
+    /// The motion has gone on for so long, 0 .. left().
+    void pass(double seconds);
+
+    // ---- a dwell -------------------------------------------------------------------------------------------------------------------------
+    double dwell_seconds() const { return now_.rest.seconds; }
+    void pass_dwell() { dwelt_ = true; }
+
+    // ---- wishes --------------------------------------------------------------------------------------------------------------------------
+    /// Parts of the programmed feed, and of the axes' greatest speed in rapids: above 0. Felt as soon as the limits allow.
+    void set_overrides(double feed, double rapid);
+    /// Slows down and stands on the path as soon as the limits allow; then next() tells nothing until resume().
+    void hold() { held_ = true; }
+    void resume() { held_ = false; }
+    bool stands() const { return !(left_ > 0); }
+
+    // ---- which move ----------------------------------------------------------------------------------------------------------------------
+    /// How many were pushed.
+    std::int64_t pushed() const { return pushed_; }
+    /// The move, in the order of push from 0, on which this state is; of several that became one line, the first.
+    std::int64_t move_of(const RideState& state) const { return move_of(state.line); }
+    /// Of the dwell.
+    std::int64_t move_of_rest() const { return move_of(now_.rest.line); }
+    /// The move's line in the program.
+    std::int32_t line_of(std::int64_t move) const { return moves_[static_cast<std::size_t>(move - first_move_)].line; }
+
+  private:
+    /// A stretch from rest to rest, or as much of it as is known: in the columns a row for each piece.
+    struct Part {
+        std::vector<CurvePiece> curve;
+        std::vector<double> programmed;  ///< feeds without overrides
+        std::vector<FeedSpan> spans;
+        std::vector<FeedPiece> feed;     ///< the plan
+        bool whole = false;              ///< its rest is known
+        CurveItem rest;
+        double known() const { return curve.empty() ? 0 : curve.back().begin + curve.back().length; }
+        void clear();
+    };
+    struct KnownMove {
+        std::int32_t line = 0;
+        bool overridable = true;
+    };
+    /// A place in now_, and the motion there.
+    struct Spot {
+        std::size_t feed = 0, piece = 0;
+        double on_feed = 0;  ///< s
+        FeedState along;
+    };
+
+    std::int64_t move_of(std::int32_t tag) const;
+    void gather();
+    void append(Part& part, const CurvePiece& piece);
+    void set_feed(Part& part, std::size_t i) const;
+    bool is_ready(const Part& part, std::size_t from, bool early) const;
+    void drop_passed();
+    void to_next_part();
+    void begin();
+    void tend(bool early);
+    bool try_again() const { return patience_ <= 0; }
+    bool go_on();
+    bool slow_down();
+    bool ease_into_feeds();
+    bool find_stop(const Spot& from, double& end);
+    void allow(const Spot& from, std::span<const FeedPiece> stop);
+    void take(const Spot& from, double seconds, double to);
+    void measure();
+    void meet_next(bool early);
+    void part_from_next();
+    Spot spot_at(double seconds) const;
+
+    MachineLimits limits_;
+    RiderSettings settings_;
+    CurveBuilder builder_;
+    StretchPlanner planner_;
+    Part now_, then_;
+
+    std::size_t piece_ = 0, feed_ = 0;  ///< of now_, where the motion is
+    double place_ = 0;                  ///< u
+    double on_feed_ = 0;                ///< s
+    double planned_to_ = 0;             ///< u
+    double left_ = 0;                   ///< s to the planned end
+    double braking_ = 0;                ///< of these the last, in which it slows down for that end
+    double reach_ = 0;                  ///< s before the end of now_ when then_ begins
+    StretchEnd before_;                 ///< how the stretch before ends
+    double before_left_ = 0;            ///< s that it has still to go
+    double patience_ = 0;               ///< s until another plan is sought
+    bool held_ = false, holding_ = false, dwelt_ = false, new_feeds_ = false, met_ = false;
+    double feed_override_ = 1, rapid_override_ = 1;
+
+    std::vector<FeedSpan> stop_spans_;
+    std::deque<KnownMove> moves_;
+    std::int64_t pushed_ = 0, first_move_ = 0;  ///< of moves_
+};
+
+}  // namespace motionrack::control

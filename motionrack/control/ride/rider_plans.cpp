@@ -1,0 +1,169 @@
+// Plans that go on from a motion: further, slower, to a stand.
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/ride/limits_on.hpp>
+#include <motionrack/control/ride/rider.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+/// A stop is sought this much nearer and nearer.
+constexpr int halvings = 5, steps_out = 40;
+
+constexpr double no_speed_limit = 1e300;
+
+FeedStart start_of(const FeedState& along) {
+    return {along.speed * along.speed, 2 * along.accel};
+}
+
+/// The piece from x = `from` to `to`.
+CurvePiece part_of(const CurvePiece& piece, double from, double to) {
+    CurvePiece out = piece;
+    out.begin = piece.begin + from;
+    out.length = to - from;
+    out.start = position_on(piece, from);
+    out.tangent = tangent_on(piece, from);
+    out.bend = bend_on(piece, from);
+    return out;
+}
+
+}  // namespace
+
+/// The plan just found is driven, from a spot that is reached in `seconds`; until then the one before, which launches there.
+void Rider::take(const Spot& from, double seconds, double to) {
+    if (seconds > 0) {
+        now_.feed.erase(now_.feed.begin(), now_.feed.begin() + static_cast<std::ptrdiff_t>(feed_));
+        now_.feed.resize(from.feed - feed_ + 1);
+        FeedPiece& last = now_.feed.back();
+        last.length = from.along.place - last.begin;
+        last.seconds = from.on_feed;
+    } else {
+        now_.feed.clear();
+        on_feed_ = 0;
+    }
+    feed_ = 0;
+    now_.feed.insert(now_.feed.end(), planner_.feed().begin(), planner_.feed().end());
+    planned_to_ = to;
+    part_from_next();
+    measure();
+}
+
+/// How long the plan lasts, and from when on it only slows down.
+void Rider::measure() {
+    left_ = -on_feed_;
+    braking_ = 0;
+    for (const FeedPiece& piece : now_.feed) {
+        left_ += piece.seconds;
+        const bool slows = piece.at(0).accel <= 0 && piece.at(piece.seconds).accel <= 0 && piece.at(0.5 * piece.seconds).accel < 0;
+        braking_ = slows ? braking_ + piece.seconds : 0;
+    }
+}
+
+/// To the end of what is known. What was found for pieces before it would slow down stays; of the others it is not known how fast they are.
+bool Rider::go_on() {
+    const Spot from = spot_at(before_left_);
+    const double slows_at = spot_at(std::max(0.0, left_ - braking_)).along.place;
+    for (std::size_t i = from.piece; i < now_.curve.size(); ++i)
+        if (holding_ || now_.curve[i].begin + now_.curve[i].length > slows_at) set_feed(now_, i);
+    const auto first = static_cast<std::ptrdiff_t>(from.piece);
+    if (!planner_.plan(start_of(from.along), {now_.curve.begin() + first, now_.curve.end()}, {now_.spans.begin() + first, now_.spans.end()},
+                       from.along.place, now_.known()))
+        return false;
+    holding_ = false;
+    take(from, before_left_, now_.known());
+    return true;
+}
+
+bool Rider::slow_down() {
+    const Spot from = spot_at(before_left_);
+    double end = 0;
+    if (!find_stop(from, end)) return false;
+    holding_ = true;
+    take(from, before_left_, end);
+    return true;
+}
+
+/// The nearest place to stand at that is found: a plan to it is the planner's last.
+bool Rider::find_stop(const Spot& from, double& end) {
+    const FeedStart start = start_of(from.along);
+    const double begin = from.along.place, most = planned_to_ - begin;
+    const auto plan_to = [&](double distance) {
+        std::size_t last = from.piece;
+        while (last + 1 < now_.curve.size() && now_.curve[last + 1].begin < begin + distance) ++last;
+        const auto first = static_cast<std::ptrdiff_t>(from.piece), past = static_cast<std::ptrdiff_t>(last + 1);
+        stop_spans_.assign(now_.spans.begin() + first, now_.spans.begin() + past);
+        return planner_.plan(start, {now_.curve.begin() + first, now_.curve.begin() + past}, stop_spans_, begin, begin + distance);
+    };
+    const FeedSpan& span = now_.spans[from.piece];
+    double distance = 0.25 * from.along.speed * (from.along.speed / span.accel + span.accel / span.jerk), too_near = 0;
+    for (int i = 0; i < steps_out && distance < most && !plan_to(distance); ++i) {
+        too_near = distance;
+        distance *= 1.5;
+    }
+    if (distance >= most) return false;
+    for (int i = 0; i < halvings; ++i) {
+        const double nearer = 0.5 * (too_near + distance);
+        (plan_to(nearer) ? distance : too_near) = nearer;
+    }
+    end = begin + distance;
+    return plan_to(distance);
+}
+
+/// With other feeds. Where the motion is faster than they allow, it may be as fast as if it slowed down to stand.
+bool Rider::ease_into_feeds() {
+    const Spot from = spot_at(before_left_);
+    double end = 0;
+    const bool slower = std::min(feed_override_, rapid_override_) < 1;
+    const bool can_stop = slower && find_stop(from, end);
+    std::vector<FeedPiece> stop;
+    if (can_stop) stop.assign(planner_.feed().begin(), planner_.feed().end());
+    for (std::size_t i = from.piece; i < now_.curve.size(); ++i) set_feed(now_, i);
+    if (can_stop) allow(from, stop);
+    const auto first = static_cast<std::ptrdiff_t>(from.piece) + can_stop;
+    if (!planner_.plan(start_of(from.along), {now_.curve.begin() + first, now_.curve.end()}, {now_.spans.begin() + first, now_.spans.end()},
+                       from.along.place, now_.known()))
+        return false;
+    new_feeds_ = holding_ = false;
+    take(from, before_left_, now_.known());
+    return true;
+}
+
+/// The pieces on the way of the stop are cut where it changes, and each may be as fast as it is there.
+void Rider::allow(const Spot& from, std::span<const FeedPiece> stop) {
+    Part cut;
+    std::size_t i = from.piece;
+    double at = from.along.place;
+    const auto add = [&](double to, double speed) {
+        CurvePiece piece = part_of(now_.curve[i], at - now_.curve[i].begin, to - now_.curve[i].begin);
+        piece.feed = std::max(piece.feed, speed);
+        cut.curve.push_back(piece);
+        cut.programmed.push_back(now_.programmed[i]);
+        cut.spans.push_back(limits_on(piece, limits_, no_speed_limit));
+        at = to;
+    };
+    const auto end_of = [&] { return now_.curve[i].begin + now_.curve[i].length; };
+    for (const FeedPiece& slowing : stop) {
+        const double speed = std::max(slowing.at(0).speed, slowing.at(slowing.seconds).speed), to = slowing.begin + slowing.length;
+        for (; i + 1 < now_.curve.size() && end_of() <= to; ++i)
+            if (end_of() > at) add(end_of(), speed);
+        if (to > at && to < end_of()) add(to, speed);
+    }
+    if (end_of() > at) add(end_of(), 0);
+    for (++i; i < now_.curve.size(); ++i) {
+        cut.curve.push_back(now_.curve[i]);
+        cut.programmed.push_back(now_.programmed[i]);
+        cut.spans.push_back(now_.spans[i]);
+    }
+    CurvePiece& passed = now_.curve[from.piece];
+    passed.length = from.along.place - passed.begin;
+    const auto replace = [&](auto& column, const auto& by) {
+        column.resize(from.piece + 1);
+        column.insert(column.end(), by.begin(), by.end());
+    };
+    replace(now_.curve, cut.curve);
+    replace(now_.programmed, cut.programmed);
+    replace(now_.spans, cut.spans);
+}
+
+}  // namespace motionrack::control
