@@ -34,12 +34,16 @@ std::string words_of(const gcode::Step& step) {
 
 Controller::Controller(PathAxes& axes, const ControllerSettings& settings)
     : axes_(axes),
-      settings_(settings),
-      planner_(planner_for(axes, settings.gcode.limits, settings.kept_back, settings.planner, settings.gcode.start)) {}
+      settings_(settings) {
+    if (settings.jerk_limited)
+        planner_ = std::make_unique<RideMoves>(ride_for(axes, settings.gcode.limits, settings.kept_back, {}, settings.gcode.start));
+    else
+        planner_ = std::make_unique<Planner>(planner_for(axes, settings.gcode.limits, settings.kept_back, settings.planner, settings.gcode.start));
+}
 
 Result<void> Controller::hand_over() {
     PlannedMove planned;
-    while (planner_.pull(planned)) {
+    while (planner_->pull(planned)) {
         summary_.add(planned);
         if (on_block_) on_block_(blocks_, planned);
         ++blocks_;
@@ -58,12 +62,12 @@ void Controller::remember(const gcode::Step& step, ProgramRun& run) {
 Result<void> Controller::take(const gcode::Step& step, ProgramRun& run) {
     using gcode::StepKind;
     if (step.kind == StepKind::move) {
-        if (!planner_.has_room()) MOTIONRACK_CHECK(hand_over());
-        return planner_.push(step.move);
+        if (!planner_->has_room()) MOTIONRACK_CHECK(hand_over());
+        return planner_->push(step.move);
     }
     // What needs the machine at rest waits for it; a spindle or coolant word does not interrupt the path.
     if (step.kind == StepKind::tool_change || step.kind == StepKind::pause || step.kind == StepKind::end) {
-        planner_.flush();
+        planner_->flush();
         MOTIONRACK_CHECK(hand_over());
     }
     remember(step, run);
@@ -89,7 +93,7 @@ Result<void> Controller::run(std::string_view text, const std::string& file, Pro
     const bool axes_stopped =
         !outcome && (outcome.error().trouble == Trouble::machine || outcome.error().trouble == Trouble::stopped);
     if (!axes_stopped) {
-        planner_.flush();
+        planner_->flush();
         Result<void> rest = hand_over();
         if (rest) rest = axes_.finish();
         if (outcome) outcome = rest;

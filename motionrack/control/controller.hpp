@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <motionrack/control/gcode/reader.hpp>
 #include <motionrack/control/path.hpp>
 #include <motionrack/control/path_axes.hpp>
@@ -26,6 +27,7 @@ struct ProgramEvent {
 struct ControllerSettings {
     gcode::Settings gcode;          ///< limits, start position, offsets
     PlannerSettings planner;
+    bool jerk_limited = false;      ///< not trapezoids, but within each axis' jerk
     double kept_back = 0;           ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
     std::size_t event_limit = 2000; ///< events kept; later ones are counted only
 };
@@ -57,7 +59,7 @@ class Controller {
 
     PathAxes& axes_;
     ControllerSettings settings_;
-    Planner planner_;
+    std::unique_ptr<PathPlanner> planner_;
     PlanSummary summary_;
     std::int64_t blocks_ = 0;
     std::function<void(std::int64_t, const PlannedMove&)> on_block_;

@@ -1,7 +1,5 @@
 // The look-ahead: squares of speeds, because over a move they change by the same amount whatever the speed.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/path.hpp>
@@ -19,12 +17,6 @@ std::uint64_t power_of_two_from(std::uint64_t least) {
     return size;
 }
 
-bool all_finite(const Move& move) {
-    double sum = move.centre_first * 0 + move.centre_second * 0 + move.seconds * 0;
-    for (const double value : move.end) sum += value * 0;
-    return sum == 0;
-}
-
 }  // namespace
 
 Planner::Planner(const MachineLimits& limits, const Point& start, PlannerSettings settings)
@@ -38,55 +30,9 @@ Planner::Planner(const MachineLimits& limits, const Point& start, PlannerSetting
     nodes_.resize(size);
 }
 
-Result<void> Planner::check(const Move& move, const Geometry& path) const {
-    if (!all_finite(move) || !(path.length < 1e15)) {
-        return fail(
-            Trouble::refused,
-            fmt::format("the move of line {} has a number that is not finite or a path longer than 1e15; it was not "
-                        "planned. Correct the coordinates of that line.",
-                        move.line),
-            {move.line, 0});
-    }
-    if (move.kind == MoveKind::dwell) {
-        if (move.seconds >= 0) return {};
-        return fail(Trouble::refused,
-                    fmt::format("the dwell of line {} lasts {} s; it must be 0 s or longer. It was not planned.",
-                                move.line, move.seconds),
-                    {move.line, 0});
-    }
-    if (move.kind != MoveKind::traverse && !(move.feed > 0 && move.feed < 1e15)) {
-        return fail(
-            Trouble::refused,
-            fmt::format("the feed of line {} is {}; it must be above 0 and below 1e15. The move was not planned. Set F "
-                        "before it.",
-                        move.line, move.feed),
-            {move.line, 0});
-    }
-    if (const int axis = limits_.absent_axis(path); axis >= 0) {
-        return fail(
-            Trouble::refused,
-            fmt::format("line {} moves axis {} by {}, but this machine has no such axis; the move was not planned. "
-                        "Take {} out of the program or add the axis to the rack.",
-                        move.line, axis_letters[axis], path.end[axis] - path.start[axis], axis_letters[axis]),
-            {move.line, 0});
-    }
-    return {};
-}
-
 Result<void> Planner::push(const Move& move) {
     MOTIONRACK_ASSERT(has_room());
-    if (move.kind == MoveKind::arc &&
-        (move.first > 2 || move.second > 2 || move.first == move.second || move.turns == 0)) {
-        return fail(
-            Trouble::refused,
-            fmt::format(
-                "the arc of line {} turns {} times in the plane of axes {} and {}; it needs two of the axes 0, 1, 2 "
-                "and at least one turn. It was not planned.",
-                move.line, move.turns, move.first, move.second),
-            {move.line, 0});
-    }
-    const Geometry path = geometry_of(move, position_);
-    MOTIONRACK_CHECK(check(move, path));
+    MOTIONRACK_TRY(const Geometry path, checked_path(move, position_, limits_));
     if (move.kind == MoveKind::dwell) {
         append_dwell(move);
         return {};
@@ -118,6 +64,7 @@ void Planner::append_dwell(const Move& move) {
     planned.move = move;
     planned.move.end = position_;
     planned.start = position_;
+    planned.number = pushed_++;
     ready_ = settled_ = ++tail_;
 }
 
@@ -125,6 +72,7 @@ void Planner::append(const Move& move, const Geometry& path, const AlongPath& al
     PlannedMove& planned = slot(tail_);
     planned.move = move;
     planned.start = position_;
+    planned.number = pushed_++;
     planned.length = path.length;
     planned.accel = along.accel;
     planned.jerk = along.jerk;

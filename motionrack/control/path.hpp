@@ -10,25 +10,13 @@
 #pragma once
 
 #include <cstdint>
-#include <motionrack/base/result.hpp>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/limits.hpp>
-#include <motionrack/control/move.hpp>
 #include <motionrack/control/path_limits.hpp>
-#include <motionrack/control/plan.hpp>
+#include <motionrack/control/path_planner.hpp>
 #include <vector>
 
 namespace motionrack::control {
-
-/// What the hardware that drives the path asks of it beside what the machine does.
-class DriveRule {
-  public:
-    virtual ~DriveRule() = default;
-    /// The greatest speed along the path at the joint of two moves, mm/s (degrees/s); infinity if there is no limit.
-    virtual double joint_speed(const Geometry& before, const Geometry& after) const = 0;
-    /// The part of a move, mm (degrees), on which the hardware can neither speed up nor slow down; 0 .. its length.
-    virtual double spent_length(const Geometry& path) const = 0;
-};
 
 struct PlannerSettings {
     /// Every move is planned with at least this many moves after it in view, unless the path stands still before; 1 ..
@@ -38,32 +26,16 @@ struct PlannerSettings {
     const DriveRule* drive = nullptr;
 };
 
-/// Plans a path for a machine. Allocates only when it is made and for the text of an error.
-///
-///     for (const Move& move : program) {
-///         while (!planner.has_room() && planner.pull(planned)) use(planned);
-///         planner.push(move);
-///     }
-///     planner.flush();
-///     while (planner.pull(planned)) use(planned);
-class Planner {
+/// Plans trapezoids for a machine: a planned move for each move. Allocates only when it is made and for the text of an error.
+class Planner final : public PathPlanner {
   public:
     /// `start`: where the machine stands, at rest.
     Planner(const MachineLimits& limits, const Point& start, PlannerSettings settings = {});
 
-    /// Adds a move that starts where the last one ended. Needs has_room(). A move of no length is left out; a dwell
-    /// ends the window. Refused, with the planner as it was: numbers that are not finite, a feed that is not above 0,
-    /// an arc without a plane or turns, an axis the machine does not have.
-    Result<void> push(const Move& move);
-
-    /// False only while there are planned moves to pull.
-    bool has_room() const { return tail_ - head_ <= mask_; }
-
-    /// No move follows for now: the path comes to rest at its present end, and all of it can be pulled.
-    void flush();
-
-    /// The next planned move, in the order of push; false if none is ready.
-    bool pull(PlannedMove& planned);
+    Result<void> push(const Move& move) override;
+    bool has_room() const override { return tail_ - head_ <= mask_; }
+    void flush() override;
+    bool pull(PlannedMove& planned) override;
 
     /// The same, and if none is ready the first open one with what is known: its speeds are final then. False if there
     /// is none at all.
@@ -90,7 +62,6 @@ class Planner {
 
     Node& node(std::uint64_t index) { return nodes_[index & mask_]; }
     PlannedMove& slot(std::uint64_t index) { return slots_[index & mask_]; }
-    Result<void> check(const Move& move, const Geometry& path) const;
     void append_dwell(const Move& move);
     void append(const Move& move, const Geometry& path, const AlongPath& along, double joint);
     void backward();
@@ -108,6 +79,7 @@ class Planner {
     std::uint64_t tail_ = 0;     ///< one past the last move
     std::uint64_t settled_ = 0;  ///< the entry speed of this move and of all before it is final
     double committed_ = 0;       ///< entry speed of the first open move
+    std::int64_t pushed_ = 0;    ///< moves that are planned or were
     Point position_;
     Geometry last_;  ///< of the last open move
     AlongPath last_along_;

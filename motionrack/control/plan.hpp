@@ -15,6 +15,8 @@ struct PlannedMove {
     double cruise = 0;   ///< top speed reached or allowed, per second
     double exit = 0;     ///< speed at the end, per second
     double accel = 0;    ///< along the path, per second squared, both ways
+    bool even = false;   ///< the speed changes evenly from `entry` to `exit` over the whole length
+    std::int64_t number = 0;  ///< of the first move in it, in the order of push, from 0
     double jerk = 0;     ///< along the path, per second cubed; used for S-curves where the move starts and ends at rest; 0: none
 };
 

@@ -304,9 +304,10 @@ struct EncoderLink {
 
 // ---- The rack ---------------------------------------------------------------------------------------------------
 
-/// How the controller cuts paths where the part program does not say.
+/// How the controller drives paths where the part program does not say.
 struct RackController {
     double default_path_tolerance_mm = 0.01;  ///< for G64 without P
+    std::string profile = "trapezoid";        ///< of the speed along paths: trapezoid or jerk_limited
     double arc_tolerance_mm = 0.002;          ///< greatest distance of an arc from the short lines that stand for it
 };
 

@@ -93,7 +93,10 @@ constexpr std::array<Field, 7> homing_table = {
     field<&RackHoming::order>("order", 0, 5, "", "0 is homed first; axes of the same number together"),
 };
 
-constexpr std::array<Field, 2> controller_table = {
+constexpr std::array<std::string_view, 2> profiles = {"trapezoid", "jerk_limited"};
+
+constexpr std::array<Field, 3> controller_table = {
+    with_choices(field<&RackController::profile>("profile", 1, 32, "", "how the speed along paths changes"), profiles),
     field<&RackController::default_path_tolerance_mm>("default_path_tolerance_mm", 0, 100, "mm",
                                                       "how far G64 without P may leave the path"),
     field<&RackController::arc_tolerance_mm>("arc_tolerance_mm", 0.000001, 10, "mm",

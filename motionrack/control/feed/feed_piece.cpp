@@ -39,9 +39,11 @@ double square_at(const FeedPiece& cell, double x) {
 
 FeedPiece feed_cell(double begin, double length, double square, double slope, double bend) {
     FeedPiece cell{FeedPhase::cell, begin, length, 0, square, slope, bend, 0};
-    // The speed has no greatest value inside that is below those at the ends, so the time is between these.
     const double speed = std::sqrt(square), end = std::sqrt(square_at(cell, length));
-    double least = 0, most = length / std::min(speed, end), time = std::min(most, 2 * length / (speed + end));
+    // Slower than at the ends it is only where it has slowed down and speeds up again.
+    const bool dips = slope < 0 && bend > 0 && -slope < bend * length;
+    const double slowest = dips ? std::sqrt(square_at(cell, -slope / bend)) : std::min(speed, end);
+    double least = 0, most = length / slowest, time = std::min(most, 2 * length / (speed + end));
     for (int step = 0; step < 60; ++step) {
         const double there = moved(cell, speed, time);
         (there < length ? least : most) = time;

@@ -48,7 +48,7 @@ Rider::Rider(const MachineLimits& limits, const Point& start, RiderSettings sett
 void Rider::push(const Move& move, bool overridable) {
     Move tagged = move;
     tagged.line = static_cast<std::int32_t>(pushed_++ % tags);
-    moves_.push_back({move.line, overridable});
+    moves_.push_back({move, overridable});
     builder_.push(tagged);
     gather();
 }
@@ -105,11 +105,15 @@ void Rider::drop_passed() {
     drop(now_.programmed);
     drop(now_.spans);
     piece_ = 0;
-    const std::int64_t first = move_of(now_.curve.front().line);
-    for (; first_move_ < first; ++first_move_) moves_.pop_front();
+    forget_moves_before(move_of(now_.curve.front().line));
+}
+
+void Rider::forget_moves_before(std::int64_t number) {
+    for (; first_move_ < number; ++first_move_) moves_.pop_front();
 }
 
 void Rider::to_next_part() {
+    forget_moves_before(move_of(now_.rest.line));
     std::swap(now_, then_);
     then_.clear();
     piece_ = feed_ = 0;

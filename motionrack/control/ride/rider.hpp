@@ -73,8 +73,8 @@ class Rider {
     std::int64_t move_of(const RideState& state) const { return move_of(state.line); }
     /// Of the dwell.
     std::int64_t move_of_rest() const { return move_of(now_.rest.line); }
-    /// The move's line in the program.
-    std::int32_t line_of(std::int64_t move) const { return moves_[static_cast<std::size_t>(move - first_move_)].line; }
+    /// One that has not been passed, as it was pushed.
+    const Move& move(std::int64_t number) const { return moves_[static_cast<std::size_t>(number - first_move_)].move; }
 
   private:
     /// A stretch from rest to rest, or as much of it as is known: in the columns a row for each piece.
@@ -89,7 +89,7 @@ class Rider {
         void clear();
     };
     struct KnownMove {
-        std::int32_t line = 0;
+        Move move;
         bool overridable = true;
     };
     /// A place in now_, and the motion there.
@@ -105,6 +105,7 @@ class Rider {
     void set_feed(Part& part, std::size_t i) const;
     bool is_ready(const Part& part, std::size_t from, bool early) const;
     void drop_passed();
+    void forget_moves_before(std::int64_t number);
     void to_next_part();
     void begin();
     void tend(bool early);

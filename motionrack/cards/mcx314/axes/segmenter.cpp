@@ -116,6 +116,7 @@ void Segmenter::emit(const Work& work, std::optional<double> next_units) {
                         : speed_units(std::min(work.units_out, *next_units), work.move.exit);
     speeds.exit = std::min(speeds.exit, speeds.top);
     speeds.acceleration = acceleration_units(units, work.move.accel);
+    if (work.move.even) make_even(work, speeds);
     speeds.fall_from = std::max(0.0, work.path.length - fall_length(units, speeds));
     switch (work.shape) {
         case Shape::chip_arc:
@@ -129,6 +130,14 @@ void Segmenter::emit(const Work& work, std::optional<double> next_units) {
         if (at_ != work.to) emit_line(work, work.to, speeds.exit, speeds.acceleration);
         close_chain();
     }
+}
+
+/// From the V that the piece before ends with to its own: on a bending path the basic pulses for a mm change from piece to piece too.
+void Segmenter::make_even(const Work& work, Speeds& speeds) const {
+    const double from = chain_open_ ? last_speed_ : speed_units(work.units_in, start_speed(work.path.tangent_in)), to = speeds.exit;
+    const double slope = std::fabs(to * to - from * from) / (2 * work.units_in * work.path.length);
+    speeds.top = speeds.exit;
+    speeds.acceleration = static_cast<std::int32_t>(std::clamp(std::ceil(slope * acceleration_reserve / 125), 1.0, 8'000.0));
 }
 
 void Segmenter::emit_pause(const Work& work) {
@@ -345,6 +354,7 @@ void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
         segment.companion_pulses = static_cast<std::int32_t>(to[c] - at_[c]);
     }
     at_ = to;
+    last_speed_ = segment.speed;
     ready_.push_back(segment);
 }
 

@@ -75,6 +75,7 @@ class Segmenter {
 
     Work classify(const control::PlannedMove& move);
     void emit(const Work& work, std::optional<double> next_units);
+    void make_even(const Work& work, Speeds& speeds) const;
     void emit_pause(const Work& work);
     bool emit_s_curve(const Work& work);
     void emit_straight(const Work& work, const Speeds& speeds);
@@ -102,6 +103,7 @@ class Segmenter {
     std::deque<Segment> ready_;
     std::vector<control::PathNote> notes_;
     bool chain_open_ = false;
+    std::int32_t last_speed_ = 1;  ///< V of the last segment
     int generator_ = 0;
     std::int32_t next_block_ = 0;
 };

@@ -1,0 +1,52 @@
+// A ride as straight moves whose speed changes evenly, for cards that draw lines and are told a speed for each.
+//
+//   speed     ╭───╮            each move from one instant of the ride to another: as long as the path hardly bends and the acceleration
+//           ╱╱     ╲╲          hardly changes on it, but not so short that its ends on whole pulses matter
+//          ╱│ │   │ │╲
+#pragma once
+
+#include <motionrack/control/path_limits.hpp>
+#include <motionrack/control/path_planner.hpp>
+#include <motionrack/control/ride/rider.hpp>
+
+namespace motionrack::control {
+
+struct RideMovesSettings {
+    RiderSettings rider;
+    double most_seconds = 0.1;  ///< of a move, so that wishes are felt soon; at most 0.1
+    const DriveRule* drive = nullptr;  ///< may be null; must outlive the planner
+};
+
+class RideMoves final : public PathPlanner {
+  public:
+    /// `start`: where the machine stands, at rest.
+    RideMoves(const MachineLimits& limits, const Point& start, RideMovesSettings settings = {});
+
+    Result<void> push(const Move& move) override { return push(move, true); }
+    /// One that is not `overridable` goes at its own feed, whatever the overrides are.
+    Result<void> push(const Move& move, bool overridable);
+    bool has_room() const override { return rider_.has_room(); }
+    void flush() override { rider_.flush(); }
+    bool pull(PlannedMove& planned) override { return pull(planned, false); }
+    /// `early`: what is known is driven although there may be more.
+    bool pull(PlannedMove& planned, bool early);
+
+    /// To hold, resume and override.
+    Rider& rider() { return rider_; }
+    const Rider& rider() const { return rider_; }
+
+  private:
+    double seconds_of_next() const;
+    bool is_even(const RideState& begin, const RideState& end, double seconds) const;
+
+    MachineLimits limits_;
+    PathLimits path_limits_;
+    RideMovesSettings settings_;
+    Rider rider_;
+    Geometry last_;   ///< of the moves that were pushed
+    Point position_;
+    double last_seconds_ = 0.005;
+    Point place_;     ///< where the last planned move ends
+};
+
+}  // namespace motionrack::control
