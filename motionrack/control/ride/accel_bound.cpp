@@ -14,12 +14,13 @@ namespace {
 constexpr double no_cap = 1e200;
 /// Cells of a piece that bends, and about so many of a whole curve that does.
 constexpr double least_cells = 16, most_cells = 256, cells_of_curve = 2000;
+constexpr double much = 0.2;
 
 /// A part of a piece. In its middle an axis' acceleration is from * (w at its begin) + to * (w at its end).
 struct Cell {
     double length = 0;
-    double cap = no_cap;    ///< straight: of w all over it
-    double accel = no_cap;  ///< straight: along u
+    double cap = no_cap;    ///< of w in its middle; straight: all over it
+    double accel = no_cap;  ///< along u, where no axis minds the bend
     bool straight = false;
     Point from = {}, to = {};
 };
@@ -131,13 +132,14 @@ double ahead_over(const Cell& cell, double square, double cap, const MachineLimi
     return std::max(cap, 0.0);
 }
 
-/// On a straight piece one may speed up and brake within the cell.
+/// Within a straight cell one may speed up and brake. So it is taken, too, where a bent cell is so long that speeds change much in it.
 double seconds_over(const Cell& cell, double from, double to) {
     const double begin = std::sqrt(from), end = std::sqrt(to);
-    if (!cell.straight) return 2 * cell.length / (begin + end);
+    if (!cell.straight && std::fabs(to - from) < much * std::max(from, to)) return 2 * cell.length / (begin + end);
     const double most = std::max({from, to, std::min(cell.cap, 0.5 * (from + to) + cell.accel * cell.length)});
     const double fast = std::sqrt(most);
     const double even = cell.length - ((most - from) + (most - to)) / (2 * cell.accel);
+    if (!cell.straight && even < 0) return 2 * cell.length / (begin + end);
     return (fast - begin + fast - end) / cell.accel + std::max(0.0, even) / fast;
 }
 
