@@ -66,6 +66,8 @@ class RideChecks {
         if (!(value <= most)) fail(name, value / most, fmt::format("{:.9g} > {:.9g} at {:.9g} s of {:.9g} s, u {:.9g}, line {}", value, most, time, kept.stretch.seconds, state.u, state.line));
     }
 
+    static double slack_of(const FeedPiece& feed) { return slack + place_rounding * (feed.begin + feed.length) / feed.length; }
+
     void check(const KeptStretch& kept, double until, bool ends) {
         const Stretch stretch = kept.view();
         if (!(stretch.seconds > 0 && stretch.seconds < 1e15)) return fail("finite time", stretch.seconds, fmt::format("{}", stretch.seconds));
@@ -78,7 +80,8 @@ class RideChecks {
             std::size_t pieces = 0;
             while (piece < kept.curve.size() && kept.curve[piece].begin < feed.begin + feed.length) ++piece, ++pieces;
             const double slack_before = slack_;
-            slack_ = slack + place_rounding * (feed.begin + feed.length) / feed.length;
+            slack_ = slack_of(feed);
+            if (begin < stretch.overlap) slack_ = std::max(slack_, slack_of(stretch.before.feed));
             const std::size_t looks = std::min<std::size_t>(200, 6 + 4 * pieces);
             for (std::size_t i = 0; i <= looks; ++i) {
                 jump_slack_ = i == 0 ? std::max(slack_, slack_before) : slack_;
@@ -156,7 +159,7 @@ class RideChecks {
         const double hair = time_rounding * kept.stretch.seconds;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             hold("rest: speed", std::fabs(last_.speed[i]), 1e-7 * limits_[i].max_speed + limits_[i].max_accel * hair, kept, last_time_, last_);
-            hold("rest: acceleration", std::fabs(last_.accel[i]), 1e-6 * limits_[i].max_accel + limits_[i].max_jerk * hair, kept, last_time_, last_);
+            hold("rest: acceleration", std::fabs(last_.accel[i]), (slack_ - 1) * limits_[i].max_accel + limits_[i].max_jerk * hair, kept, last_time_, last_);
             hold("rest: place", std::fabs(last_.place[i] - kept.stretch.end[i]), 3e-9, kept, last_time_, last_);
             last_.speed[i] = last_.accel[i] = 0;
             last_.place[i] = kept.stretch.end[i];
