@@ -111,7 +111,7 @@ class Looks {
     double seconds_ = 0, begin_ = 0;
 };
 
-/// The corners of the speed's trapezoids.
+/// The corners of the speed's trapezoids, and S-curves in chords.
 Track corners_of_trapezoids(std::span<const control::Move> moves, const control::MachineLimits& limits, const control::Point& start) {
     Track out;
     double begin = 0;
@@ -123,7 +123,11 @@ Track corners_of_trapezoids(std::span<const control::Move> moves, const control:
                 out.add(begin, 0);
             } else if (planned.jerk > 0) {
                 const control::SCurve curve(planned.length, planned.cruise, planned.accel, planned.jerk);
-                for (int i = 0; i <= 20; ++i) out.add(begin + curve.duration() * i / 20, curve.sample(curve.duration() * i / 20).speed);
+                double from = 0;
+                for (const double end : curve.phase_ends()) {
+                    for (int i = 0; i <= 5; ++i) out.add(begin + from + (end - from) * i / 5, curve.sample(from + (end - from) * i / 5).speed);
+                    from = end;
+                }
             } else {
                 const control::Trapezoid trapezoid(planned.length, planned.entry, planned.exit, planned.cruise, planned.accel);
                 out.add(begin, planned.entry);
