@@ -1,6 +1,7 @@
 // How near jerk-limited rides are to the quickest with any jerk: never quicker, and how much slower on smooth shapes in short chords.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/control/curve/test/curve_support.hpp>
@@ -123,6 +124,13 @@ TEST(AnAccelBound, IsNoShorterWithTighterLimits) {
         last = seconds;
         limits[static_cast<std::size_t>(i) % 3].max_accel *= 0.5;
     }
+}
+
+TEST(AnAccelBound, HasTheSameBitsOnEveryCompilerAndCpu) {
+    std::uint64_t fold = 0;
+    for (const auto& shape : {circle(0.7), sine(0.25), spiral(1)})
+        fold = (fold ^ std::bit_cast<std::uint64_t>(accel_bound(curve_test::pieces_of(curve_test::curve_of(shape)), machine()))) * 0x9E3779B97F4A7C15u;
+    EXPECT_EQ(fold, 18390399189846930323u);
 }
 
 TEST(ARide, IsNeverQuickerThanWithAnyJerk) {
