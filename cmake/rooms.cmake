@@ -35,7 +35,8 @@ function(motionrack_room name)
   endif()
 endfunction()
 
-# motionrack_test(NAME [SOURCES ...] [DEPS ...]): one test program; each of its tests is a ctest test.
+# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...]): one test program; each of its tests is a ctest test. Those with the label
+# deep take minutes; ./test leaves them out, ctest -L deep passes them.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()
@@ -47,5 +48,5 @@ function(motionrack_test name)
   add_executable(test_${name} ${T_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${T_DEPS} rapidcheck GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE MOTIONRACK_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS "${T_LABELS}")
 endfunction()

@@ -1,8 +1,9 @@
 // `motionrack plan` and its page.
 #include <gmock/gmock.h>
 
-#include <cstdio>
+#include <algorithm>
 #include <array>
+#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -26,16 +27,47 @@ TEST_F(PlanCommand, KeepsTheLimitsOfTheShapesOfItsPage) {
         const Ran ran = motionrack("plan --json examples/plan/" + entry.path().filename().string());
         ASSERT_EQ(ran.code, 0) << ran.out;
         const auto plan = nlohmann::json::parse(ran.out);
-        const double stopping = plan["stopping"]["seconds"], trapezoids = plan["trapezoids"]["seconds"], limited = plan["jerk_limited"]["seconds"];
+        const double stopping = plan["stopping"]["seconds"], trapezoids = plan["trapezoids"]["seconds"], limited = plan["jerk_limited"]["seconds"],
+                     bound = plan["bound"]["seconds"];
         EXPECT_LE(limited, stopping) << entry.path();
+        EXPECT_GE(limited, bound) << entry.path();
+        double peak = 0;
         for (const auto& axis : plan["axes"])
-            for (const char* part : {"of_speed", "of_accel", "of_jerk"}) EXPECT_LE(axis[part].get<double>(), 1 + 1e-6) << entry.path() << part;
+            for (const char* part : {"of_speed", "of_accel", "of_jerk"}) peak = std::max(peak, axis[part].get<double>());
+        EXPECT_LE(peak, 1 + 1e-6) << entry.path();
         std::array<char, 200> row{};
-        std::snprintf(row.data(), row.size(), "| %.3f s | %.3f s | %.3f s |", stopping, trapezoids, limited);
+        std::snprintf(row.data(), row.size(), "| %.3f s | %.3f s | %.3f s | %.3f s | %.1f %% |", stopping, trapezoids, limited, bound, 100 * peak);
         EXPECT_THAT(page, HasSubstr(row.data())) << entry.path();
         ++shapes;
     }
     EXPECT_EQ(shapes, 6);
+}
+
+TEST_F(PlanCommand, DrawsThePicturesOfItsPage) {
+    const std::string page = text_of(root / "docs/howto/plan.md");
+    for (const std::string shape : {"square_wave", "zigzag", "chords", "arcs", "circles", "stadium"}) {
+        const std::string name = "plan_" + shape + ".svg", command = "plan examples/plan/" + shape + ".ngc --picture ";
+        ASSERT_EQ(motionrack(command + name).code, 0) << shape;
+        EXPECT_THAT(page, HasSubstr("](../pictures/" + name + ")"));
+        EXPECT_EQ(text_of(folder / name), text_of(root / "docs/pictures" / name)) << "make it anew: motionrack " << command << "docs/pictures/" << name;
+    }
+}
+
+TEST_F(PlanCommand, DrawsAnythingThatCanBePlanned) {
+    write("rotary.ngc", "G21 G90 G94\nG1 A90 F600\nG4 P0.5\nG1 A0\n");
+    write("dwell.ngc", "G4 P1\n");
+    write("helix.ngc", "G21 G90 G64 P0.01\nG0 X50 Y50 Z0\nG3 X50 Y50 I10 Z20 F1200\n");
+    write("nothing.ngc", "");
+    for (const char* program : {"rotary", "dwell", "helix", "nothing"}) {
+        const Ran ran = motionrack(std::string("plan ") + program + ".ngc --picture " + program + ".svg");
+        ASSERT_EQ(ran.code, 0) << ran.out;
+        EXPECT_THAT(ran.out, HasSubstr(std::string("written: ") + program + ".svg"));
+        const std::string svg = text_of(folder / (std::string(program) + ".svg"));
+        EXPECT_THAT(svg, testing::StartsWith("<svg xmlns="));
+        EXPECT_THAT(svg, testing::EndsWith("</svg>\n"));
+        EXPECT_THAT(svg, testing::Not(testing::AnyOf(HasSubstr("nan"), HasSubstr("inf\""), HasSubstr("inf,")))) << program;
+    }
+    EXPECT_NE(motionrack("plan rotary.ngc --picture no/such/folder.svg").code, 0);
 }
 
 TEST_F(PlanCommand, OfNothingTakesNoTime) {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <motionrack/control/geometry.hpp>
 #include <motionrack/rack/counted.hpp>
 #include <motionrack/rack/job_report.hpp>
+#include <motionrack/rack/path_segment.hpp>
 #include <nlohmann/json.hpp>
 
 namespace motionrack::rack {
@@ -44,19 +44,6 @@ class LineIndex {
   private:
     std::vector<std::string_view> lines_;
 };
-
-trace::ReportSegment planned_segment(const control::PlannedMove& planned) {
-    trace::ReportSegment segment;
-    segment.line = planned.move.line;
-    segment.traverse = planned.move.kind == control::MoveKind::traverse;
-    const control::Geometry path = control::geometry_of(planned.move, planned.start);
-    const double pieces = path.shape == control::PathShape::arc ? std::clamp(std::ceil(std::fabs(path.sweep) / 0.06), 2.0, 2000.0) : 1;
-    for (double i = 0; i <= pieces; ++i) {
-        const control::Point at = control::position_at(path, path.length * i / pieces);
-        segment.points.push_back({at[0], at[1], at[2]});
-    }
-    return segment;
-}
 
 void add_axes(trace::ReportData& data, const Job& job, const JobOutcome& outcome) {
     const std::vector<Sample>& samples = job.monitor().samples();
@@ -124,7 +111,7 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     for (const double off : job.monitor().deviations()) data.deviation_mm.push_back(static_cast<float>(off));
     data.tolerance_mm = outcome.tolerance_mm;
     for (const control::PlannedMove& planned : job.planned())
-        if (data.planned.size() < most_segments && planned.move.kind != control::MoveKind::dwell) data.planned.push_back(planned_segment(planned));
+        if (data.planned.size() < most_segments && planned.move.kind != control::MoveKind::dwell) data.planned.push_back(path_segment(planned.move, planned.start));
     if (outcome.worst.mm > 0)
         data.worst = trace::ReportWorst{outcome.worst.mm, to_seconds(outcome.worst.at - began), outcome.worst.line, outcome.worst.place};
     if (!outcome.ended && !samples.empty())

@@ -35,9 +35,16 @@ Extent extent_of_travel(const ReportData& data);  ///< of the limits of X, Y, Z;
 /// What a picture of the path shows: the travel, too, unless the path would be lost in it.
 Extent frame_of(const ReportData& data);
 
+/// What colours the driven path, and is explained by a scale.
+struct SvgShade {
+    std::span<const float> values;  ///< as many as points driven; 0 .. most; none: the path has one colour
+    double most = 1;
+    std::string unit;  ///< "mm/s"
+};
+
 /// The planned and the driven path (of which at most 4,000 points each are drawn), travel, start, end, worst place,
 /// stop.
-std::string svg_path(const ReportData& data, PathView view, const SvgLook& look = {});
+std::string svg_path(const ReportData& data, PathView view, const SvgLook& look = {}, const SvgShade& shade = {});
 
 struct SvgSeries {
     std::string name;                 ///< empty: not named in the picture
@@ -78,6 +85,15 @@ struct SvgSpan {
 /// Charts of the same stretch of time one below the other, and below them a band that names parts of it. `look.height` is that of
 /// everything; the charts' series must begin and end at the same seconds.
 std::string svg_timeline(const std::string& title, std::span<const SvgChart> charts, std::span<const SvgSpan> spans, const SvgLook& look = {});
+
+/// A picture that was made without `standalone`, of a column's width.
+struct SvgPart {
+    std::string svg;
+    int height = 0;  ///< px
+};
+
+/// Pictures one below the other, under a title, in a file of their own.
+std::string svg_column(const std::string& title, std::span<const SvgPart> parts, int width);
 
 /// A step of 1, 2 or 5 times a power of ten that divides `span` into about `parts`; 1 if there is no such step.
 double nice_step(double span, int parts);

@@ -97,19 +97,24 @@ std::string line_of(const SvgSeries& series, const Frame& frame) {
 
 /// Title, names of the series with the look of their lines, and what the axis of time is.
 std::string heading(const SvgChart& chart, const SvgLook& look) {
-    std::string out = fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", left, escaped(chart.title));
-    double x = look.width - right - 64;
-    for (auto series = chart.series.rbegin(); series != chart.series.rend(); ++series) {
-        if (series->name.empty()) continue;
-        out += svg_text(x, 15, "end", series->name);
-        x -= 6.0 * static_cast<double>(series->name.size()) + 7;
-        out += straight(x - 20, 11, x, 11, ("line " + escaped(series->look)).c_str());
-        x -= 36;
-    }
-    return out + svg_text(look.width - right, 15, "end", "time in s");
+    return fmt::format("<text class=\"title\" x=\"{}\" y=\"15\">{}</text>\n", left, escaped(chart.title)) + series_names(chart, look.width - right - 64, 15) +
+           svg_text(look.width - right, 15, "end", "time in s");
 }
 
 }  // namespace
+
+std::string series_names(const SvgChart& chart, double right_end, double baseline) {
+    std::string out;
+    double x = right_end;
+    for (auto series = chart.series.rbegin(); series != chart.series.rend(); ++series) {
+        if (series->name.empty()) continue;
+        out += svg_text(x, baseline, "end", series->name);
+        x -= 6.0 * static_cast<double>(series->name.size()) + 7;
+        out += straight(x - 20, baseline - 4, x, baseline - 4, ("line " + escaped(series->look)).c_str());
+        x -= 36;
+    }
+    return out;
+}
 
 ChartRange range_of(const SvgChart& chart) {
     double low = 0, high = 0;

@@ -16,6 +16,10 @@ std::string svg_head(const SvgLook& look, const std::string& title);
 /// `anchor`: "start", "middle" or "end". The text is escaped here.
 std::string svg_text(double x, double y, const char* anchor, const std::string& text);
 
+/// The names of a chart's series with the looks of their lines, leftwards from `right`; `baseline` is that of the text. Series without a name
+/// are left out.
+std::string series_names(const SvgChart& chart, double right, double baseline);
+
 /// The planned segments as one row of points; the edge that ends in points[i] has line[i] and traverse[i].
 struct PlannedPath {
     std::vector<Xyz> points;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/trace/svg.hpp>
@@ -94,7 +95,7 @@ std::string grid(const Extent& frame, double floor, const Projection& at, PathVi
             out += line_through({at(from), at(to)}, "grid");
             if (!plan) continue;
             const Flat label = at(from);
-            if (axis == 0 && label.x > look.width - 60) continue;
+            if (axis == 0 ? label.x > look.width - 60 : label.y < 30) continue;  // there the axis' name is
             out += axis == 0 ? svg_text(label.x, look.height - 6.0, "middle", number(k * step))
                              : svg_text(6, label.y - 3, "start", number(k * step));
         }
@@ -170,6 +171,54 @@ std::string driven_line(const ReportData& data, const Projection& at) {
     return line_through(flat, "driven") + arrows(flat);
 }
 
+/// From slow to fast, apart from each other for every eye and on the pale planned path.
+constexpr std::array<std::array<double, 3>, 5> shades = {{{246, 151, 33}, {222, 90, 96}, {177, 42, 144}, {106, 0, 168}, {13, 8, 135}}};
+constexpr int shade_steps = 20;
+
+std::string shade_colour(int step) {
+    const double at = static_cast<double>(step) / (shade_steps - 1) * (shades.size() - 1);
+    const std::size_t i = std::min(static_cast<std::size_t>(at), shades.size() - 2);
+    const double part = at - static_cast<double>(i);
+    const auto mixed = [&](std::size_t k) { return static_cast<int>(shades[i][k] + part * (shades[i + 1][k] - shades[i][k]) + 0.5); };
+    return fmt::format("#{:02x}{:02x}{:02x}", mixed(0), mixed(1), mixed(2));
+}
+
+/// One line for each run of steps that have the same colour.
+std::string shaded_line(const ReportData& data, const Projection& at, const SvgShade& shade) {
+    const double size = extent_of_path(data).diagonal();
+    std::vector<PathPoint> points;
+    for (std::size_t i = 0; i < data.driven.size(); ++i) {
+        const Xyz& p = data.driven[i];
+        points.push_back({p[0], p[1], p[2], 0.02 * size * static_cast<double>(shade.values[i]) / shade.most});
+    }
+    const auto step_at = [&](std::size_t a, std::size_t b) {
+        const double part = 0.5 * static_cast<double>(shade.values[a] + shade.values[b]) / shade.most;
+        return std::clamp(static_cast<int>(part * shade_steps), 0, shade_steps - 1);
+    };
+    const std::vector<std::size_t> kept = thin_path(points, {}, size / 3000, most_points).kept;
+    std::string out = "<g style=\"stroke-width:2.5;stroke-linejoin:round;stroke-linecap:round\">\n";
+    for (std::size_t i = 1; i < kept.size();) {
+        const int step = step_at(kept[i - 1], kept[i]);
+        const Flat first = at(data.driven[kept[i - 1]]);
+        out += fmt::format("<polyline stroke=\"{}\" points=\"{},{}", shade_colour(step), coordinate(first.x), coordinate(first.y));
+        for (; i < kept.size() && step_at(kept[i - 1], kept[i]) == step; ++i) {
+            const Flat p = at(data.driven[kept[i]]);
+            out += ' ' + coordinate(p.x) + ',' + coordinate(p.y);
+        }
+        out += "\"/>\n";
+    }
+    return out + "</g>\n";
+}
+
+std::string shade_scale(const SvgShade& shade, const SvgLook& look) {
+    constexpr double step = 7, y = 6, high = 9;
+    const double left = look.width - 12 - step * shade_steps;
+    std::string out;
+    for (int i = 0; i < shade_steps; ++i)
+        out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", coordinate(left + step * i), y, step + 0.3, high, shade_colour(i));
+    return out + svg_text(left - 5, y + high, "end", "0") + svg_text(look.width - 12.0, y + high + 13, "end", number(shade.most) + " " + shade.unit);
+}
+
 std::string planned_lines(const ReportData& data, const Projection& at) {
     const PlannedPath path = thin_planned(data, most_points, extent_of_path(data).diagonal() / 3000);
     std::string out;
@@ -210,14 +259,15 @@ std::string marks(const ReportData& data, const Projection& at) {
 
 }  // namespace
 
-std::string svg_path(const ReportData& data, PathView view, const SvgLook& look) {
+std::string svg_path(const ReportData& data, PathView view, const SvgLook& look, const SvgShade& shade) {
     const Extent frame = frame_of(data);
     const Projection at(frame, view, look);
     const bool plan = view == PathView::plan;
     std::string out = svg_head(look, plan ? "The path from above: X to the right, Y up" : "The path in perspective");
     out += grid(frame, extent_of_path(data).low[2], at, view, look);
     out += travel_box(extent_of_travel(data), at, view);
-    out += planned_lines(data, at) + driven_line(data, at) + marks(data, at);
+    const bool shaded = !shade.values.empty() && shade.values.size() == data.driven.size() && shade.most > 0;
+    out += planned_lines(data, at) + (shaded ? shaded_line(data, at, shade) + shade_scale(shade, look) : driven_line(data, at)) + marks(data, at);
     if (plan) {
         out += svg_text(look.width - 8.0, look.height - 6.0, "end", "X, mm") + svg_text(6, 14, "start", "Y, mm");
     }

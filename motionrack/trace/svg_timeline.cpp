@@ -60,7 +60,7 @@ std::string svg_timeline(const std::string& title, std::span<const SvgChart> cha
     for (std::size_t i = 0; i < charts.size(); ++i) {
         const double y = heading + each * static_cast<double>(i);
         out += fmt::format("<svg x=\"0\" y=\"{}\" width=\"{}\" height=\"{}\">\n", coordinate(y), look.width, coordinate(each));
-        out += svg_text(chart_left, 16, "start", charts[i].title);
+        out += svg_text(chart_left, 16, "start", charts[i].title) + series_names(charts[i], look.width - chart_right, 16);
         out += svg_chart(charts[i], {look.width, static_cast<int>(each), false}) + "</svg>\n";
     }
     const double left = chart_left, right = look.width - chart_right, top = look.height - names;
@@ -76,6 +76,20 @@ std::string svg_timeline(const std::string& title, std::span<const SvgChart> cha
                            coordinate(top + band), coordinate(at[i]), coordinate(below));
         out += fmt::format("<text transform=\"translate({} {}) rotate(90)\">{}</text>\n", coordinate(at[i] - 4), coordinate(below + 3),
                            escaped(spans[i].name));
+    }
+    return out + "</svg>\n";
+}
+
+std::string svg_column(const std::string& title, std::span<const SvgPart> parts, int width) {
+    constexpr int heading_height = 24;
+    int height = heading_height;
+    for (const SvgPart& part : parts) height += part.height;
+    std::string out = svg_head({width, height, true}, title);
+    out += fmt::format("<text class=\"title\" x=\"{}\" y=\"16\">{}</text>\n", chart_left, escaped(title));
+    int y = heading_height;
+    for (const SvgPart& part : parts) {
+        out += fmt::format("<svg x=\"0\" y=\"{}\" width=\"{}\" height=\"{}\">\n", y, width, part.height) + part.svg + "</svg>\n";
+        y += part.height;
     }
     return out + "</svg>\n";
 }

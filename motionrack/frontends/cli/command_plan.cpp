@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <motionrack/control/path.hpp>
+#include <motionrack/control/ride/accel_bound.hpp>
 #include <motionrack/control/ride/ride.hpp>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
@@ -14,6 +15,7 @@
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/rack/counted.hpp>
 #include <motionrack/rack/job.hpp>
+#include <motionrack/rack/plan_picture.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -27,7 +29,7 @@ using control::Move;
 constexpr std::size_t problems_shown = 100;
 
 struct PlanOptions {
-    std::string program, rack;
+    std::string program, rack, picture;
     bool block_delete = false, json = false;
 };
 
@@ -38,6 +40,7 @@ struct AxisPeaks {
 struct Planned {
     double seconds = 0;
     std::int64_t stops = 0;
+    double bound = 0;  ///< s that no jerk-limited plan of the same curve falls below
     std::array<AxisPeaks, control::axis_count> axes = {};
 };
 
@@ -55,7 +58,7 @@ Planned by_trapezoids(const std::vector<Move>& moves, const control::MachineLimi
     }
     planner.flush();
     pull();
-    return {sum.seconds, sum.stops, {}};
+    return {sum.seconds, sum.stops, 0, {}};
 }
 
 /// Every millisecond and at the ends of stretches.
@@ -65,8 +68,10 @@ Planned jerk_limited(const std::vector<Move>& moves, const control::MachineLimit
     Planned out;
     control::Ride ride(limits, start, [&](const control::Stretch& stretch) {
         out.seconds += stretch.seconds - stretch.overlap + stretch.rest_seconds;
+        out.bound += stretch.rest_seconds;
         if (stretch.curve.empty()) return;
         ++out.stops;
+        out.bound += control::accel_bound(stretch.curve, limits);
         control::StretchView view(stretch);
         const auto looks = static_cast<std::int64_t>(stretch.seconds / look_every_s) + 20;
         for (std::int64_t i = 0; i <= looks; ++i) {
@@ -96,11 +101,12 @@ double part_of(double value, double limit) { return limit > 0 ? value / limit : 
 
 void print(const Plans& plans, const rack::RackConfig& config) {
     fmt::print("{} on {}: {}.\n", plans.name, config.name, rack::counted(plans.moves, "move"));
-    fmt::print("                               time    stops\n");
-    const auto row = [](const char* name, const Planned& planned) { fmt::print("  {:<22} {:>9.3f} s  {:>6}\n", name, planned.seconds, planned.stops); };
+    fmt::print("{:>51}    stops\n", "time");
+    const auto row = [](const char* name, const Planned& planned) { fmt::print("  {:<37} {:>9.3f} s  {:>6}\n", name, planned.seconds, planned.stops); };
     row("stopping at each move", plans.stopping);
     row("trapezoids", plans.trapezoids);
     row("jerk-limited", plans.ride);
+    fmt::print("  {:<37} {:>9.3f} s\n", "bound (acceleration only, same curve)", plans.ride.bound);
     fmt::print("Greatest of the jerk-limited plan, and the part of the axis' limit:\n");
     for (const rack::RackAxis& axis : config.axes) {
         const AxisPeaks& most = plans.ride.axes[static_cast<std::size_t>(axis.index())];
@@ -115,7 +121,7 @@ void print(const Plans& plans, const rack::RackConfig& config) {
 void print_json(const Plans& plans, const rack::RackConfig& config) {
     const auto planned = [](const Planned& one) { return nlohmann::json{{"seconds", one.seconds}, {"stops", one.stops}}; };
     nlohmann::json out = {{"program", plans.name}, {"rack", config.name}, {"moves", plans.moves}, {"stopping", planned(plans.stopping)},
-                          {"trapezoids", planned(plans.trapezoids)}, {"jerk_limited", planned(plans.ride)}, {"axes", nlohmann::json::object()}};
+                          {"trapezoids", planned(plans.trapezoids)}, {"jerk_limited", planned(plans.ride)}, {"bound", {{"seconds", plans.ride.bound}}}, {"axes", nlohmann::json::object()}};
     for (const rack::RackAxis& axis : config.axes) {
         const AxisPeaks& most = plans.ride.axes[static_cast<std::size_t>(axis.index())];
         out["axes"][std::string(1, axis.letter)] = {{"unit", axis.unit()}, {"speed", most.speed}, {"accel", most.accel}, {"jerk", most.jerk},
@@ -145,6 +151,10 @@ int plan(const PlanOptions& options) {
                       jerk_limited(moves, limits, settings.start, options.json)};
     if (stop_asked) return report({Trouble::stopped, "Stopped before the plan was whole; nothing is told of it."});
     options.json ? print_json(plans, *config) : print(plans, *config);
+    if (options.picture.empty()) return exit_done;
+    const std::string title = fmt::format("{}: {:.3f} s, trapezoids {:.3f} s", plans.name, plans.ride.seconds, plans.trapezoids.seconds);
+    if (const Result<void> done = write_text(options.picture, rack::plan_picture(title, moves, *config, settings.start)); !done) return report(done.error());
+    if (!options.json) fmt::print("written: {}\n", options.picture);
     return exit_done;
 }
 
@@ -156,8 +166,9 @@ void add_plan(CLI::App& app, Action& chosen) {
     command->add_option("PROGRAM", options->program, "part program, '-' for standard input (default: the built-in example)");
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
+    command->add_option("--picture", options->picture, "write the jerk-limited plan as SVG: the path coloured by its speed, speed, acceleration and jerk over time");
     command->add_flag("--json", options->json, "print the plans as JSON");
-    command->footer("Example: motionrack plan part.ngc --rack my.toml\nCards drive the trapezoids; the jerk-limited plan keeps every axis within its jerk too.");
+    command->footer("Example: motionrack plan part.ngc --rack my.toml --picture part.svg\nCards drive the trapezoids; the jerk-limited plan keeps every axis within its jerk too.");
     command->callback([options, &chosen] { chosen = [options] { return plan(*options); }; });
 }
 

@@ -37,6 +37,22 @@ TEST(SvgTimeline, NamesOfShortSpansDoNotCoverEachOther) {
     EXPECT_LE(at.back(), 720);
 }
 
+TEST(SvgTimeline, NamesTheLinesOfAChart) {
+    const std::vector<SvgChart> charts = {{"speed", {{"planned", "x", seconds, values}, {"driven", "y", seconds, values}}, {}}};
+    const std::string out = svg_timeline("A title", charts, {}, {720, 200, true});
+    EXPECT_THAT(out, testing::HasSubstr(">planned</text>"));
+    EXPECT_THAT(out, testing::HasSubstr(">driven</text>"));
+}
+
+TEST(SvgColumn, HasItsPartsBelowEachOther) {
+    const std::vector<SvgPart> parts = {{"<g id=\"a\"/>", 100}, {"<g id=\"b\"/>", 50}};
+    const std::string out = svg_column("A & B", parts, 300);
+    EXPECT_THAT(out, testing::HasSubstr("viewBox=\"0 0 300 174\""));
+    EXPECT_THAT(out, testing::HasSubstr("A &amp; B</text>"));
+    EXPECT_THAT(out, testing::HasSubstr("y=\"24\" width=\"300\" height=\"100\">\n<g id=\"a\"/>"));
+    EXPECT_THAT(out, testing::HasSubstr("y=\"124\" width=\"300\" height=\"50\">\n<g id=\"b\"/>"));
+}
+
 TEST(SvgTimeline, NothingToShowIsAPictureToo) {
     const std::string out = svg_timeline("empty", {}, {}, {});
     EXPECT_THAT(out, testing::EndsWith("</svg>\n"));

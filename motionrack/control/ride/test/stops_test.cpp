@@ -1,0 +1,81 @@
+// Rides against exact stops, as S-curves, on programs of straight lines. Each corner is judged by itself, so a few programs would be quicker
+// with stops: where short lines leave no room to speed up between corners that are passed slowly, and in inverse time, where a turn between a
+// short move and a long one is driven at the feed of the short one.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <motionrack/control/curve/test/curve_support.hpp>
+#include <motionrack/control/path.hpp>
+#include <motionrack/control/ride/test/ride_support.hpp>
+
+namespace motionrack::control {
+namespace {
+
+using curve_test::line_to;
+using curve_test::machine;
+
+double seconds_of_ride(const std::vector<Move>& moves) {
+    double seconds = 0;
+    for (const ride_test::KeptStretch& kept : ride_test::kept_ride(moves, machine())) seconds += kept.stretch.seconds - kept.stretch.overlap + kept.stretch.rest_seconds;
+    return seconds;
+}
+
+double seconds_stopping(std::vector<Move> moves) {
+    Planner planner(machine(), {});
+    PlanSummary sum;
+    PlannedMove planned;
+    for (Move& move : moves) {
+        move.path = PathControl::exact_stop;
+        while (!planner.has_room() && planner.pull(planned)) sum.add(planned);
+        EXPECT_TRUE(planner.push(move));
+    }
+    planner.flush();
+    while (planner.pull(planned)) sum.add(planned);
+    return sum.seconds;
+}
+
+double times_stopping(const std::vector<Move>& moves) { return seconds_of_ride(moves) / seconds_stopping(moves); }
+
+TEST(ARideBesideExactStops, IsSeldomSlower) {
+    int slower = 0, programs = 0;
+    double most = 0;
+    for (std::uint64_t seed = 1; seed < 1000; ++seed) {
+        const std::vector<Move> moves = curve_test::ProgramMaker(seed).program(2);
+        if (std::any_of(moves.begin(), moves.end(), [](const Move& move) { return move.kind == MoveKind::arc; })) continue;
+        const double times = times_stopping(moves);
+        ++programs;
+        slower += times > 1.02;
+        most = std::max(most, times);
+    }
+    RecordProperty("slower", slower);
+    RecordProperty("most", std::to_string(most));
+    EXPECT_LE(slower, 0.05 * programs) << "of " << programs;
+    EXPECT_LE(most, 1.25);
+}
+
+/// Short, long, short with turns of 40 degrees.
+TEST(ARideBesideExactStops, IsSlowerBetweenShortLines) {
+    std::vector<Move> moves = {line_to({0.25, 0}, 0.01), line_to({1.35, 0.92}, 0.01), line_to({1.6, 0.92}, 0.01)};
+    EXPECT_LE(times_stopping(moves), 2.0);
+}
+
+/// Nearly straight.
+TEST(ARideBesideExactStops, IsSlowerInInverseTimeBesideShortMoves) {
+    std::vector<Move> moves;
+    double x = 0, y = 0, heading = 0, programmed = 0;
+    for (const double length : {0.043, 0.014, 0.143, 0.014, 0.043}) {
+        x += length;
+        y += length * heading;
+        heading += 1e-4;
+        moves.push_back(line_to({x, y}, 0.01));
+        moves.back().feed_mode = FeedMode::inverse_time;
+        moves.back().feed = length < 0.02 ? 2 : 3;
+        programmed += 1 / moves.back().feed;
+    }
+    const double seconds = seconds_of_ride(moves);
+    EXPECT_GE(seconds, programmed);
+    EXPECT_LE(seconds, 2.6 * programmed);
+}
+
+}  // namespace
+}  // namespace motionrack::control

@@ -1,0 +1,215 @@
+#include <motionrack/rack/plan_picture.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <motionrack/control/path.hpp>
+#include <motionrack/control/profile.hpp>
+#include <motionrack/control/ride/ride.hpp>
+#include <motionrack/rack/path_segment.hpp>
+#include <motionrack/trace/svg.hpp>
+#include <vector>
+
+namespace motionrack::rack {
+
+namespace {
+
+constexpr int width = 720, least_path_height = 160, most_path_height = 460, heading_height = 28, chart_height = 120;
+/// Looks at the whole plan, and at each of its stretches at least.
+constexpr double looks = 8000, least_looks = 24;
+
+/// Values over time.
+struct Track {
+    std::vector<double> seconds;
+    std::vector<float> speed;
+
+    void add(double time, double value) {
+        seconds.push_back(time);
+        speed.push_back(static_cast<float>(value));
+    }
+};
+
+struct AxisTrack {
+    std::vector<float> accel, jerk;  ///< parts of the limits
+    bool moves = false;
+};
+
+double greatest(double a, double b, double c) { return std::max({std::fabs(a), std::fabs(b), std::fabs(c)}); }
+
+/// The jerk-limited plan, look by look.
+class Looks {
+  public:
+    Looks(std::span<const control::Move> moves, const control::MachineLimits& limits, const control::Point& start) : limits_(limits) {
+        for (const control::Move& move : moves)
+            for (std::size_t i = 0; i < 3; ++i) linear_ = linear_ || move.kind == control::MoveKind::arc || move.end[i] != start[i];
+        drive(moves, start, [this](const control::Stretch& stretch) { seconds_ += stretch.seconds - stretch.overlap + stretch.rest_seconds; });
+        drive(moves, start, [this](const control::Stretch& stretch) { look_at(stretch); });
+        if (path.seconds.empty()) add(0, {.place = start});
+    }
+
+    Track path;  ///< speed along XYZ, or of the fastest of ABC where only they move
+    std::vector<trace::Xyz> driven;
+    std::array<AxisTrack, control::axis_count> axes = {};
+
+    double seconds() const { return seconds_; }
+    bool is_linear() const { return linear_; }
+    /// Goes on at rest.
+    void rest_until(double time) {
+        control::RideState state;
+        for (std::size_t i = 0; i < 3; ++i) state.place[i] = driven.back()[i];
+        add(time, state);
+    }
+
+  private:
+    void drive(std::span<const control::Move> moves, const control::Point& start, control::Ride::OnStretch on_stretch) const {
+        control::Ride ride(limits_, start, std::move(on_stretch));
+        for (const control::Move& move : moves) ride.push(move);
+        ride.flush();
+    }
+
+    void look_at(const control::Stretch& stretch) {
+        begin_ -= stretch.overlap;
+        while (!path.seconds.empty() && path.seconds.back() > begin_) drop();
+        if (!stretch.curve.empty()) {
+            control::StretchView view(stretch);
+            const auto count = static_cast<int>(std::max(least_looks, looks * stretch.seconds / seconds_));
+            for (int i = 0; i <= count; ++i) {
+                const double time = stretch.seconds * i / count;
+                add(begin_ + time, view.at(time));
+            }
+        }
+        begin_ += stretch.seconds;
+        if (stretch.rest_seconds > 0) {
+            if (path.seconds.empty()) add(0, {.place = stretch.end});
+            rest_until(begin_);
+            rest_until(begin_ += stretch.rest_seconds);
+        }
+    }
+
+    void add(double time, const control::RideState& state) {
+        const control::Point& v = state.speed;
+        path.add(time, linear_ ? std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) : greatest(v[3], v[4], v[5]));
+        driven.push_back({state.place[0], state.place[1], state.place[2]});
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            const auto part = [](double value, double limit) { return static_cast<float>(limit > 0 ? value / limit : 0); };
+            axes[i].accel.push_back(part(state.accel[i], limits_[i].max_accel));
+            axes[i].jerk.push_back(part(state.jerk[i], limits_[i].max_jerk));
+            axes[i].moves = axes[i].moves || v[i] != 0;
+        }
+    }
+    void drop() {
+        path.seconds.pop_back();
+        path.speed.pop_back();
+        driven.pop_back();
+        for (AxisTrack& axis : axes) axis.accel.pop_back(), axis.jerk.pop_back();
+    }
+
+    const control::MachineLimits& limits_;
+    bool linear_ = false;
+    double seconds_ = 0, begin_ = 0;
+};
+
+/// The corners of the speed's trapezoids, and S-curves in chords.
+Track corners_of_trapezoids(std::span<const control::Move> moves, const control::MachineLimits& limits, const control::Point& start) {
+    Track out;
+    double begin = 0;
+    control::Planner planner(limits, start);
+    control::PlannedMove planned;
+    const auto pull = [&] {
+        while (planner.pull(planned)) {
+            if (planned.move.kind == control::MoveKind::dwell) {
+                out.add(begin, 0);
+            } else if (planned.jerk > 0) {
+                const control::SCurve curve(planned.length, planned.cruise, planned.accel, planned.jerk);
+                double from = 0;
+                for (const double end : curve.phase_ends()) {
+                    for (int i = 0; i <= 5; ++i) out.add(begin + from + (end - from) * i / 5, curve.sample(from + (end - from) * i / 5).speed);
+                    from = end;
+                }
+            } else {
+                const control::Trapezoid trapezoid(planned.length, planned.entry, planned.exit, planned.cruise, planned.accel);
+                out.add(begin, planned.entry);
+                for (const double end : trapezoid.phase_ends()) out.add(begin + end, trapezoid.sample(end).speed);
+            }
+            begin += control::seconds_of(planned);
+        }
+    };
+    for (const control::Move& move : moves) {
+        if (!planner.has_room()) pull();
+        (void)planner.push(move);
+    }
+    planner.flush();
+    pull();
+    out.add(begin, 0);
+    return out;
+}
+
+/// Looks at even times, from 0 to `end`; after the last corner it rests.
+Track looked_at(const Track& corners, double end) {
+    Track out;
+    std::size_t k = 0;
+    for (int i = 0; i <= static_cast<int>(looks); ++i) {
+        const double time = end * i / looks;
+        while (k + 1 < corners.seconds.size() && corners.seconds[k + 1] <= time) ++k;
+        const double from = static_cast<double>(corners.speed[k]);
+        if (k + 1 == corners.seconds.size()) out.add(time, time > corners.seconds[k] ? 0 : from);
+        else out.add(time, from + (static_cast<double>(corners.speed[k + 1]) - from) * (time - corners.seconds[k]) / (corners.seconds[k + 1] - corners.seconds[k]));
+    }
+    return out;
+}
+
+std::vector<trace::SvgChart> charts_of(const Looks& plan, const Track& trapezoids, const RackConfig& config) {
+    std::vector<trace::SvgChart> out;
+    out.push_back({fmt::format("path speed, {}/s", plan.is_linear() ? "mm" : "deg"),
+                   {{"trapezoids", "b", trapezoids.seconds, trapezoids.speed}, {"jerk-limited", "z", plan.path.seconds, plan.path.speed}},
+                   {}});
+    for (const RackAxis& axis : config.axes) {
+        const AxisTrack& track = plan.axes[static_cast<std::size_t>(axis.index())];
+        if (!track.moves) continue;
+        trace::SvgChart chart{fmt::format("{}, part of its limit", axis.letter), {}, {{1, ""}, {-1, ""}}};
+        if (axis.max_jerk > 0) chart.series.push_back({"jerk", "c", plan.path.seconds, track.jerk});
+        chart.series.push_back({"acceleration", "x", plan.path.seconds, track.accel});
+        out.push_back(std::move(chart));
+    }
+    return out;
+}
+
+/// From above, or in perspective where the path is not flat.
+trace::SvgPart path_part(const Looks& plan, std::span<const control::Move> moves, const control::Point& start) {
+    trace::ReportData data;
+    data.driven = plan.driven;
+    control::Point at = start;
+    for (const control::Move& move : moves) {
+        if (move.kind != control::MoveKind::dwell) data.planned.push_back(path_segment(move, at));
+        at = move.end;
+    }
+    const trace::Extent extent = trace::extent_of_path(data);
+    const bool flat = !extent.some || extent.high[2] - extent.low[2] <= 0.05 * extent.diagonal();
+    // As wide as it can be, with some room for the marks and the scale.
+    const double wide = extent.high[0] - extent.low[0], high = extent.high[1] - extent.low[1];
+    const int height = std::clamp(flat && wide > 0 ? static_cast<int>(70 + (width - 70) * high / wide) : most_path_height, least_path_height, most_path_height);
+    const double most = static_cast<double>(*std::max_element(plan.path.speed.begin(), plan.path.speed.end()));
+    return {trace::svg_path(data, flat ? trace::PathView::plan : trace::PathView::perspective, {width, height, false}, {plan.path.speed, most, "mm/s"}), height};
+}
+
+}  // namespace
+
+std::string plan_picture(const std::string& title, std::span<const control::Move> moves, const RackConfig& config, const control::Point& start) {
+    const control::MachineLimits limits = config.limits();
+    Looks plan(moves, limits, start);
+    const Track corners = corners_of_trapezoids(moves, limits, start);
+    // All charts have the same seconds.
+    const double end = std::max(plan.path.seconds.back(), corners.seconds.back());
+    plan.rest_until(end);
+    const Track planned = looked_at(corners, end);
+    const std::vector<trace::SvgChart> charts = charts_of(plan, planned, config);
+    const int height = heading_height + chart_height * static_cast<int>(charts.size());
+    std::vector<trace::SvgPart> parts;
+    if (plan.is_linear()) parts.push_back(path_part(plan, moves, start));
+    parts.push_back({trace::svg_timeline("Over time", charts, {}, {width, height, false}), height});
+    return trace::svg_column(title, parts, width);
+}
+
+}  // namespace motionrack::rack
