@@ -29,7 +29,9 @@ Stream::Stream(PathAxes& axes, Interrupt& host, const StreamSettings& settings)
       limits_(settings.gcode.limits),
       interpreter_(settings.gcode),
       planner_(planner_for(axes, settings.gcode.limits, settings.kept_back, settings.planner, settings.gcode.start)),
-      read_to_(settings.gcode.start) {}
+      read_to_(settings.gcode.start) {
+    if (settings_.jerk_limited) ride_ = new_ride(settings.gcode.start);
+}
 
 // ---- reading ------------------------------------------------------------------------------------------------------------------------
 
@@ -79,7 +81,8 @@ void Stream::begin_cut(const Step& step, bool by_hand) {
     double pulses = 0;  // of the fastest axis for a unit of length
     for (std::size_t i = 0; i < worst.size(); ++i) pulses = std::max(pulses, worst[i] * settings_.gcode.limits[i].pulses_per_unit);
     const double pieces = std::min(cut.path.length / wanted, cut.path.length * pulses / least_pulses);
-    cut.pieces = static_cast<int>(std::max(1.0, std::ceil(std::min(std::max(pieces, std::fabs(cut.path.sweep) / most_sweep), 1e9))));
+    if (!ride_)
+        cut.pieces = static_cast<int>(std::max(1.0, std::ceil(std::min(std::max(pieces, std::fabs(cut.path.sweep) / most_sweep), 1e9))));
     cutting_ = cut;
     ++moves_;
 }
@@ -104,17 +107,19 @@ void Stream::add_piece() {
 void Stream::hold() {
     if (wish_ == Wish::stop || !has_work() || state_ == StreamState::held || state_ == StreamState::paused) return;
     wish_ = Wish::hold;
-    stop_flag_ = true;
+    stop_flag_ = !ride_;
 }
 
 void Stream::resume() {
-    if (state_ == StreamState::held || state_ == StreamState::paused) state_ = StreamState::driving;
+    if (state_ != StreamState::held && state_ != StreamState::paused) return;
+    state_ = StreamState::driving;
+    if (ride_) ride_->rider().resume();
 }
 
 void Stream::stop() {
     if (!path_begun_ && !has_work()) return;
     wish_ = Wish::stop;
-    stop_flag_ = true;
+    stop_flag_ = !ride_;
 }
 
 void Stream::set_overrides(double feed, double rapid) {
@@ -125,6 +130,7 @@ void Stream::set_overrides(double feed, double rapid) {
 // ---- driving ------------------------------------------------------------------------------------------------------------------------
 
 Result<StreamState> Stream::drive(bool more_may_come) {
+    if (ride_) return drive_ride(more_may_come);
     if (wish_ != Wish::none) return path_begun_ ? finish_path() : stand();
     if (state_ == StreamState::held || state_ == StreamState::paused) return state_;
     pull_steps();
@@ -215,7 +221,7 @@ Result<StreamState> Stream::stand() {
 }
 
 Result<StreamState> Stream::interrupted(const Error& error) {
-    const bool held = error.trouble == Trouble::stopped && wish_ == Wish::hold;
+    const bool held = !ride_ && error.trouble == Trouble::stopped && wish_ == Wish::hold;
     wish_ = Wish::none;
     stop_flag_ = false;
     path_begun_ = false;
@@ -286,6 +292,8 @@ void Stream::forget_offsets() {
 
 void Stream::new_planner(const Point& place) {
     planner_ = planner_for(*axes_, settings_.gcode.limits, settings_.kept_back, settings_.planner, place);
+    if (ride_) ride_ = new_ride(place);
+    ride_ends_ = true;
 }
 
 // ---- what the machine has passed ----------------------------------------------------------------------------------------------------

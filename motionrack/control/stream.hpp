@@ -8,6 +8,9 @@
 //
 // Long moves go to the axes in pieces of about 0.1 s, so that an override is felt soon. With each move that it hands over, the path that is
 // known ends at rest: a sender that falls silent leaves the machine standing at the end of its last line.
+//
+// With limited jerk a ride takes the planner's place: it holds, resumes and overrides along its own curve, and the axes never brake on their
+// own but when the machine stops them.
 #pragma once
 
 #include <atomic>
@@ -19,6 +22,7 @@
 #include <motionrack/control/path.hpp>
 #include <motionrack/control/path_axes.hpp>
 #include <motionrack/control/path_limits.hpp>
+#include <motionrack/control/ride/ride_moves.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,6 +32,7 @@ namespace motionrack::control {
 struct StreamSettings {
     gcode::Settings gcode;    ///< its start is where the axes stand
     PlannerSettings planner;
+    bool jerk_limited = false;  ///< not trapezoids, but within each axis' jerk
     double kept_back = 0;     ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
     std::size_t most_entries = 1'500;  ///< moves and events that are known and not yet done; 16 or more
     double piece_seconds = 0.1;        ///< of a long move at its speed
@@ -104,6 +109,7 @@ class Stream {
         std::string text;
         Point start = {};
         double seconds = 0;  ///< of a move that was handed over
+        std::int64_t number = 0;  ///< of a move that the ride has had
         bool last = true;    ///< piece of its move
         bool by_hand = false;  ///< not of a line
         bool is_move() const { return step.kind == gcode::StepKind::move; }
@@ -132,12 +138,26 @@ class Stream {
     void pop();
     void new_planner(const Point& place);
 
+    // with limited jerk
+    Result<StreamState> drive_ride(bool more_may_come);
+    Result<void> fill_ride();
+    bool ride_may_wait(bool rest_follows) const;
+    Result<StreamState> hand_over_ride(const PlannedMove& planned);
+    Result<StreamState> finish_ride();
+    void take_ride_starts();
+    void pop_driven(std::int64_t first_left);
+    RideMoves new_ride(const Point& place) const;
+
     PathAxes* axes_;
     Interrupt& host_;
     StreamSettings settings_;
     PathLimits limits_;
     gcode::Interpreter interpreter_;
     Planner planner_;
+    std::optional<RideMoves> ride_;     ///< if the jerk is limited; then planner_ idles
+    std::deque<std::int64_t> blocks_;   ///< numbers of the moves of what the axes have had, from the one that they drive on
+    std::int64_t first_block_ = 0;      ///< of blocks_, as the axes count
+    bool ride_ends_ = true;             ///< it was told that its path ends
     std::deque<Entry> entries_;  ///< front: being driven
     std::optional<Cutting> cutting_;
     std::string text_;           ///< of the last line

@@ -33,6 +33,7 @@ Result<void> Machine::start(const rack::RackConfig& config) {
     settings.gcode = rack::reader_settings(config);
     settings.gcode.start = group->commanded_position();
     settings.kept_back = rack_.axes().front().card->kept_back();
+    settings.jerk_limited = config.jerk_limited();
     stream_ = std::make_unique<control::Stream>(*group, host(), settings);
     stream_->on_event([this](const control::gcode::Step& step) { pass_event(step); });
     group_holds_ = true;

@@ -337,6 +337,8 @@ struct RackConfig {
     bool can_home(const RackAxis& axis) const { return axis.switches.home || (axis.switches.has_cam() && positions_alone(axis)); }
     /// Whether every axis is on a card that positions it by itself, so that none can move along a path together.
     bool point_to_point() const;
+    /// Paths are driven with limited jerk.
+    bool jerk_limited() const { return controller.profile == "jerk_limited" && !point_to_point(); }
     /// What each axis may do, for the planner; axes that the rack has not are not present.
     control::MachineLimits limits() const;
     /// "motion.xpp", "X.step", "estop".

@@ -7,10 +7,10 @@ namespace motionrack::control {
 
 namespace {
 
-/// No move of fewer pulses of its fastest axis, or its direction would be a guess.
-constexpr double least_pulses = 16;
-/// Of what an axis may jump by at a corner, so much at the joint of two moves.
-constexpr double jump_share = 0.7;
+/// No move of fewer pulses of its fastest axis.
+constexpr double least_pulses = 4;
+/// Of what an axis may jump by at a corner, so much at the joint of two moves; and so much by rounding to pulses is nothing.
+constexpr double jump_share = 0.7, least_noise = 0.2;
 /// Pulses by which a place may be early or late on a move because its speed changes evenly, and by which it may be beside its path.
 constexpr double off_pulses = 0.4;
 constexpr double least_seconds = 0.0005;
@@ -58,7 +58,8 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
         planned.number = rider_.move_of_rest();
         planned.move = rider_.move(planned.number);
         planned.move.end = place_;
-        rider_.pass_dwell();
+        planned.move.seconds = settings_.cut_dwells ? std::min(settings_.most_seconds, rider_.dwell_seconds()) : rider_.dwell_seconds();
+        rider_.pass_dwell(planned.move.seconds);
         return true;
     }
     const RideState begin = rider_.at(0);
@@ -83,24 +84,23 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
     return true;
 }
 
-/// The longest that is even enough, but at least so many pulses.
+/// The longest that is even enough. Its ends are on whole pulses, so that its speeds are wrong by half a pulse a move: no shorter than this
+/// matters.
 double RideMoves::seconds_of_next() const {
     const RideState begin = rider_.at(0);
     double seconds = std::min({settings_.most_seconds, rider_.left(), 4 * last_seconds_});
-    while (seconds > least_seconds) {
+    for (; seconds > least_seconds; seconds *= 0.5) {
         const RideState end = rider_.at(seconds);
-        double pulses = 0;
-        for (std::size_t i = 0; i < limits_.size(); ++i)
-            pulses = std::max(pulses, std::fabs(end.place[i] - begin.place[i]) * limits_[i].pulses_per_unit);
-        if (is_even(begin, end, seconds) || pulses < 2 * least_pulses) break;
-        seconds *= 0.5;
+        const Roughness is = roughness_of(begin, end, seconds);
+        if (is.turn <= jump_share && is.off <= off_pulses) break;
+        if (is.pulses < 2 * least_pulses || is.half_pulse * 2 > std::max(is.turn, least_noise)) break;
     }
     // No crumb before the end.
     if (rider_.left() - seconds < 0.5 * seconds) seconds = rider_.left();
     return seconds;
 }
 
-bool RideMoves::is_even(const RideState& begin, const RideState& end, double seconds) const {
+RideMoves::Roughness RideMoves::roughness_of(const RideState& begin, const RideState& end, double seconds) const {
     const RideState middle = rider_.at(0.5 * seconds);
     Point way, gone;
     double square = 0, along = 0, even = 0;
@@ -111,15 +111,18 @@ bool RideMoves::is_even(const RideState& begin, const RideState& end, double sec
         along += way[i] * gone[i];
         even += way[i] * seconds * (0.375 * begin.speed[i] + 0.125 * end.speed[i]);  // with an even change of the speed
     }
-    if (!(square > 0)) return true;
+    Roughness out;
+    if (!(square > 0)) return out;
     for (std::size_t i = 0; i < way.size(); ++i) {
         if (!limits_[i].present) continue;
-        const double most = off_pulses / limits_[i].pulses_per_unit;
-        if (std::fabs(gone[i] - along / square * way[i]) > most || std::fabs((along - even) / square * way[i]) > most) return false;
-        for (const RideState* state : {&begin, &middle, &end})
-            if (turning(*state, i) * seconds > jump_share * limits_[i].start_speed) return false;
+        const double pulses = limits_[i].pulses_per_unit, jump = limits_[i].start_speed;
+        const double beside = std::fabs(gone[i] - along / square * way[i]), ahead = std::fabs((along - even) / square * way[i]);
+        out.off = std::max({out.off, beside * pulses, ahead * pulses});
+        out.pulses = std::max(out.pulses, std::fabs(way[i]) * pulses);
+        for (const RideState* state : {&begin, &middle, &end}) out.turn = std::max(out.turn, turning(*state, i) * seconds / jump);
+        if (way[i] != 0) out.half_pulse = std::max(out.half_pulse, 0.5 / (pulses * seconds * jump));
     }
-    return true;
+    return out;
 }
 
 }  // namespace motionrack::control

@@ -13,7 +13,8 @@ namespace motionrack::control {
 
 struct RideMovesSettings {
     RiderSettings rider;
-    double most_seconds = 0.1;  ///< of a move, so that wishes are felt soon; at most 0.1
+    double most_seconds = 0.1;         ///< of a move, so that wishes are felt soon; above 0, at most 0.1
+    bool cut_dwells = false;           ///< dwells too
     const DriveRule* drive = nullptr;  ///< may be null; must outlive the planner
 };
 
@@ -36,8 +37,16 @@ class RideMoves final : public PathPlanner {
     const Rider& rider() const { return rider_; }
 
   private:
+    /// What a move from one instant to another costs.
+    struct Roughness {
+        double off = 0;         ///< pulses beside its path, or early or late on it
+        double turn = 0;        ///< jump at its joint with the next, in start speeds
+        double half_pulse = 0;  ///< the jump of a speed that is half a pulse wrong
+        double pulses = 0;      ///< of the fastest axis
+    };
+
     double seconds_of_next() const;
-    bool is_even(const RideState& begin, const RideState& end, double seconds) const;
+    Roughness roughness_of(const RideState& begin, const RideState& end, double seconds) const;
 
     MachineLimits limits_;
     PathLimits path_limits_;

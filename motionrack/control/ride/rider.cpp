@@ -62,6 +62,13 @@ std::int64_t Rider::move_of(std::int32_t tag) const {
     return first_move_ + (tag - first_move_ % tags + tags) % tags;
 }
 
+std::int64_t Rider::first_left() const {
+    if (left_ > 0 || place_ < now_.known()) return move_of(now_.curve[piece_].line);
+    if (now_.whole && dwell_seconds() > 0) return move_of_rest();
+    if (now_.whole && !then_.curve.empty()) return move_of(then_.curve.front().line);
+    return pushed_;
+}
+
 void Rider::gather() {
     for (;;) {
         Part& part = now_.whole ? then_ : now_;
@@ -119,7 +126,8 @@ void Rider::to_next_part() {
     piece_ = feed_ = 0;
     place_ = on_feed_ = 0;
     reach_ = 0;
-    dwelt_ = holding_ = met_ = false;
+    holding_ = met_ = false;
+    dwelt_ = 0;
     planned_to_ = now_.known();
     measure();
     gather();
@@ -150,7 +158,7 @@ RideNext Rider::next(bool early) {
             continue;
         }
         if (!now_.whole) return RideNext::nothing;
-        if (now_.rest.seconds > 0 && !dwelt_) return RideNext::dwell;
+        if (dwell_seconds() > 0) return RideNext::dwell;
         to_next_part();
     }
 }

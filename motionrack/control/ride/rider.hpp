@@ -55,8 +55,10 @@ class Rider {
     void pass(double seconds);
 
     // ---- a dwell -------------------------------------------------------------------------------------------------------------------------
-    double dwell_seconds() const { return now_.rest.seconds; }
-    void pass_dwell() { dwelt_ = true; }
+    /// What is left of it.
+    double dwell_seconds() const { return now_.rest.seconds - dwelt_; }
+    /// So much of it was waited, 0 .. dwell_seconds().
+    void pass_dwell(double seconds) { dwelt_ += seconds; }
 
     // ---- wishes --------------------------------------------------------------------------------------------------------------------------
     /// Parts of the programmed feed, and of the axes' greatest speed in rapids: above 0. Felt as soon as the limits allow.
@@ -65,12 +67,16 @@ class Rider {
     void hold() { held_ = true; }
     void resume() { held_ = false; }
     bool stands() const { return !(left_ > 0); }
+    /// s until it has to slow down for the end of what is known.
+    double brakes_in() const { return left_ - braking_; }
 
     // ---- which move ----------------------------------------------------------------------------------------------------------------------
     /// How many were pushed.
     std::int64_t pushed() const { return pushed_; }
     /// The move, in the order of push from 0, on which this state is; of several that became one line, the first.
     std::int64_t move_of(const RideState& state) const { return move_of(state.line); }
+    /// The first that is not passed; pushed() if all are.
+    std::int64_t first_left() const;
     /// Of the dwell.
     std::int64_t move_of_rest() const { return move_of(now_.rest.line); }
     /// One that has not been passed, as it was pushed.
@@ -136,8 +142,9 @@ class Rider {
     double reach_ = 0;                  ///< s before the end of now_ when then_ begins
     StretchEnd before_;                 ///< how the stretch before ends
     double before_left_ = 0;            ///< s that it has still to go
+    double dwelt_ = 0;                  ///< s of the dwell at the end of now_
     double patience_ = 0;               ///< s until another plan is sought
-    bool held_ = false, holding_ = false, dwelt_ = false, new_feeds_ = false, met_ = false;
+    bool held_ = false, holding_ = false, new_feeds_ = false, met_ = false;
     double feed_override_ = 1, rapid_override_ = 1;
 
     std::vector<FeedSpan> stop_spans_;

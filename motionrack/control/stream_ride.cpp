@@ -1,0 +1,112 @@
+// A stream with limited jerk: the ride holds, resumes and overrides along its curve; the axes get its moves one by one.
+#include <algorithm>
+#include <motionrack/control/planner_for.hpp>
+#include <motionrack/control/stream.hpp>
+
+namespace motionrack::control {
+
+namespace {
+
+/// s of motion that the axes have at once: how soon a wish is felt.
+constexpr double most_seconds = 0.03;
+/// The ride is told that its path ends so long before it would slow down for that: later it could not go on beyond the last corners.
+constexpr double ends_before = 0.2;
+
+}  // namespace
+
+RideMoves Stream::new_ride(const Point& place) const {
+    RideMovesSettings settings;
+    settings.most_seconds = most_seconds;
+    settings.cut_dwells = true;
+    return ride_for(*axes_, settings_.gcode.limits, settings_.kept_back, settings, place);
+}
+
+Result<StreamState> Stream::drive_ride(bool more_may_come) {
+    if (wish_ != Wish::none) {
+        if (!path_begun_) return stand();
+        ride_->rider().hold();
+    } else if (state_ == StreamState::held || state_ == StreamState::paused) {
+        return state_;
+    }
+    pull_steps();
+    ride_->rider().set_overrides(feed_wanted_, rapid_wanted_);
+    if (Result<void> filled = fill_ride(); !filled) {
+        forget();
+        return tl::unexpected<Error>(filled.error());
+    }
+    const bool rest_follows = !more_may_come || planned_ < entries_.size();
+    if (ride_may_wait(rest_follows)) return state_ = StreamState::waiting;
+    const bool late = ride_->rider().brakes_in() < ends_before;
+    if (!ride_ends_ && (rest_follows || late) && ride_->has_room()) {
+        ride_->flush();
+        ride_ends_ = true;
+    }
+    if (PlannedMove planned; ride_->pull(planned, true)) return hand_over_ride(planned);
+    return path_begun_ ? finish_ride() : stand();
+}
+
+/// A first move alone waits for the line after it: then it need not end at rest.
+bool Stream::ride_may_wait(bool rest_follows) const {
+    return !rest_follows && !path_begun_ && wish_ == Wish::none && planned_ == 1 && !ride_ends_;
+}
+
+Result<void> Stream::fill_ride() {
+    for (; ride_->has_room() && planned_ < entries_.size() && !stops_before(entries_[planned_]); ++planned_) {
+        Entry& entry = entries_[planned_];
+        if (!entry.is_move()) continue;
+        entry.number = ride_->rider().pushed();
+        MOTIONRACK_CHECK(ride_->push(entry.step.move, !entry.by_hand));
+        ride_ends_ = false;
+    }
+    return {};
+}
+
+Result<StreamState> Stream::hand_over_ride(const PlannedMove& planned) {
+    if (!path_begun_) {
+        if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
+        path_begun_ = true;
+        first_block_ = 0;
+        blocks_.clear();
+    }
+    blocks_.push_back(planned.number);
+    state_ = StreamState::driving;
+    const Result<void> followed = axes_->follow(planned);
+    take_ride_starts();
+    if (!followed) return interrupted(followed.error());
+    return state_;
+}
+
+/// The ride stands: at the end of what is known, or held.
+Result<StreamState> Stream::finish_ride() {
+    const Result<void> finished = axes_->finish();
+    take_ride_starts();
+    if (!finished) return interrupted(finished.error());
+    path_begun_ = false;
+    pop_driven(ride_->rider().first_left());
+    if (single_step_ && has_work() && wish_ == Wish::none) return state_ = StreamState::paused;
+    if (wish_ == Wish::hold && !has_work()) ride_->rider().resume();
+    return stand();
+}
+
+void Stream::take_ride_starts() {
+    for (const BlockStart& start : axes_->take_starts()) {
+        if (start.block < 0) continue;
+        line_driven_ = start.line;
+        for (; first_block_ < start.block; ++first_block_) blocks_.pop_front();
+        pop_driven(blocks_.front());
+        while (!entries_.empty() && !entries_.front().is_move()) pop();
+    }
+}
+
+/// All up to the last move before this one.
+void Stream::pop_driven(std::int64_t first_left) {
+    std::size_t driven = 0;
+    for (std::size_t i = 0; i < planned_; ++i)
+        if (entries_[i].is_move()) {
+            if (entries_[i].number >= first_left) break;
+            driven = i + 1;
+        }
+    for (; driven > 0; --driven) pop();
+}
+
+}  // namespace motionrack::control
