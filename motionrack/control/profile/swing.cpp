@@ -51,7 +51,7 @@ DirectChange direct_change(double start_speed, double start_accel, double end_sp
     // A single phase from one acceleration to the other changes the speed by `ramp`.
     const double sum = start_accel + end_accel;
     const double ramp = 0.5 * sum * std::fabs(end_accel - start_accel);
-    const double noise = 2 * rounding * (std::fabs(start_speed) + std::fabs(end_speed) + std::fabs(ramp));
+    const double noise = 2 * rounding * (std::fabs(start_speed) + std::fabs(end_speed) + square(start_accel) + square(end_accel));
     const double more = change - ramp;
     const bool mirrored = std::fabs(more) <= noise ? sum < 0 : more < 0;
     const double sign = mirrored ? -1 : 1;
@@ -74,14 +74,15 @@ Swings::Swings(const Course& c, double top)
              (c.start_speed * c.start_accel - cube_third(c.start_accel))),
       top_(top),
       least_(-c.end_accel) {
-    if (rise_ < 0) {
+    if (rise_ < 0 && end_accel_ < 0) {
         swapped_ = true;
         least_ = std::sqrt(std::max(0.0, square(end_accel_) + rise_));
         std::swap(start_foot_, end_foot_);
         rise_ = -rise_;
-    } else if (start_accel_ > 0) {
-        gap_ = std::sqrt(std::max(0.0, square(start_accel_) - rise_));
+        return;
     }
+    rise_ = std::max(0.0, rise_);
+    if (start_accel_ > 0) gap_ = std::sqrt(std::max(0.0, square(start_accel_) - rise_));
 }
 
 double Swings::reach_at(double s) const {
@@ -255,8 +256,10 @@ QuickestCourse quickest_course(const Course& given, double top, double slack) {
     const double speed = course.start_speed + direct.rise * (a + 0.5 * direct.rise);
     const double held = direct.hold * (speed + 0.5 * direct.hold * (a + direct.rise));
     const double more = course.way - (first + held + last);
-    const double noise = slack + 4 * rounding * (std::fabs(first) + std::fabs(held) + std::fabs(last)) +
-                         8 * rounding * (square(course.start_speed) + square(course.end_speed));
+    // what roundings of the way, of the speeds (over the acceleration 1) and of the accelerations (over the jerk 1) make of it
+    const double speeds = std::fabs(course.start_speed) + std::fabs(course.end_speed);
+    const double noise = slack + 8 * rounding * (std::fabs(first) + std::fabs(held) + std::fabs(last) + square(speeds) +
+                                                 (speeds + a * a + b * b) * (std::fabs(a) + std::fabs(b)));
     if (std::fabs(more) <= noise)
         return {direct.mirrored, false, {direct.rise, direct.hold, direct.fall, 0, 0, 0, 0}};
     bool backwards = more < 0;

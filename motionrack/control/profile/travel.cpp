@@ -34,6 +34,11 @@ bool ends_within(double speed, double accel, double top) {
     return std::fabs(accel) <= to_roundings && std::fabs(speed) + 0.5 * accel * accel <= top * to_roundings;
 }
 
+bool usable(const TravelLimits& limits) {
+    const auto amount = [](double x) { return x > 0 && std::isfinite(x); };
+    return amount(limits.speed) && amount(limits.accel) && amount(limits.jerk);
+}
+
 bool finite(const TravelState& s) { return std::isfinite(s.position) && std::isfinite(s.speed) && std::isfinite(s.accel); }
 
 }  // namespace
@@ -148,13 +153,14 @@ class TravelBuilder {
         Travel::Phase* last = out_.count_ > 0 ? &out_.phases_[static_cast<std::size_t>(out_.count_ - 1)] : nullptr;
         const double zero = time_;
         time_ += seconds;
-        if (last && sign != 0 && last->jerk == jerk) {
+        if (last && sign != 0 && last->jerk == jerk && goes_on_) {
             last->end = time_;
             last->seconds += seconds;
         } else if (time_ > zero) {
             out_.phases_[static_cast<std::size_t>(out_.count_++)] = {time_,    zero,      seconds,  at_.position,
                                                                       at_.speed, at_.accel, jerk};
         }
+        goes_on_ = goes_on_ || time_ > zero;
         at_ = after(at_, jerk, seconds);
     }
 
@@ -198,6 +204,10 @@ class TravelBuilder {
             accel_ = side * steepest;
         }
         speed_ = side * top;
+        // on from just there: a start far outside has roundings that are large beside the limits
+        at_.speed = side * limits_.speed;
+        at_.accel = accel_ * limits_.accel;
+        goes_on_ = false;
     }
 
     Travel& out_;
@@ -205,20 +215,22 @@ class TravelBuilder {
     const TravelLimits& limits_;
     const Scale& scale_;
     double time_ = 0;
+    bool goes_on_ = true;  ///< at_ is the end of the last phase, to the bit
     double speed_, accel_, way_ = 0;  ///< scaled
     std::array<Part, 3> tail_ = {};
 };
 
 bool can_end_so(double speed, double accel, const TravelLimits& limits) {
     const Scale scale(limits);
-    return ends_within(speed * scale.speed, accel * scale.accel, scale.top);
+    return usable(limits) && ends_within(speed * scale.speed, accel * scale.accel, scale.top);
 }
 
 std::optional<Travel> travel(const TravelState& from, const TravelState& to, const TravelLimits& limits) {
     const Scale scale(limits);
     const double end_speed = to.speed * scale.speed;
     const double end_accel = std::clamp(to.accel * scale.accel, -1.0, 1.0);
-    if (!finite(from) || !finite(to) || !ends_within(end_speed, to.accel * scale.accel, scale.top)) return std::nullopt;
+    if (!usable(limits) || !finite(from) || !finite(to)) return std::nullopt;
+    if (!ends_within(end_speed, to.accel * scale.accel, scale.top)) return std::nullopt;
     std::optional<Travel> out(std::in_place);
     TravelBuilder builder(*out, from, limits, scale);
     builder.bring_accel_within();
@@ -234,7 +246,7 @@ std::optional<Travel> travel(const TravelState& from, const TravelState& to, con
 std::optional<Travel> change_speed(const TravelState& from, double speed, double accel, const TravelLimits& limits) {
     const Scale scale(limits);
     const double end_speed = speed * scale.speed, end_accel = accel * scale.accel;
-    if (!finite(from) || !ends_within(end_speed, end_accel, scale.top)) return std::nullopt;
+    if (!usable(limits) || !finite(from) || !ends_within(end_speed, end_accel, scale.top)) return std::nullopt;
     std::optional<Travel> out(std::in_place);
     TravelBuilder builder(*out, from, limits, scale);
     builder.bring_accel_within();

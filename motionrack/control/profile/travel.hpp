@@ -83,14 +83,15 @@ bool can_end_so(double speed, double accel, const TravelLimits& limits);
 /// within first; then, if the speed is outside or cannot but get there, that is, too, each as quickly as the jerk allows,
 /// and the quickest motion begins where the speed is within for good. A target that the direct change of speed reaches to
 /// the roundings of the positions counts as reached by it.
-/// Nothing if the motion cannot end so (see can_end_so) or a number is not finite.
+/// Nothing if the motion cannot end so (see can_end_so), a number is not finite or a limit is not > 0.
 std::optional<Travel> travel(const TravelState& from, const TravelState& to, const TravelLimits& limits);
 
 /// The quickest change to a speed and an acceleration, wherever that is. An acceleration outside the limits is brought
 /// within first; speeds outside are left on the quickest way to the target. Nothing as for travel().
 std::optional<Travel> change_speed(const TravelState& from, double speed, double accel, const TravelLimits& limits);
 
-/// The quickest way to rest, wherever that is; as change_speed() to 0. Nothing if a number is not finite.
+/// The quickest way to rest, wherever that is; as change_speed() to 0. Nothing if a number is not finite or a limit is
+/// not > 0.
 std::optional<Travel> stop(const TravelState& from, const TravelLimits& limits);
 
 inline ProfileSample Travel::sample(double t) const {

@@ -21,6 +21,16 @@ struct Outcome {
     double seconds = 0, position = 0;
 };
 
+struct State {
+    double p, v, a, t;
+    void go(double jerk, double dt) {
+        p += dt * (v + dt * (a / 2 + dt * jerk / 6));
+        v += dt * (a + dt * jerk / 2);
+        a += dt * jerk;
+        t += dt;
+    }
+};
+
 class Search {
   public:
     explicit Search(const Task& task) : t_(task), j_(task.limits.jerk), a_(task.limits.accel), v_(task.limits.speed) {}
@@ -42,16 +52,6 @@ class Search {
     }
 
   private:
-    struct State {
-        double p, v, a, t;
-        void go(double jerk, double dt) {
-            p += dt * (v + dt * (a / 2 + dt * jerk / 6));
-            v += dt * (a + dt * jerk / 2);
-            a += dt * jerk;
-            t += dt;
-        }
-    };
-
     State up_to(double peak) const {
         State s = {t_.from.position, t_.from.speed, t_.from.accel, 0};
         s.go(j_, (std::min(peak, a_) - s.a) / j_);
@@ -80,11 +80,12 @@ class Search {
         return {true, s.t, s.p};
     }
 
+    /// Not a number where the branch has no such motion.
     double error(double peak, bool low, bool& possible, double& seconds) const {
         const Outcome out = down(up_to(peak), low);
         possible = out.possible;
-        seconds = out.seconds;
-        return out.position - t_.to.position;
+        seconds = possible ? out.seconds : never;
+        return possible ? out.position - t_.to.position : std::numeric_limits<double>::quiet_NaN();
     }
 
     double between(double from, double to, bool low) const {
@@ -106,7 +107,7 @@ class Search {
             second = error(to, low, two, seconds);
         }
         if (first == 0) return error(from, low, one, seconds), seconds;
-        if (first * second > 0) return never;
+        if (!(first * second <= 0)) return never;
         for (int i = 0; i < 60; ++i) {
             const double middle = 0.5 * (from + to);
             const double error_there = error(middle, low, one, seconds);
@@ -152,7 +153,57 @@ Task mirrored(Task t) {
     return t;
 }
 
+/// Seconds from a state that is too fast, or will be, until its speed is `top` for good, if the acceleration falls to
+/// `depth` and rises again; infinite if it then falls below -top.
+double braked(State s, double depth, double top, const TravelLimits& limits) {
+    const double j = limits.jerk;
+    const double straight = s.a * s.a + 2 * j * (s.v - top);
+    if (!(straight >= 0)) return never;
+    double entry = -std::sqrt(straight);
+    if (entry >= depth) {
+        s.go(-j, (s.a - entry) / j);
+    } else {
+        s.go(-j, (s.a - depth) / j);
+        // on at this acceleration, then up: as late as the entry can be kept from falling below -top
+        entry = std::max(depth, -2 * std::sqrt(j * top));
+        const double rising = (depth * depth - entry * entry) / (2 * j);
+        const double hold = (s.v - rising - top) / -depth;
+        if (hold < 0) return never;
+        s.go(0, hold);
+        s.go(j, (entry - depth) / j);
+    }
+    return top - entry * entry / (2 * j) >= -top * (1 + 1e-12) ? s.t : never;
+}
+
 }  // namespace
+
+double slowly_found_entry(const TravelState& from, const TravelLimits& limits) {
+    const double j = limits.jerk, top = limits.speed;
+    State s = {0, from.speed, from.accel, 0};
+    if (std::fabs(s.a) > limits.accel) s.go(s.a > 0 ? -j : j, (std::fabs(s.a) - limits.accel) / j);
+    const double last = s.v + s.a * std::fabs(s.a) / (2 * j);
+    if (std::fabs(last) <= top && std::fabs(s.v) <= top) return s.t;
+    const bool up = std::fabs(last) > top ? last < 0 : s.v < 0;
+    if (up) s = {0, -s.v, -s.a, s.t};
+    double best = never;
+    double from_depth = std::min(s.a, 0.0), to_depth = -limits.accel;
+    for (int round = 0; round < 3; ++round) {
+        constexpr int steps = 1000;
+        const double step = (to_depth - from_depth) / steps;
+        double deepest = from_depth;
+        for (int i = 0; i <= steps; ++i) {
+            const double depth = i == steps ? to_depth : from_depth + step * i;
+            const double seconds = braked(s, depth, top, limits);
+            if (seconds < best) {
+                best = seconds;
+                deepest = depth;
+            }
+        }
+        from_depth = std::min(from_depth, deepest - step);
+        to_depth = std::max(to_depth, deepest + step);
+    }
+    return best;
+}
 
 double slowly_found_duration(const Task& task, int steps) {
     return std::min(Search(task).least(steps), Search(mirrored(task)).least(steps));

@@ -19,7 +19,8 @@ std::string text_of(const Task& t) {
 double Tasks::of_magnitude(double least, double most) {
     const int low = std::ilogb(least), high = std::ilogb(most);
     const int power = low + static_cast<int>(random_() % static_cast<unsigned>(std::max(1, high - low)));
-    return std::ldexp((one_in(2) ? 1.0 : -1.0) * between(1, 2), power);
+    const double side = one_in(2) ? 1 : -1;
+    return std::ldexp(side * between(1, 2), power);
 }
 
 void Tasks::allow(Task& task) {
@@ -53,8 +54,10 @@ Task Tasks::any() {
     Task t = usual();
     t.limits = {std::fabs(of_magnitude(1e-3, 1e3)), std::fabs(of_magnitude(1e-3, 1e3)), std::fabs(of_magnitude(1e-3, 1e3))};
     const auto within = [&](TravelState& s) {
-        s.accel = one_in(4) ? 0 : t.limits.accel * between(-1, 1) * (one_in(3) ? std::fabs(of_magnitude(1e-6, 1)) : 1);
-        s.speed = one_in(4) ? 0 : t.limits.speed * between(-1, 1) * (one_in(3) ? std::fabs(of_magnitude(1e-6, 1)) : 1);
+        const double part_of_accel = one_in(3) ? of_magnitude(1e-6, 1) : between(-1, 1);
+        const double part_of_speed = one_in(3) ? of_magnitude(1e-6, 1) : between(-1, 1);
+        s.accel = one_in(4) ? 0 : t.limits.accel * part_of_accel;
+        s.speed = one_in(4) ? 0 : t.limits.speed * part_of_speed;
         const double room = t.limits.speed - 0.5 * s.accel * s.accel / t.limits.jerk;
         if (room < 0) s.accel = 0;
         else s.speed = std::clamp(s.speed, -room, room);
@@ -148,6 +151,37 @@ std::string fault_of(const Travel& travel, const Task& task, double within) {
     }
     if (begin != T) return "duration is not the last end";
     return jump(task.to.position, task.to.speed, task.to.accel);
+}
+
+double entry_of(const Travel& travel, const TravelLimits& limits) {
+    const auto outside = [&](const ProfileSample& s) {
+        return std::fabs(s.accel) > limits.accel * (1 + 1e-9) || std::fabs(s.speed) > limits.speed * (1 + 1e-9);
+    };
+    double entry = 0, begin = 0;
+    for (const Travel::Phase& p : travel.phases()) {
+        const double length = p.end - begin;
+        for (int i = 0; i < 64; ++i) {
+            double out = begin + length * i / 64, in = begin + length * (i + 1) / 64;
+            if (!outside(p.at(out))) continue;
+            for (int step = 0; step < 60 && !outside(p.at(in)); ++step) {
+                const double middle = 0.5 * (out + in);
+                (outside(p.at(middle)) ? out : in) = middle;
+            }
+            entry = in;
+        }
+        // a peak between two looks
+        const double peak = p.jerk != 0 ? p.zero - p.accel / p.jerk : begin;
+        if (peak > std::max(begin, entry) && peak < p.end && outside(p.at(peak))) {
+            double out = peak, in = p.end;
+            for (int step = 0; step < 60 && !outside(p.at(p.end)); ++step) {
+                const double middle = 0.5 * (out + in);
+                (outside(p.at(middle)) ? out : in) = middle;
+            }
+            entry = in;
+        }
+        begin = p.end;
+    }
+    return entry;
 }
 
 std::uint64_t bits_of_travels(std::uint64_t seed, int count) {

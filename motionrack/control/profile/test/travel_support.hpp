@@ -53,6 +53,13 @@ std::string fault_of(const Travel& travel, const Task& task, double within = 0);
 /// which is scanned and bisected. Starts and targets within the limits. Infinite if the search finds none.
 double slowly_found_duration(const Task& task, int steps = 100);
 
+/// The instant from which on a travel is within the limits.
+double entry_of(const Travel& travel, const TravelLimits& limits);
+
+/// How soon a start can be within the limits for good, its acceleration first, by a slow search over how far the
+/// acceleration goes.
+double slowly_found_entry(const TravelState& from, const TravelLimits& limits);
+
 /// A sum of the bits of all phases of the travels of `count` tasks.
 std::uint64_t bits_of_travels(std::uint64_t seed, int count);
 
