@@ -35,7 +35,8 @@ function(motionrack_room name)
   endif()
 endfunction()
 
-# motionrack_test(NAME [SOURCES ...] [DEPS ...]): one test program; each of its tests is a ctest test.
+# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...]): one test program; each of its tests is a ctest test. The label
+# deep is for what takes minutes: `ctest -L deep` runs it, and ./test without arguments leaves it out.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()
@@ -47,5 +48,9 @@ function(motionrack_test name)
   add_executable(test_${name} ${T_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${T_DEPS} rapidcheck GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE MOTIONRACK_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  set(labels)
+  if(T_LABELS)
+    set(labels LABELS ${T_LABELS})
+  endif()
+  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 ${labels})
 endfunction()

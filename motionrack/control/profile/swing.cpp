@@ -257,9 +257,10 @@ QuickestCourse quickest_course(const Course& given, double top, double slack) {
     const double held = direct.hold * (speed + 0.5 * direct.hold * (a + direct.rise));
     const double more = course.way - (first + held + last);
     // what roundings of the way, of the speeds (over the acceleration 1) and of the accelerations (over the jerk 1) make of it
+    const double parts = std::fabs(first) + std::fabs(held) + std::fabs(last);
     const double speeds = std::fabs(course.start_speed) + std::fabs(course.end_speed);
-    const double noise = slack + 8 * rounding * (std::fabs(first) + std::fabs(held) + std::fabs(last) + square(speeds) +
-                                                 (speeds + a * a + b * b) * (std::fabs(a) + std::fabs(b)));
+    const double sensitive = speeds * speeds + (speeds + a * a + b * b) * (std::fabs(a) + std::fabs(b));
+    const double noise = slack + 8 * rounding * (parts + std::min(sensitive, 64 * parts));
     if (std::fabs(more) <= noise)
         return {direct.mirrored, false, {direct.rise, direct.hold, direct.fall, 0, 0, 0, 0}};
     bool backwards = more < 0;

@@ -113,8 +113,9 @@ class Search {
             const double error_there = error(middle, low, one, seconds);
             ((error_there < 0) == (first < 0) ? from : to) = middle;
         }
-        error(from, low, one, seconds);
-        return seconds;
+        // no root, but a gap of the branch between two sides
+        const double left = std::fabs(error(from, low, one, seconds));
+        return left <= 1e-9 * (std::fabs(first) + std::fabs(second)) ? seconds : never;
     }
 
     /// The peak with which the greatest speed is just reached.

@@ -78,13 +78,16 @@ Task Tasks::outside() {
 
 std::optional<double> Tasks::motion(Task& t) {
     t = usual();
-    const TravelLimits& m = t.limits;
+    // a little within the limits: what takes all of them may be reachable to the bit only
+    t.from.accel *= 0.999;
+    t.from.speed *= 0.999;
+    const TravelLimits m = {0.999 * t.limits.speed, 0.999 * t.limits.accel, t.limits.jerk};
     TravelState s = t.from;
     double seconds = 0;
     const int phases = 1 + static_cast<int>(random_() % 5);
     double side = one_in(2) ? 1 : -1;
     for (int k = 0; k < phases; ++k, side = -side) {
-        double jerk = side * m.jerk * (one_in(4) ? part() : 1);
+        double jerk = side * m.jerk * (one_in(4) ? part() : 0.999);
         double dt = between(0, 2) * std::min(m.accel / m.jerk, std::sqrt(m.speed / m.jerk));
         // up to the acceleration's limit, and along it for a while
         const double until = (side * m.accel - s.accel) / jerk;
@@ -119,7 +122,10 @@ std::string fault_of(const Travel& travel, const Task& task, double within) {
     TravelState at = task.from;
     const double a_size = std::max({m.accel, std::fabs(task.from.accel)});
     const double v_size = std::max({m.speed, std::fabs(task.from.speed), a_size * a_size / m.jerk * (a_size > m.accel)});
-    const double p_size = std::max({std::fabs(task.from.position), std::fabs(task.to.position), v_size * T});
+    // what the accelerations at both ends are worth in way has roundings, too, however short the travel is
+    const double a_ends = std::fabs(task.from.accel) + std::fabs(task.to.accel);
+    const double ends = (std::fabs(task.from.speed) + std::fabs(task.to.speed) + a_ends * a_ends / m.jerk) * a_ends / m.jerk;
+    const double p_size = std::max({std::fabs(task.from.position), std::fabs(task.to.position), v_size * T, 0.01 * ends});
     const auto jump = [&](double position, double speed, double accel) {
         const double instant = 1e-15 * T;  // times are no finer
         if (!(std::fabs(position - at.position) <= 1e-12 * p_size + instant * v_size)) return "jump of the position";
