@@ -49,7 +49,9 @@ void solve_all(benchmark::State& state, const std::vector<Task>& work, Solve sol
     }
 }
 
-auto travel_of(const Task& t) { return travel(t.from, t.to, t.limits); }
+auto travel_of(const Task& t) {
+    return travel(t.from, t.to, t.limits);
+}
 
 void s_curve_from_rest_to_rest(benchmark::State& state) {
     solve_all(state, tasks(0), [](const Task& t) {
@@ -58,10 +60,14 @@ void s_curve_from_rest_to_rest(benchmark::State& state) {
 }
 BENCHMARK(s_curve_from_rest_to_rest);
 
-void travel_from_rest_to_rest(benchmark::State& state) { solve_all(state, tasks(0), travel_of); }
+void travel_from_rest_to_rest(benchmark::State& state) {
+    solve_all(state, tasks(0), travel_of);
+}
 BENCHMARK(travel_from_rest_to_rest);
 
-void travel_between_any_states(benchmark::State& state) { solve_all(state, tasks(1), travel_of); }
+void travel_between_any_states(benchmark::State& state) {
+    solve_all(state, tasks(1), travel_of);
+}
 BENCHMARK(travel_between_any_states);
 
 /// Near targets: no cruise, so that an equation is solved for nearly each.

@@ -1,9 +1,9 @@
 // Which swing reaches a place: by the holds it has a root of a quadratic or of a quartic, bracketed.
 //
-// With u the time weight of a phase between two accelerations of 0 (2 sqrt(x) up to x = 1, 1 + x with a hold), the reach of
-// a swing is (start_foot + v) u(P^2)/2 +- (end_foot + v) u(s^2)/2, v = end_foot + s^2, minus where s < 0. Its derivative
-// over the duration is the flow. The flow first falls and then rises with s, so that the reach may rise to a crest, fall
-// and rise again; what lies before the crest is quicker.
+// A phase of the acceleration that rises from 0 and falls back to 0 lasts u(x) = 2 sqrt(x) for a peak of sqrt(x) <= 1,
+// and u(x) = 1 + x with a hold of x - 1 s. The reach of a swing is (start_foot + v) u(P^2)/2 +- (end_foot + v) u(s^2)/2
+// with v = end_foot + s^2, minus where s < 0. Its derivative over the duration is the flow, which first falls and then
+// rises with s: the reach may rise to a crest, fall and rise again, and what lies before the crest is quicker.
 
 #include <limits>
 #include <motionrack/control/profile.hpp>
@@ -16,8 +16,12 @@ namespace {
 
 constexpr double rounding = std::numeric_limits<double>::epsilon();
 
-double square(double x) { return x * x; }
-double cube_third(double x) { return x * x * x * (1.0 / 3); }
+double square(double x) {
+    return x * x;
+}
+double cube_third(double x) {
+    return x * x * x * (1.0 / 3);
+}
 
 /// A root of a function that is below 0 at `least` and above at `most`, crossing once: Halley's steps from `guess`, a
 /// bisection where one would leave the bracket. `at(x)` gives the function and its first two derivatives.
@@ -46,17 +50,16 @@ double crossing(double least, double most, double guess, Function at) {
 
 }  // namespace
 
-DirectChange direct_change(double start_speed, double start_accel, double end_speed, double end_accel) {
-    const double change = end_speed - start_speed;
+DirectChange direct_change(const Course& c) {
     // A single phase from one acceleration to the other changes the speed by `ramp`.
-    const double sum = start_accel + end_accel;
-    const double ramp = 0.5 * sum * std::fabs(end_accel - start_accel);
-    const double noise = 2 * rounding * (std::fabs(start_speed) + std::fabs(end_speed) + square(start_accel) + square(end_accel));
-    const double more = change - ramp;
-    const bool mirrored = std::fabs(more) <= noise ? sum < 0 : more < 0;
+    const double sum = c.start_accel + c.end_accel;
+    const double ramp = 0.5 * sum * std::fabs(c.end_accel - c.start_accel);
+    const double size = std::fabs(c.start_speed) + std::fabs(c.end_speed) + square(c.start_accel) + square(c.end_accel);
+    const double more = c.change - ramp;
+    const bool mirrored = std::fabs(more) <= 2 * rounding * size ? sum < 0 : more < 0;
     const double sign = mirrored ? -1 : 1;
-    const double a = sign * start_accel, b = sign * end_accel;
-    const double height = sign * change + 0.5 * (a * a + b * b);
+    const double a = sign * c.start_accel, b = sign * c.end_accel;
+    const double height = sign * c.change + 0.5 * (a * a + b * b);
     const double least = std::max(a, b);
     if (height > 1) return {mirrored, 1 - a, height - 1, 1 - b};
     const double peak = std::max(least, std::sqrt(std::max(0.0, height)));
@@ -68,7 +71,7 @@ Swings::Swings(const Course& c, double top)
       end_accel_(c.end_accel),
       start_foot_(c.start_speed - 0.5 * square(c.start_accel)),
       end_foot_(c.end_speed - 0.5 * square(c.end_accel)),
-      rise_(c.end_speed - c.start_speed + 0.5 * (c.start_accel - c.end_accel) * (c.start_accel + c.end_accel)),
+      rise_(c.change + 0.5 * (c.start_accel - c.end_accel) * (c.start_accel + c.end_accel)),
       both_(start_foot_ + end_foot_),
       reach_(c.way - (c.end_speed * c.end_accel - cube_third(c.end_accel)) +
              (c.start_speed * c.start_accel - cube_third(c.start_accel))),
@@ -79,15 +82,19 @@ Swings::Swings(const Course& c, double top)
         least_ = std::sqrt(std::max(0.0, square(end_accel_) + rise_));
         std::swap(start_foot_, end_foot_);
         rise_ = -rise_;
+        floor_ = square(end_accel_);
         return;
     }
     rise_ = std::max(0.0, rise_);
-    if (start_accel_ > 0) gap_ = std::sqrt(std::max(0.0, square(start_accel_) - rise_));
+    if (start_accel_ > 0) {
+        floor_ = square(start_accel_);
+        gap_ = std::sqrt(std::max(0.0, floor_ - rise_));
+    }
 }
 
 double Swings::reach_at(double s) const {
     const double low = s * s;
-    const double high = rise_ + low;
+    const double high = high_at(s);
     const double up = high > 1 ? 0.5 * (1 + high) : std::sqrt(high);
     const double down = s > 1 ? 0.5 * (1 + low) : s;
     return (both_ + low) * up + (2 * end_foot_ + low) * down;
@@ -141,7 +148,9 @@ bool Swings::find() {
     return true;
 }
 
-void Swings::find_beyond_gap() { find_above(gap_); }
+void Swings::find_beyond_gap() {
+    find_above(gap_);
+}
 
 /// The reach crosses what is wanted once above `least`, or the top is met before.
 void Swings::find_above(double least) {
@@ -228,7 +237,7 @@ double Swings::without_hold(double least, double most) const {
 
 SwingPhases Swings::phases() const {
     const double low = s_ * s_;
-    const double high = rise_ + low;
+    const double high = high_at(s_);
     double peak = high > 1 ? 1 : std::sqrt(high);
     double valley = s_ > 1 ? 1 : s_;
     double hold_peak = std::max(0.0, high - 1), hold_valley = s_ > 1 ? low - 1 : 0;
@@ -236,18 +245,20 @@ SwingPhases Swings::phases() const {
         std::swap(peak, valley);
         std::swap(hold_peak, hold_valley);
     }
+    peak = std::max(peak, start_accel_);  // which they are, but for roundings
+    valley = std::max(valley, -end_accel_);
     const bool cruises = cruise_ > 0;
-    return {std::max(0.0, peak - start_accel_),
+    return {peak - start_accel_,
             hold_peak,
             cruises ? peak : std::max(0.0, peak + valley),
             cruise_,
             cruises ? valley : 0,
             hold_valley,
-            std::max(0.0, valley + end_accel_)};
+            valley + end_accel_};
 }
 
 QuickestCourse quickest_course(const Course& given, double top, double slack) {
-    const DirectChange direct = direct_change(given.start_speed, given.start_accel, given.end_speed, given.end_accel);
+    const DirectChange direct = direct_change(given);
     const Course course = direct.mirrored ? given.mirrored() : given;
     // the way of the direct change, phase by phase from both ends
     const double a = course.start_accel, b = course.end_accel;
@@ -256,13 +267,13 @@ QuickestCourse quickest_course(const Course& given, double top, double slack) {
     const double speed = course.start_speed + direct.rise * (a + 0.5 * direct.rise);
     const double held = direct.hold * (speed + 0.5 * direct.hold * (a + direct.rise));
     const double more = course.way - (first + held + last);
-    // what roundings of the way, of the speeds (over the acceleration 1) and of the accelerations (over the jerk 1) make of it
+    // what roundings of the way, of the speeds (over the acceleration 1) and of the accelerations (over the jerk 1)
+    // make of it
     const double parts = std::fabs(first) + std::fabs(held) + std::fabs(last);
     const double speeds = std::fabs(course.start_speed) + std::fabs(course.end_speed);
     const double sensitive = speeds * speeds + (speeds + a * a + b * b) * (std::fabs(a) + std::fabs(b));
     const double noise = slack + 8 * rounding * (parts + std::min(sensitive, 64 * parts));
-    if (std::fabs(more) <= noise)
-        return {direct.mirrored, false, {direct.rise, direct.hold, direct.fall, 0, 0, 0, 0}};
+    if (std::fabs(more) <= noise) return {direct.mirrored, false, {direct.rise, direct.hold, direct.fall, 0, 0, 0, 0}};
     bool backwards = more < 0;
     Swings swings(backwards ? course.backwards() : course, top);
     if (swings.find()) return {direct.mirrored, backwards, swings.phases()};

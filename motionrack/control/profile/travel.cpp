@@ -1,5 +1,5 @@
-// A travel is solved in units of its limits (jerk 1, acceleration 1) and told in the user's: from the start on as far as the
-// cruise, from the target back behind it, so that both ends are exact and the roundings meet in the middle.
+// A travel is solved in units of its limits (jerk 1, acceleration 1) and told in the user's: from the start on as far
+// as the cruise, from the target back behind it, so that both ends are exact and the roundings meet in the middle.
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,9 @@ struct Scale {
 };
 
 /// The speed that is left, or reached, when the acceleration has gone to 0.
-double speed_at_last(double speed, double accel) { return speed + 0.5 * accel * std::fabs(accel); }
+double speed_at_last(double speed, double accel) {
+    return speed + 0.5 * accel * std::fabs(accel);
+}
 
 bool ends_within(double speed, double accel, double top) {
     return std::fabs(accel) <= to_roundings && std::fabs(speed) + 0.5 * accel * accel <= top * to_roundings;
@@ -39,7 +41,9 @@ bool usable(const TravelLimits& limits) {
     return amount(limits.speed) && amount(limits.accel) && amount(limits.jerk);
 }
 
-bool finite(const TravelState& s) { return std::isfinite(s.position) && std::isfinite(s.speed) && std::isfinite(s.accel); }
+bool finite(const TravelState& s) {
+    return std::isfinite(s.position) && std::isfinite(s.speed) && std::isfinite(s.accel);
+}
 
 }  // namespace
 
@@ -53,9 +57,14 @@ class TravelBuilder {
         accel_ = from.accel * scale.accel;
     }
 
-    double speed() const { return speed_; }
-    double accel() const { return accel_; }
     double way() const { return way_; }
+
+    /// From here to a speed in user's units, the rest scaled.
+    Course course_to(double speed, double accel, double way) const {
+        const double end = speed * scale_.speed;
+        const double change = time_ == 0 ? (speed - at_.speed) * scale_.speed : end - speed_;
+        return {speed_, accel_, end, accel, way, change};
+    }
 
     void bring_accel_within() {
         if (std::fabs(accel_) <= 1) return;
@@ -103,25 +112,24 @@ class TravelBuilder {
         }
     }
 
+    /// The last three phases, told back from the target.
     void end_at(const TravelState& target) {
-        double left[3];
-        double end[3];
-        double t = time_;
-        for (int k = 0; k < 3; ++k) {
-            left[k] = tail_[k].seconds * scale_.seconds;
-            t += left[k];
-            end[k] = t;
-        }
+        double end[4] = {time_};
+        for (int k = 0; k < 3; ++k) end[k + 1] = end[k] + tail_[k].seconds * scale_.seconds;
+        int last = out_.count_;
+        for (int k = 0; k < 3; ++k) last += end[k + 1] > end[k];
+        out_.count_ = last;
         TravelState at = target;
-        Travel::Phase told[3];
         for (int k = 2; k >= 0; --k) {
-            if (tail_[k].jerk == 0 && left[k] > 0) at.accel = tail_[k].hold * limits_.accel;
-            told[k] = {end[k], end[k], -left[k], at.position, at.speed, at.accel, tail_[k].jerk * limits_.jerk};
-            at = after(at, told[k].jerk, -left[k]);
+            if (!(end[k + 1] > end[k])) continue;
+            const Part& part = tail_[k];
+            if (part.jerk == 0) at.accel = part.hold * limits_.accel;
+            const double jerk = part.jerk * limits_.jerk, seconds = part.seconds * scale_.seconds;
+            out_.phases_[static_cast<std::size_t>(--last)] = {end[k + 1], end[k + 1], -seconds, at.position,
+                                                              at.speed,   at.accel,   jerk};
+            at = after(at, jerk, -seconds);
         }
-        for (int k = 0; k < 3; ++k)
-            if (end[k] > (k > 0 ? end[k - 1] : time_)) out_.phases_[static_cast<std::size_t>(out_.count_++)] = told[k];
-        out_.duration_ = t;
+        out_.duration_ = end[3];
         out_.target_ = target;
     }
 
@@ -157,8 +165,8 @@ class TravelBuilder {
             last->end = time_;
             last->seconds += seconds;
         } else if (time_ > zero) {
-            out_.phases_[static_cast<std::size_t>(out_.count_++)] = {time_,    zero,      seconds,  at_.position,
-                                                                      at_.speed, at_.accel, jerk};
+            out_.phases_[static_cast<std::size_t>(out_.count_++)] = {time_,     zero,      seconds, at_.position,
+                                                                     at_.speed, at_.accel, jerk};
         }
         goes_on_ = goes_on_ || time_ > zero;
         at_ = after(at_, jerk, seconds);
@@ -185,8 +193,8 @@ class TravelBuilder {
         hold(accel_ > 0 ? 1 : -1, t);
     }
 
-    /// From above the greatest speed (side 1; -1: below minus it) down to it, with no more acceleration than lets the axis
-    /// stay above minus it.
+    /// From above the greatest speed (side 1; -1: below minus it) down to it, with no more acceleration than lets the
+    /// axis stay above minus it.
     void brake(double side) {
         const double top = scale_.top;
         const double over = side * speed_ - top, accel = side * accel_;
@@ -196,7 +204,7 @@ class TravelBuilder {
             ramp(-side, std::max(0.0, accel - at_top));
             accel_ = side * at_top;
         } else {
-            const DirectChange change = direct_change(side * speed_, accel, top, steepest);
+            const DirectChange change = direct_change({side * speed_, accel, top, steepest, 0, -over});
             ramp(-side, change.rise);
             if (change.hold > 0) accel_ = -side;
             keep(change.hold);
@@ -215,7 +223,7 @@ class TravelBuilder {
     const TravelLimits& limits_;
     const Scale& scale_;
     double time_ = 0;
-    bool goes_on_ = true;  ///< at_ is the end of the last phase, to the bit
+    bool goes_on_ = true;             ///< at_ is the end of the last phase, to the bit
     double speed_, accel_, way_ = 0;  ///< scaled
     std::array<Part, 3> tail_ = {};
 };
@@ -238,7 +246,7 @@ std::optional<Travel> travel(const TravelState& from, const TravelState& to, con
     top = std::max(top, std::fabs(end_speed) + 0.5 * end_accel * end_accel);
     const double way = (to.position - from.position) * scale.position - builder.way();
     const double slack = 4.5e-16 * (std::fabs(from.position) + std::fabs(to.position)) * scale.position;
-    builder.add(quickest_course({builder.speed(), builder.accel(), end_speed, end_accel, way}, top, slack), top);
+    builder.add(quickest_course(builder.course_to(to.speed, end_accel, way), top, slack), top);
     builder.end_at(to);
     return out;
 }
@@ -250,10 +258,12 @@ std::optional<Travel> change_speed(const TravelState& from, double speed, double
     std::optional<Travel> out(std::in_place);
     TravelBuilder builder(*out, from, limits, scale);
     builder.bring_accel_within();
-    builder.change(direct_change(builder.speed(), builder.accel(), end_speed, std::clamp(end_accel, -1.0, 1.0)), speed, accel);
+    builder.change(direct_change(builder.course_to(speed, std::clamp(end_accel, -1.0, 1.0), 0)), speed, accel);
     return out;
 }
 
-std::optional<Travel> stop(const TravelState& from, const TravelLimits& limits) { return change_speed(from, 0, 0, limits); }
+std::optional<Travel> stop(const TravelState& from, const TravelLimits& limits) {
+    return change_speed(from, 0, 0, limits);
+}
 
 }  // namespace motionrack::control

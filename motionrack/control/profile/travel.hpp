@@ -46,20 +46,24 @@ class Travel {
 
         /// The state at `t`, s from the start of the travel, within the phase.
         ProfileSample at(double t) const {
-            // the end of a long travel is known less exactly than the length of a phase, and no limit may be passed for it
+            // the end of a long travel is known less exactly than the length of a phase: no reason to pass a limit
             double s = t - zero;
             s = seconds < 0 ? (s < seconds ? seconds : s > 0 ? 0 : s) : (s > seconds ? seconds : s < 0 ? 0 : s);
-            return {position + s * (speed + s * (0.5 * accel + s * jerk * (1.0 / 6))), speed + s * (accel + 0.5 * s * jerk),
-                    accel + s * jerk, jerk};
+            return {position + s * (speed + s * (0.5 * accel + s * jerk * (1.0 / 6))),
+                    speed + s * (accel + 0.5 * s * jerk), accel + s * jerk, jerk};
         }
     };
     static constexpr int most_phases = 9;
 
-    double duration() const { return duration_; }         ///< s
-    const TravelState& start() const { return start_; }   ///< as it was given
-    const TravelState& target() const { return target_; } ///< as it was given; after change_speed() with the place reached
+    Travel() {}  // which leaves the phases as they are: clearing them would take a tenth of a travel's time
 
-    /// In order; those of 0 s are left out.
+    double duration() const { return duration_; }        ///< s
+    const TravelState& start() const { return start_; }  ///< as it was given
+    const TravelState& target() const {
+        return target_;
+    }  ///< as it was given; after change_speed() with the place reached
+
+    /// In order; those of 0 s are left out. At most 9.
     std::span<const Phase> phases() const { return {phases_.data(), static_cast<std::size_t>(count_)}; }
 
     /// The state at `t` s; up to 0 the start, from duration() on the target, exactly.
@@ -78,16 +82,17 @@ class Travel {
 /// |speed| + accel^2 / (2 limits.jerk) <= limits.speed, to 1e-10 of the limits. False for what is not finite.
 bool can_end_so(double speed, double accel, const TravelLimits& limits);
 
-/// The quickest motion from `from` to `to`, its duration to 1e-8 of itself and of 1 s; speed and acceleration stay within
-/// 1 + 1e-9 of the limits. `from` is any state of finite numbers. If its acceleration is outside the limits, it is brought
-/// within first; then, if the speed is outside or cannot but get there, that is, too, each as quickly as the jerk allows,
-/// and the quickest motion begins where the speed is within for good. A target that the direct change of speed reaches to
-/// the roundings of the positions counts as reached by it.
-/// Nothing if the motion cannot end so (see can_end_so), a number is not finite or a limit is not > 0.
+/// The quickest motion from `from` to `to`, its duration to 1e-8 of itself and of 1 s; speed and acceleration stay
+/// within 1 + 1e-9 of the limits. `from` is any state of finite numbers. An acceleration outside the limits is brought
+/// within first; then a speed that is outside, or cannot but get there, is, too, each as quickly as the jerk allows.
+/// The quickest motion begins where the speed is within for good, so that a start that is too fast comes in slowing
+/// down and may get slower than the limit. A target that the direct change of speed misses by no more than roundings of
+/// the numbers is reached by it. Nothing if the motion cannot end so (see can_end_so), a number is not finite or a
+/// limit is not > 0.
 std::optional<Travel> travel(const TravelState& from, const TravelState& to, const TravelLimits& limits);
 
 /// The quickest change to a speed and an acceleration, wherever that is. An acceleration outside the limits is brought
-/// within first; speeds outside are left on the quickest way to the target. Nothing as for travel().
+/// within first; a speed outside is left on the quickest way to the target. Nothing as for travel().
 std::optional<Travel> change_speed(const TravelState& from, double speed, double accel, const TravelLimits& limits);
 
 /// The quickest way to rest, wherever that is; as change_speed() to 0. Nothing if a number is not finite or a limit is

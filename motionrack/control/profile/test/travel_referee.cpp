@@ -1,5 +1,5 @@
-// The slow referee: every motion of the right form that reaches the target, the quickest of them. It knows neither feet nor
-// scales: it integrates phases one after the other.
+// The slow referee: every motion of the right form that reaches the target, the quickest of them. It knows neither feet
+// nor scales: it integrates phases one after the other.
 //
 //   peak y <= accel: the acceleration rises to y;  y > accel: it is held at its limit for (y - accel)/jerk s
 //   then it falls to the valley -- two of them may give the end speed -- and rises to the end's acceleration
@@ -47,7 +47,8 @@ class Search {
         }
         for (const bool low : {false, true})
             for (int i = 0; i + 1 <= steps; ++i)
-                best = std::min(best, between(peaks[static_cast<std::size_t>(i)], peaks[static_cast<std::size_t>(i) + 1], low));
+                best = std::min(
+                    best, between(peaks[static_cast<std::size_t>(i)], peaks[static_cast<std::size_t>(i) + 1], low));
         return best;
     }
 

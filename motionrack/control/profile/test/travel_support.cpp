@@ -1,17 +1,16 @@
-#include <motionrack/control/profile/test/travel_support.hpp>
-
 #include <algorithm>
 #include <bit>
 #include <cstdio>
 #include <limits>
+#include <motionrack/control/profile/test/travel_support.hpp>
 
 namespace motionrack::control::travel_test {
 
 std::string text_of(const Task& t) {
     char text[400];
-    std::snprintf(text, sizeof text, "{{%.17g, %.17g, %.17g}, {%.17g, %.17g, %.17g}, {%.17g, %.17g, %.17g}}", t.from.position,
-                  t.from.speed, t.from.accel, t.to.position, t.to.speed, t.to.accel, t.limits.speed, t.limits.accel,
-                  t.limits.jerk);
+    std::snprintf(text, sizeof text, "{{%.17g, %.17g, %.17g}, {%.17g, %.17g, %.17g}, {%.17g, %.17g, %.17g}}",
+                  t.from.position, t.from.speed, t.from.accel, t.to.position, t.to.speed, t.to.accel, t.limits.speed,
+                  t.limits.accel, t.limits.jerk);
     return text;
 }
 
@@ -36,7 +35,9 @@ void Tasks::allow(Task& task) {
 Task Tasks::usual() {
     Task t;
     t.limits = {between(0.2, 3), between(0.2, 3), between(0.2, 3)};
-    const auto some = [&](double most) { return one_in(8) ? 0 : one_in(12) ? (one_in(2) ? most : -most) : between(-most, most); };
+    const auto some = [&](double most) {
+        return one_in(8) ? 0 : one_in(12) ? (one_in(2) ? most : -most) : between(-most, most);
+    };
     const double quick = t.limits.speed, a_start = std::min(t.limits.accel, std::sqrt(2 * quick * t.limits.jerk));
     t.from = {0, some(quick), some(a_start)};
     // a start that can be kept within
@@ -52,15 +53,18 @@ Task Tasks::usual() {
 
 Task Tasks::any() {
     Task t = usual();
-    t.limits = {std::fabs(of_magnitude(1e-3, 1e3)), std::fabs(of_magnitude(1e-3, 1e3)), std::fabs(of_magnitude(1e-3, 1e3))};
+    t.limits = {std::fabs(of_magnitude(1e-3, 1e3)), std::fabs(of_magnitude(1e-3, 1e3)),
+                std::fabs(of_magnitude(1e-3, 1e3))};
     const auto within = [&](TravelState& s) {
         const double part_of_accel = one_in(3) ? of_magnitude(1e-6, 1) : between(-1, 1);
         const double part_of_speed = one_in(3) ? of_magnitude(1e-6, 1) : between(-1, 1);
         s.accel = one_in(4) ? 0 : t.limits.accel * part_of_accel;
         s.speed = one_in(4) ? 0 : t.limits.speed * part_of_speed;
         const double room = t.limits.speed - 0.5 * s.accel * s.accel / t.limits.jerk;
-        if (room < 0) s.accel = 0;
-        else s.speed = std::clamp(s.speed, -room, room);
+        if (room < 0)
+            s.accel = 0;
+        else
+            s.speed = std::clamp(s.speed, -room, room);
     };
     within(t.from);
     within(t.to);
@@ -102,8 +106,8 @@ std::optional<double> Tasks::motion(Task& t) {
                 const double u = dt * i / 8, v = s.speed + u * (s.accel + 0.5 * u * jerk), a = s.accel + u * jerk;
                 if (std::fabs(v) + 0.5 * a * a / m.jerk > m.speed) return std::nullopt;
             }
-            s = {s.position + dt * (s.speed + dt * (0.5 * s.accel + dt * jerk / 6)), s.speed + dt * (s.accel + 0.5 * dt * jerk),
-                 s.accel + dt * jerk};
+            s = {s.position + dt * (s.speed + dt * (0.5 * s.accel + dt * jerk / 6)),
+                 s.speed + dt * (s.accel + 0.5 * dt * jerk), s.accel + dt * jerk};
             seconds += dt;
         }
     }
@@ -116,16 +120,20 @@ std::string fault_of(const Travel& travel, const Task& task, double within) {
     const double T = travel.duration();
     if (!(T >= 0 && std::isfinite(T))) return "duration";
     const ProfileSample first = travel.sample(0), last = travel.sample(T);
-    if (first.position != task.from.position || first.speed != task.from.speed || first.accel != task.from.accel) return "start";
+    if (first.position != task.from.position || first.speed != task.from.speed || first.accel != task.from.accel)
+        return "start";
     if (last.position != task.to.position || last.speed != task.to.speed || last.accel != task.to.accel) return "end";
     double begin = 0;
     TravelState at = task.from;
     const double a_size = std::max({m.accel, std::fabs(task.from.accel)});
-    const double v_size = std::max({m.speed, std::fabs(task.from.speed), a_size * a_size / m.jerk * (a_size > m.accel)});
+    const double v_size =
+        std::max({m.speed, std::fabs(task.from.speed), a_size * a_size / m.jerk * (a_size > m.accel)});
     // what the accelerations at both ends are worth in way has roundings, too, however short the travel is
     const double a_ends = std::fabs(task.from.accel) + std::fabs(task.to.accel);
-    const double ends = (std::fabs(task.from.speed) + std::fabs(task.to.speed) + a_ends * a_ends / m.jerk) * a_ends / m.jerk;
-    const double p_size = std::max({std::fabs(task.from.position), std::fabs(task.to.position), v_size * T, 0.01 * ends});
+    const double ends =
+        (std::fabs(task.from.speed) + std::fabs(task.to.speed) + a_ends * a_ends / m.jerk) * a_ends / m.jerk;
+    const double p_size =
+        std::max({std::fabs(task.from.position), std::fabs(task.to.position), v_size * T, 0.01 * ends});
     const auto jump = [&](double position, double speed, double accel) {
         const double instant = 1e-15 * T;  // times are no finer
         if (!(std::fabs(position - at.position) <= 1e-12 * p_size + instant * v_size)) return "jump of the position";
@@ -148,7 +156,8 @@ std::string fault_of(const Travel& travel, const Task& task, double within) {
                 if (i > 0 && p.jerk != 0) {
                     const double zero = -p.accel / p.jerk + p.zero;
                     const double peak = p.speed - 0.5 * p.accel * p.accel / p.jerk;
-                    if (zero > begin && zero < p.end && zero > within && !(std::fabs(peak) <= m.speed * (1 + 1e-9))) return "peak speed";
+                    if (zero > begin && zero < p.end && zero > within && !(std::fabs(peak) <= m.speed * (1 + 1e-9)))
+                        return "peak speed";
                 }
             }
             at = {position, speed, accel};
@@ -193,7 +202,9 @@ double entry_of(const Travel& travel, const TravelLimits& limits) {
 std::uint64_t bits_of_travels(std::uint64_t seed, int count) {
     Tasks tasks(seed);
     std::uint64_t sum = 14695981039346656037u;
-    const auto fold = [&sum](double x) { sum = (sum ^ std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x)) * 1099511628211u; };
+    const auto fold = [&sum](double x) {
+        sum = (sum ^ std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x)) * 1099511628211u;
+    };
     for (int i = 0; i < count; ++i) {
         const Task t = i % 3 == 0 ? tasks.outside() : i % 3 == 1 ? tasks.any() : tasks.usual();
         const auto one = travel(t.from, t.to, t.limits);

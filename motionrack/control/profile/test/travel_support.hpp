@@ -49,8 +49,8 @@ class Tasks {
 /// going on without jumps, limits held from `within` on, both ends exact.
 std::string fault_of(const Travel& travel, const Task& task, double within = 0);
 
-/// The least duration by a slow search: all motions of the form jerk +-j, 0, -+j, 0 (cruise), -+j, 0, +-j, by their peak,
-/// which is scanned and bisected. Starts and targets within the limits. Infinite if the search finds none.
+/// The least duration by a slow search: all motions of the form jerk +-j, 0, -+j, 0 (cruise), -+j, 0, +-j, by their
+/// peak, which is scanned and bisected. Starts and targets within the limits. Infinite if the search finds none.
 double slowly_found_duration(const Task& task, int steps = 100);
 
 /// The instant from which on a travel is within the limits.

@@ -20,7 +20,9 @@ class DeepTravels : public ::testing::TestWithParam<int> {
     std::uint64_t seed() const { return 1000 + static_cast<std::uint64_t>(GetParam()); }
 };
 
-double exactness(double seconds) { return 1e-8 * std::max(1.0, seconds); }
+double exactness(double seconds) {
+    return 1e-8 * std::max(1.0, seconds);
+}
 
 TEST_P(DeepTravels, AreAllRightAndNeverSlowerThanTheReferee) {
     Tasks tasks(seed());
