@@ -23,6 +23,12 @@ double cube_third(double x) {
     return x * x * x * (1.0 / 3);
 }
 
+/// What roundings of the speeds and accelerations make of a way: they change the time at the greatest acceleration
+/// `accel`, and so the way by `sensitive` over it; no more than 1e-12 of the way.
+double noise_of(double way, double sensitive, double accel) {
+    return 8 * rounding * (way + std::min(512 * way, sensitive / accel));
+}
+
 /// A root of a function that is below 0 at `least` and above at `most`, crossing once: Halley's steps from `guess`, a
 /// bisection where one would leave the bracket. `at(x)` gives the function and its first two derivatives.
 struct Jet {
@@ -120,7 +126,7 @@ double Swings::first_crest() const {
     return 0.5 * (fall - rise_ / fall);
 }
 
-bool Swings::find() {
+bool Swings::find(double slack, double sensitive) {
     double least = least_;
     const bool may_meet_gap = least < 0 && gap_ > 0;
     if (may_meet_gap) least = std::min(least, -gap_);
@@ -139,7 +145,8 @@ bool Swings::find() {
         find_above(least);
         return true;
     }
-    if (reach_ <= reach_at(-gap_)) {
+    // at the gap the acceleration's valley is the gap
+    if (reach_ <= reach_at(-gap_) + slack + noise_of(std::fabs(reach_), sensitive, gap_)) {
         find_between(least, -gap_);
         return true;
     }
@@ -267,16 +274,15 @@ QuickestCourse quickest_course(const Course& given, double top, double slack) {
     const double speed = course.start_speed + direct.rise * (a + 0.5 * direct.rise);
     const double held = direct.hold * (speed + 0.5 * direct.hold * (a + direct.rise));
     const double more = course.way - (first + held + last);
-    // what roundings of the way, of the speeds (over the acceleration 1) and of the accelerations (over the jerk 1)
-    // make of it
     const double parts = std::fabs(first) + std::fabs(held) + std::fabs(last);
     const double speeds = std::fabs(course.start_speed) + std::fabs(course.end_speed);
     const double sensitive = speeds * speeds + (speeds + a * a + b * b) * (std::fabs(a) + std::fabs(b));
-    const double noise = slack + 8 * rounding * (parts + std::min(sensitive, 64 * parts));
+    const double most = std::max(a + direct.rise, std::max(std::fabs(a), std::fabs(b)));
+    const double noise = slack + noise_of(parts, sensitive, most);
     if (std::fabs(more) <= noise) return {direct.mirrored, false, {direct.rise, direct.hold, direct.fall, 0, 0, 0, 0}};
     bool backwards = more < 0;
     Swings swings(backwards ? course.backwards() : course, top);
-    if (swings.find()) return {direct.mirrored, backwards, swings.phases()};
+    if (swings.find(slack, sensitive)) return {direct.mirrored, backwards, swings.phases()};
     backwards = !backwards;
     Swings others(backwards ? course.backwards() : course, top);
     others.find_beyond_gap();

@@ -66,8 +66,9 @@ class Swings {
     Swings(const Course& course, double top);
 
     /// Finds the quickest among those that the direct change leads to. False: the way is less than they come to, and
-    /// that of the course told backwards is to be taken beyond its gap.
-    bool find();
+    /// that of the course told backwards is to be taken beyond its gap. `slack` and what roundings make of `sensitive`
+    /// are forgiven at the gap.
+    bool find(double slack, double sensitive);
     /// Finds the quickest of those beyond the gap.
     void find_beyond_gap();
     SwingPhases phases() const;
