@@ -145,13 +145,19 @@ bool Swings::find(double slack, double sensitive) {
         find_above(least);
         return true;
     }
-    // at the gap the acceleration's valley is the gap
-    if (reach_ <= reach_at(-gap_) + slack + noise_of(std::fabs(reach_), sensitive, gap_)) {
+    // at both sides of the gap the acceleration's valley is as deep as that
+    const double noise = slack + noise_of(std::fabs(reach_), sensitive, gap_);
+    if (reach_ <= reach_at(-gap_) + noise) {
         find_between(least, -gap_);
         return true;
     }
-    if (reach_ < reach_at(gap_)) return false;
-    find_above(gap_);
+    const double beyond = reach_ - reach_at(gap_);
+    if (beyond < -noise) return false;
+    if (beyond > noise) {
+        find_above(gap_);
+    } else {
+        s_ = gap_;
+    }
     return true;
 }
 

@@ -1,4 +1,5 @@
-// A million travels beside the slow referee, a million from outside the limits, and millions beside motions that happen.
+// A million travels beside the slow referee, a million from outside the limits, and millions beside motions that
+// happen.
 
 #include <gtest/gtest.h>
 
