@@ -1,4 +1,4 @@
-// The look-ahead and the curve take memory when they are made, and none for a move.
+// The look-ahead and the curve take memory when they are made, and none for a move; a travel takes none.
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <motionrack/control/curve/curve.hpp>
 #include <motionrack/control/path.hpp>
+#include <motionrack/control/profile/travel.hpp>
 #include <new>
 
 namespace {
@@ -82,6 +83,19 @@ TEST(Curve, TakesNoMemoryForAMove) {
     pull();
     EXPECT_EQ(allocations, before);
     EXPECT_GT(length, 500);
+}
+
+TEST(Travel, TakesNoMemory) {
+    const TravelLimits limits = {100, 1000, 20'000};
+    double seconds = 0;
+    const std::uint64_t before = allocations;
+    for (int i = 0; i < 5000; ++i) {
+        const TravelState from = {0, 30.0 - i % 61, 0.1 * (i % 997)};
+        if (const auto out = travel(from, {0.01 * (i - 2500), 0.02 * (i % 1000), 0}, limits)) seconds += out->duration();
+        if (const auto out = stop(from, limits)) seconds += out->sample(0.01).position;
+    }
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(seconds, 5);
 }
 
 }  // namespace

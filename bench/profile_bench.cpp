@@ -1,0 +1,116 @@
+// Speed of the quickest motion of one axis between two states; beside it the S-curve, which knows rest to rest alone.
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <motionrack/control/profile/travel.hpp>
+#include <random>
+#include <vector>
+
+namespace motionrack::control {
+namespace {
+
+constexpr std::size_t task_count = 8192;
+
+struct Task {
+    TravelState from, to;
+    TravelLimits limits;
+};
+
+/// Everything at random: limits within an order of magnitude, speeds up to `moving` of what is allowed.
+std::vector<Task> tasks(double moving) {
+    std::mt19937_64 random(20261122);
+    const auto between = [&](double least, double most) {
+        return least + (most - least) * static_cast<double>(random() >> 11) * 0x1p-53;
+    };
+    std::vector<Task> out(task_count);
+    for (Task& t : out) {
+        t.limits.speed = between(20, 200);
+        t.limits.accel = between(200, 2000);
+        t.limits.jerk = between(4e3, 4e4);
+        for (TravelState* state : {&t.from, &t.to}) {
+            state->position = between(-100, 100);
+            // as much acceleration as leaves half of the speed
+            const double most = std::fmin(t.limits.accel, std::sqrt(t.limits.speed * t.limits.jerk));
+            state->accel = moving * between(-most, most);
+            const double room = t.limits.speed - 0.5 * state->accel * state->accel / t.limits.jerk;
+            state->speed = moving * between(-room, room);
+        }
+    }
+    return out;
+}
+
+template <class Solve>
+void solve_all(benchmark::State& state, const std::vector<Task>& work, Solve solve) {
+    std::size_t i = 0;
+    for (auto _ : state) {
+        auto out = solve(work[i++ & (task_count - 1)]);
+        benchmark::DoNotOptimize(out);
+    }
+}
+
+auto travel_of(const Task& t) {
+    return travel(t.from, t.to, t.limits);
+}
+
+void s_curve_from_rest_to_rest(benchmark::State& state) {
+    solve_all(state, tasks(0), [](const Task& t) {
+        return SCurve(std::fabs(t.to.position - t.from.position), t.limits.speed, t.limits.accel, t.limits.jerk);
+    });
+}
+BENCHMARK(s_curve_from_rest_to_rest);
+
+void travel_from_rest_to_rest(benchmark::State& state) {
+    solve_all(state, tasks(0), travel_of);
+}
+BENCHMARK(travel_from_rest_to_rest);
+
+void travel_between_any_states(benchmark::State& state) {
+    solve_all(state, tasks(1), travel_of);
+}
+BENCHMARK(travel_between_any_states);
+
+/// Near targets: no cruise, so that an equation is solved for nearly each.
+void travel_between_any_states_near(benchmark::State& state) {
+    auto work = tasks(1);
+    for (Task& t : work) t.to.position = t.from.position + 0.02 * (t.to.position - t.from.position);
+    solve_all(state, work, travel_of);
+}
+BENCHMARK(travel_between_any_states_near);
+
+/// The start up to twice as fast, and accelerated up to twice as much, as it may be.
+void travel_from_outside(benchmark::State& state) {
+    auto work = tasks(1);
+    for (Task& t : work) t.from = {t.from.position, 2 * t.from.speed, 2 * t.from.accel};
+    solve_all(state, work, travel_of);
+}
+BENCHMARK(travel_from_outside);
+
+void change_of_speed(benchmark::State& state) {
+    solve_all(state, tasks(1), [](const Task& t) { return change_speed(t.from, t.to.speed, t.to.accel, t.limits); });
+}
+BENCHMARK(change_of_speed);
+
+void stop_of_any_motion(benchmark::State& state) {
+    solve_all(state, tasks(1), [](const Task& t) { return stop(t.from, t.limits); });
+}
+BENCHMARK(stop_of_any_motion);
+
+void sample_of_a_travel(benchmark::State& state) {
+    std::vector<Travel> out;
+    for (const Task& t : tasks(1)) out.push_back(travel_of(t).value());
+    std::size_t i = 0;
+    double part = 0;
+    for (auto _ : state) {
+        const Travel& one = out[i++ & (task_count - 1)];
+        part += 0.37;
+        if (part > 1) part -= 1;
+        benchmark::DoNotOptimize(one.sample(part * one.duration()));
+    }
+}
+BENCHMARK(sample_of_a_travel);
+
+}  // namespace
+}  // namespace motionrack::control
+
+BENCHMARK_MAIN();
