@@ -16,6 +16,10 @@ class DriveRule {
     virtual double joint_speed(const Geometry& before, const Geometry& after) const = 0;
     /// The part of a move, mm (degrees), on which the hardware can neither speed up nor slow down; 0 .. its length.
     virtual double spent_length(const Geometry& path) const = 0;
+    /// How many axes it draws together; one more is steered beside these.
+    virtual int most_drawn() const { return axis_count; }
+    /// A steered axis is told its speed no more often than after so many s.
+    virtual double steering_seconds() const { return 0; }
 };
 
 ///     for (const Move& move : program) {

@@ -16,6 +16,7 @@ struct PlannedMove {
     double exit = 0;     ///< speed at the end, per second
     double accel = 0;    ///< along the path, per second squared, both ways
     bool even = false;   ///< the speed changes evenly from `entry` to `exit` over the whole length
+    std::uint8_t axes = 0;  ///< that move on the whole of a path that this is a piece of, a bit each, X the lowest; 0: those that move here
     std::int64_t number = 0;  ///< of the first move in it, in the order of push, from 0
     double jerk = 0;     ///< along the path, per second cubed; used for S-curves where the move starts and ends at rest; 0: none
 };

@@ -190,7 +190,7 @@ CornerSide SpanMaker::side_of(const Span& span, const Point& tangent) const {
 }
 
 void SpanMaker::push(const Move& move) {
-    MOTIONRACK_ASSERT(has_room());
+    MOTIONRACK_ASSERT(made_ - taken_ + most_a_push <= capacity);
     if (move.kind == MoveKind::dwell) {
         rest(move.seconds, move.line);
         return;

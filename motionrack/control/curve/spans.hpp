@@ -58,7 +58,7 @@ class SpanMaker {
   public:
     SpanMaker(const MachineLimits& limits, const Point& start);
 
-    bool has_room() const { return made_ - taken_ + most_a_push <= capacity; }
+    bool has_room() const { return made_ - taken_ + most_a_push + most_a_flush <= capacity; }
     void push(const Move& move);
     void flush();
 
@@ -70,7 +70,7 @@ class SpanMaker {
 
   private:
     static constexpr std::size_t capacity = 16;
-    static constexpr std::size_t most_a_push = 5;
+    static constexpr std::size_t most_a_push = 5, most_a_flush = 3;
     static constexpr std::size_t most_merged = 32;
 
     Tolerance tolerance_of(const Move& move) const;

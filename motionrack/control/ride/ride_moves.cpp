@@ -1,20 +1,21 @@
 #include <motionrack/control/ride/ride_moves.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace motionrack::control {
 
 namespace {
 
-/// No move of fewer pulses of its fastest axis.
-constexpr double least_pulses = 4;
-/// Of what an axis may jump by at a corner, so much at the joint of two moves; and so much by rounding to pulses is nothing.
-constexpr double jump_share = 0.7, least_noise = 0.2;
+/// Of what an axis may jump by at a corner, so much at each end of a move; and so much by rounding to pulses is nothing.
+constexpr double jump_share = 0.3, least_noise = 0.1;
 /// Pulses by which a place may be early or late on a move because its speed changes evenly, and by which it may be beside its path.
 constexpr double off_pulses = 0.4;
-constexpr double least_seconds = 0.0005;
+constexpr double shortest = 0.0005;
 constexpr double least_accel = 1e-6;
+/// mm, degrees: no move at all.
+constexpr double smallest_move = 1e-6;
 
 /// Along the path: of XYZ, or of the fastest rotary axis where only these move.
 double size_of(const Point& way) {
@@ -22,14 +23,16 @@ double size_of(const Point& way) {
     return linear > smallest_length ? linear : std::max({std::fabs(way[3]), std::fabs(way[4]), std::fabs(way[5])});
 }
 
-/// An axis' acceleration that makes no faster: what turns the path.
-double turning(const RideState& state, std::size_t axis) {
-    double along = 0, square = 0;
-    for (std::size_t i = 0; i < state.speed.size(); ++i) {
-        along += state.accel[i] * state.speed[i];
-        square += state.speed[i] * state.speed[i];
-    }
-    return square > 0 ? std::fabs(state.accel[axis] - along / square * state.speed[axis]) : 0;
+Point between(const Point& from, const Point& to) {
+    Point way;
+    for (std::size_t i = 0; i < way.size(); ++i) way[i] = to[i] - from[i];
+    return way;
+}
+
+/// How far an axis' speed is from what it would be on the straight way.
+double turn_of(const RideState& state, const Point& way, double length, std::size_t axis) {
+    const double along = length > 0 ? size_of(state.speed) / length * way[axis] : 0;
+    return std::fabs(state.speed[axis] - along);
 }
 
 }  // namespace
@@ -40,13 +43,37 @@ RideMoves::RideMoves(const MachineLimits& limits, const Point& start, RideMovesS
 Result<void> RideMoves::push(const Move& move, bool overridable) {
     MOTIONRACK_TRY(const Geometry path, checked_path(move, position_, path_limits_));
     if (path.shape == PathShape::nothing && move.kind != MoveKind::dwell) return {};
-    // Where the card has to stand between two moves the path ends.
-    const bool both = path.shape != PathShape::nothing && last_.shape != PathShape::nothing;
-    if (both && settings_.drive && settings_.drive->joint_speed(last_, path) <= 0) rider_.flush();
-    rider_.push(move, overridable);
+    const std::uint8_t axes = axes_of(path);
+    if (has_to_rest(path, axes)) {
+        rider_.flush();
+        run_axes_ = 0;
+    }
+    rider_.push({move, overridable, axes});
     last_ = path;
+    last_axes_ = axes;
+    run_axes_ |= axes;
     if (path.shape != PathShape::nothing) position_ = move.end;
     return {};
+}
+
+std::uint8_t RideMoves::axes_of(const Geometry& path) const {
+    const Point worst = worst_components(path);
+    unsigned axes = 0;
+    for (std::size_t i = 0; i < worst.size(); ++i)
+        if (worst[i] * path.length * limits_[i].pulses_per_unit >= 0.5) axes |= 1u << i;
+    return static_cast<std::uint8_t>(axes);
+}
+
+/// Where the card has to stand between two moves: also before a corner is cut with more axes than it draws.
+bool RideMoves::has_to_rest(const Geometry& path, std::uint8_t axes) const {
+    if (!settings_.drive || path.shape == PathShape::nothing || last_.shape == PathShape::nothing) return false;
+    const auto together = static_cast<std::uint8_t>(run_axes_ | axes);
+    const bool steers = std::popcount(together) > settings_.drive->most_drawn();
+    return (steers && (axes != last_axes_ || run_axes_ != axes)) || settings_.drive->joint_speed(last_, path) <= 0;
+}
+
+bool RideMoves::steers(std::int64_t number) const {
+    return settings_.drive && std::popcount(rider_.move(number).axes) > settings_.drive->most_drawn();
 }
 
 bool RideMoves::pull(PlannedMove& planned, bool early) {
@@ -56,7 +83,7 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
     planned.start = place_;
     if (next == RideNext::dwell) {
         planned.number = rider_.move_of_rest();
-        planned.move = rider_.move(planned.number);
+        planned.move = rider_.move(planned.number).move;
         planned.move.end = place_;
         planned.move.seconds = settings_.cut_dwells ? std::min(settings_.most_seconds, rider_.dwell_seconds()) : rider_.dwell_seconds();
         rider_.pass_dwell(planned.move.seconds);
@@ -65,14 +92,17 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
     const RideState begin = rider_.at(0);
     const double seconds = last_seconds_ = seconds_of_next();
     const RideState end = rider_.at(seconds);
+    if (size_of(between(place_, end.place)) < smallest_move) {  // where it turns round
+        rider_.pass(seconds);
+        return pull(planned, early);
+    }
     planned.number = rider_.move_of(begin);
-    planned.move = rider_.move(planned.number);
+    planned.move = rider_.move(planned.number).move;
+    if (steers(planned.number)) planned.axes = rider_.move(planned.number).axes;
     if (planned.move.kind != MoveKind::traverse) planned.move.kind = MoveKind::feed;
     planned.move.end = end.place;
-    Point way;
-    for (std::size_t i = 0; i < way.size(); ++i) way[i] = end.place[i] - place_[i];
     const double speed_in = size_of(begin.speed), speed_out = size_of(end.speed);
-    planned.length = size_of(way);
+    planned.length = size_of(between(place_, end.place));
     planned.entry = speed_in;
     planned.cruise = std::max(speed_in, speed_out);
     planned.exit = speed_out;
@@ -88,38 +118,37 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
 /// matters.
 double RideMoves::seconds_of_next() const {
     const RideState begin = rider_.at(0);
-    double seconds = std::min({settings_.most_seconds, rider_.left(), 4 * last_seconds_});
-    for (; seconds > least_seconds; seconds *= 0.5) {
-        const RideState end = rider_.at(seconds);
-        const Roughness is = roughness_of(begin, end, seconds);
-        if (is.turn <= jump_share && is.off <= off_pulses) break;
-        if (is.pulses < 2 * least_pulses || is.half_pulse * 2 > std::max(is.turn, least_noise)) break;
+    const double least = steers(rider_.move_of(begin)) ? settings_.drive->steering_seconds() : shortest;
+    double seconds = std::min({settings_.most_seconds, rider_.left(), std::max(4 * last_seconds_, least)});
+    for (; seconds >= 2 * shortest; seconds *= 0.5) {
+        const Roughness is = roughness_of(begin, seconds);
+        if (is.turn <= jump_share && (is.off <= off_pulses || seconds < 2 * least)) break;
+        if (is.half_pulse > std::max(is.turn, least_noise)) break;
     }
     // No crumb before the end.
-    if (rider_.left() - seconds < 0.5 * seconds) seconds = rider_.left();
-    return seconds;
+    const double left = rider_.left();
+    if (left - seconds >= 0.5 * seconds) return seconds;
+    return roughness_of(begin, left).turn <= jump_share ? left : 0.5 * left;
 }
 
-RideMoves::Roughness RideMoves::roughness_of(const RideState& begin, const RideState& end, double seconds) const {
-    const RideState middle = rider_.at(0.5 * seconds);
-    Point way, gone;
+RideMoves::Roughness RideMoves::roughness_of(const RideState& begin, double seconds) const {
+    const RideState middle = rider_.at(0.5 * seconds), end = rider_.at(seconds);
+    const Point way = between(begin.place, end.place), gone = between(begin.place, middle.place);
     double square = 0, along = 0, even = 0;
     for (std::size_t i = 0; i < way.size(); ++i) {
-        way[i] = end.place[i] - begin.place[i];
-        gone[i] = middle.place[i] - begin.place[i];
         square += way[i] * way[i];
         along += way[i] * gone[i];
         even += way[i] * seconds * (0.375 * begin.speed[i] + 0.125 * end.speed[i]);  // with an even change of the speed
     }
     Roughness out;
-    if (!(square > 0)) return out;
+    const double length = size_of(way);
+    const double per_square = square > 0 ? 1 / square : 0;
     for (std::size_t i = 0; i < way.size(); ++i) {
         if (!limits_[i].present) continue;
         const double pulses = limits_[i].pulses_per_unit, jump = limits_[i].start_speed;
-        const double beside = std::fabs(gone[i] - along / square * way[i]), ahead = std::fabs((along - even) / square * way[i]);
+        const double beside = std::fabs(gone[i] - along * per_square * way[i]), ahead = std::fabs((along - even) * per_square * way[i]);
         out.off = std::max({out.off, beside * pulses, ahead * pulses});
-        out.pulses = std::max(out.pulses, std::fabs(way[i]) * pulses);
-        for (const RideState* state : {&begin, &middle, &end}) out.turn = std::max(out.turn, turning(*state, i) * seconds / jump);
+        out.turn = std::max({out.turn, turn_of(begin, way, length, i) / jump, turn_of(end, way, length, i) / jump});
         if (way[i] != 0) out.half_pulse = std::max(out.half_pulse, 0.5 / (pulses * seconds * jump));
     }
     return out;

@@ -42,17 +42,20 @@ class RideMoves final : public PathPlanner {
         double off = 0;         ///< pulses beside its path, or early or late on it
         double turn = 0;        ///< jump at its joint with the next, in start speeds
         double half_pulse = 0;  ///< the jump of a speed that is half a pulse wrong
-        double pulses = 0;      ///< of the fastest axis
     };
 
+    bool has_to_rest(const Geometry& path, std::uint8_t axes) const;
+    std::uint8_t axes_of(const Geometry& path) const;
+    bool steers(std::int64_t number) const;
     double seconds_of_next() const;
-    Roughness roughness_of(const RideState& begin, const RideState& end, double seconds) const;
+    Roughness roughness_of(const RideState& begin, double seconds) const;
 
     MachineLimits limits_;
     PathLimits path_limits_;
     RideMovesSettings settings_;
     Rider rider_;
     Geometry last_;   ///< of the moves that were pushed
+    std::uint8_t last_axes_ = 0, run_axes_ = 0;  ///< of the last one, and of all since the path was to rest
     Point position_;
     double last_seconds_ = 0.005;
     Point place_;     ///< where the last planned move ends

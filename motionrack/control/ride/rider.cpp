@@ -45,17 +45,24 @@ Rider::Rider(const MachineLimits& limits, const Point& start, RiderSettings sett
 
 // ---- moves and pieces ---------------------------------------------------------------------------------------------------------------
 
-void Rider::push(const Move& move, bool overridable) {
-    Move tagged = move;
+void Rider::push(const RideMove& move) {
+    Move tagged = move.move;
     tagged.line = static_cast<std::int32_t>(pushed_++ % tags);
-    moves_.push_back({move, overridable});
+    moves_.push_back(move);
+    make_room();
     builder_.push(tagged);
-    gather();
+    gather(settings_.window);
 }
 
 void Rider::flush() {
+    make_room();
     builder_.flush();
-    gather();
+    gather(settings_.window);
+}
+
+/// A flush and a push may come together: then a few pieces more are known than the window has.
+void Rider::make_room() {
+    if (!builder_.has_room()) gather(std::numeric_limits<std::size_t>::max());
 }
 
 std::int64_t Rider::move_of(std::int32_t tag) const {
@@ -69,10 +76,10 @@ std::int64_t Rider::first_left() const {
     return pushed_;
 }
 
-void Rider::gather() {
+void Rider::gather(std::size_t most) {
     for (;;) {
         Part& part = now_.whole ? then_ : now_;
-        if (part.whole || part.curve.size() - (now_.whole ? 0 : piece_) >= settings_.window) return;
+        if (part.whole || part.curve.size() - (now_.whole ? 0 : piece_) >= most) return;
         CurveItem item;
         if (!builder_.pull(item)) return;
         if (item.rest) {
@@ -92,7 +99,7 @@ void Rider::append(Part& part, const CurvePiece& piece) {
 }
 
 /// With the overrides, and without what an earlier plan knew.
-void Rider::set_feed(Part& part, std::size_t i) const {
+void Rider::set_feed(Part& part, std::size_t i, double at_least) const {
     CurvePiece& piece = part.curve[i];
     const auto move = static_cast<std::size_t>(move_of(piece.line) - first_move_);
     piece.feed = part.programmed[i];
@@ -102,6 +109,7 @@ void Rider::set_feed(Part& part, std::size_t i) const {
         else if (rapid_override_ < 1)
             piece.feed = rapid_override_ * fastest_of_axes(piece, limits_);
     }
+    piece.feed = std::max(piece.feed, at_least);
     part.spans[i] = limits_on(piece, limits_, no_speed_limit);
 }
 
@@ -130,7 +138,7 @@ void Rider::to_next_part() {
     dwelt_ = 0;
     planned_to_ = now_.known();
     measure();
-    gather();
+    gather(settings_.window);
 }
 
 void Rider::set_overrides(double feed, double rapid) {
@@ -146,7 +154,7 @@ void Rider::set_overrides(double feed, double rapid) {
 // ---- what comes next ----------------------------------------------------------------------------------------------------------------
 
 RideNext Rider::next(bool early) {
-    for (gather();;) {
+    for (gather(settings_.window);;) {
         if (left_ > 0) {
             tend(early);
             return RideNext::motion;

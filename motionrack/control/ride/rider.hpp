@@ -18,6 +18,13 @@
 
 namespace motionrack::control {
 
+/// A move, and what its driver wants to know of it later.
+struct RideMove {
+    Move move;
+    bool overridable = true;   ///< otherwise it goes at its own feed
+    std::uint8_t axes = 0;     ///< that move, a bit each
+};
+
 struct RiderSettings {
     std::size_t window = 16'384;  ///< so many pieces of the curve are known before a motion begins, unless its end is known; 1 or more
 };
@@ -35,10 +42,9 @@ class Rider {
     Rider(const MachineLimits& limits, const Point& start, RiderSettings settings = {});
 
     bool has_room() const { return builder_.has_room(); }
-    /// Needs has_room(). A move that begins where the last one ended; all its numbers are finite, and feeds above 0. One that is not
-    /// `overridable` goes at its own feed.
-    void push(const Move& move, bool overridable = true);
-    /// The path ends here at rest, for now. Needs has_room().
+    /// Ask has_room() first. A move that begins where the last one ended; all its numbers are finite, and feeds above 0. 
+    void push(const RideMove& move);
+    /// The path ends here at rest, for now.
     void flush();
 
     /// What comes next. `early`: what is known is driven although there may be more.
@@ -80,7 +86,7 @@ class Rider {
     /// Of the dwell.
     std::int64_t move_of_rest() const { return move_of(now_.rest.line); }
     /// One that has not been passed, as it was pushed.
-    const Move& move(std::int64_t number) const { return moves_[static_cast<std::size_t>(number - first_move_)].move; }
+    const RideMove& move(std::int64_t number) const { return moves_[static_cast<std::size_t>(number - first_move_)]; }
 
   private:
     /// A stretch from rest to rest, or as much of it as is known: in the columns a row for each piece.
@@ -94,10 +100,6 @@ class Rider {
         double known() const { return curve.empty() ? 0 : curve.back().begin + curve.back().length; }
         void clear();
     };
-    struct KnownMove {
-        Move move;
-        bool overridable = true;
-    };
     /// A place in now_, and the motion there.
     struct Spot {
         std::size_t feed = 0, piece = 0;
@@ -106,9 +108,10 @@ class Rider {
     };
 
     std::int64_t move_of(std::int32_t tag) const;
-    void gather();
+    void gather(std::size_t most);
+    void make_room();
     void append(Part& part, const CurvePiece& piece);
-    void set_feed(Part& part, std::size_t i) const;
+    void set_feed(Part& part, std::size_t i, double at_least = 0) const;
     bool is_ready(const Part& part, std::size_t from, bool early) const;
     void drop_passed();
     void forget_moves_before(std::int64_t number);
@@ -120,7 +123,7 @@ class Rider {
     bool slow_down();
     bool ease_into_feeds();
     bool find_stop(const Spot& from, double& end);
-    void allow(const Spot& from, std::span<const FeedPiece> stop);
+    Part with_feeds(const Spot& from, std::span<const FeedPiece> stop) const;
     void take(const Spot& from, double seconds, double to);
     void measure();
     void meet_next(bool early);
@@ -145,10 +148,12 @@ class Rider {
     double dwelt_ = 0;                  ///< s of the dwell at the end of now_
     double patience_ = 0;               ///< s until another plan is sought
     bool held_ = false, holding_ = false, new_feeds_ = false, met_ = false;
+    static constexpr double least_ease = 2;
+    double ease_ = least_ease;          ///< how much longer than a stop a way into lower feeds may be
     double feed_override_ = 1, rapid_override_ = 1;
 
     std::vector<FeedSpan> stop_spans_;
-    std::deque<KnownMove> moves_;
+    std::deque<RideMove> moves_;
     std::int64_t pushed_ = 0, first_move_ = 0;  ///< of moves_
 };
 

@@ -1,7 +1,6 @@
 // Plans that go on from a motion: further, slower, to a stand.
 #include <algorithm>
 #include <cmath>
-#include <motionrack/control/ride/limits_on.hpp>
 #include <motionrack/control/ride/rider.hpp>
 
 namespace motionrack::control {
@@ -10,8 +9,8 @@ namespace {
 
 /// A stop is sought this much nearer and nearer.
 constexpr int halvings = 5, steps_out = 40;
-
-constexpr double no_speed_limit = 1e300;
+/// A way into lower feeds may be so much faster than a stop, and so much longer.
+constexpr double faster = 1.01, most_ease = 16;
 
 FeedStart start_of(const FeedState& along) {
     return {along.speed * along.speed, 2 * along.accel};
@@ -115,55 +114,51 @@ bool Rider::ease_into_feeds() {
     const Spot from = spot_at(before_left_);
     double end = 0;
     const bool slower = std::min(feed_override_, rapid_override_) < 1;
-    const bool can_stop = slower && find_stop(from, end);
     std::vector<FeedPiece> stop;
-    if (can_stop) stop.assign(planner_.feed().begin(), planner_.feed().end());
-    for (std::size_t i = from.piece; i < now_.curve.size(); ++i) set_feed(now_, i);
-    if (can_stop) allow(from, stop);
-    const auto first = static_cast<std::ptrdiff_t>(from.piece) + can_stop;
-    if (!planner_.plan(start_of(from.along), {now_.curve.begin() + first, now_.curve.end()}, {now_.spans.begin() + first, now_.spans.end()},
-                       from.along.place, now_.known()))
+    if (slower && find_stop(from, end)) stop.assign(planner_.feed().begin(), planner_.feed().end());
+    Part part = with_feeds(from, stop);
+    if (!planner_.plan(start_of(from.along), part.curve, part.spans, from.along.place, now_.known())) {
+        ease_ = std::min(2 * ease_, most_ease);
         return false;
-    new_feeds_ = holding_ = false;
-    take(from, before_left_, now_.known());
-    return true;
-}
-
-/// The pieces on the way of the stop are cut where it changes, and each may be as fast as it is there.
-void Rider::allow(const Spot& from, std::span<const FeedPiece> stop) {
-    Part cut;
-    std::size_t i = from.piece;
-    double at = from.along.place;
-    const auto add = [&](double to, double speed) {
-        CurvePiece piece = part_of(now_.curve[i], at - now_.curve[i].begin, to - now_.curve[i].begin);
-        piece.feed = std::max(piece.feed, speed);
-        cut.curve.push_back(piece);
-        cut.programmed.push_back(now_.programmed[i]);
-        cut.spans.push_back(limits_on(piece, limits_, no_speed_limit));
-        at = to;
-    };
-    const auto end_of = [&] { return now_.curve[i].begin + now_.curve[i].length; };
-    for (const FeedPiece& slowing : stop) {
-        const double speed = std::max(slowing.at(0).speed, slowing.at(slowing.seconds).speed), to = slowing.begin + slowing.length;
-        for (; i + 1 < now_.curve.size() && end_of() <= to; ++i)
-            if (end_of() > at) add(end_of(), speed);
-        if (to > at && to < end_of()) add(to, speed);
     }
-    if (end_of() > at) add(end_of(), 0);
-    for (++i; i < now_.curve.size(); ++i) {
-        cut.curve.push_back(now_.curve[i]);
-        cut.programmed.push_back(now_.programmed[i]);
-        cut.spans.push_back(now_.spans[i]);
-    }
-    CurvePiece& passed = now_.curve[from.piece];
-    passed.length = from.along.place - passed.begin;
     const auto replace = [&](auto& column, const auto& by) {
         column.resize(from.piece + 1);
         column.insert(column.end(), by.begin(), by.end());
     };
-    replace(now_.curve, cut.curve);
-    replace(now_.programmed, cut.programmed);
-    replace(now_.spans, cut.spans);
+    CurvePiece& passed = now_.curve[from.piece];
+    passed.length = from.along.place - passed.begin;
+    replace(now_.curve, part.curve);
+    replace(now_.programmed, part.programmed);
+    replace(now_.spans, part.spans);
+    new_feeds_ = holding_ = false;
+    ease_ = least_ease;
+    take(from, before_left_, now_.known());
+    return true;
+}
+
+/// What is known from a spot on, with the present feeds. The pieces on the way of a stop, drawn out by ease_, are cut where it changes, and
+/// each may be as fast as it is there.
+Rider::Part Rider::with_feeds(const Spot& from, std::span<const FeedPiece> stop) const {
+    Part out;
+    double at = from.along.place;
+    std::size_t i = from.piece;
+    const auto end_of = [&] { return now_.curve[i].begin + now_.curve[i].length; };
+    const auto add = [&](double to, double speed) {
+        out.curve.push_back(part_of(now_.curve[i], at - now_.curve[i].begin, to - now_.curve[i].begin));
+        out.programmed.push_back(now_.programmed[i]);
+        out.spans.emplace_back();
+        set_feed(out, out.curve.size() - 1, speed);
+        at = to;
+    };
+    for (std::size_t k = 0; k < stop.size(); ++k) {
+        const double speed = faster * stop[k].at(0).speed, to = from.along.place + ease_ * (stop[k].begin + stop[k].length - from.along.place);
+        for (; i + 1 < now_.curve.size() && end_of() <= to; ++i)
+            if (end_of() > at) add(end_of(), speed);
+        if (to > at && to < end_of()) add(to, speed);
+    }
+    for (; i < now_.curve.size(); ++i)
+        if (end_of() > at) add(end_of(), 0);
+    return out;
 }
 
 }  // namespace motionrack::control

@@ -43,6 +43,8 @@ class Axes final : public control::PathAxes, private control::DriveRule {
   private:
     double joint_speed(const control::Geometry& before, const control::Geometry& after) const override;
     double spent_length(const control::Geometry& path) const override;
+    int most_drawn() const override { return 3; }
+    double steering_seconds() const override { return 0.008; }
     Result<void> play_ready(std::size_t keep);
     Result<void> play(const Segment& segment);
     Result<void> play_pause(const Segment& segment);

@@ -108,11 +108,14 @@ void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
     for (const Chord& chord : chords)
         emit_line(work, chord.at, std::max(static_cast<std::int32_t>(chord.v), std::min(speeds.exit, speeds.top)),
                   chord.acceleration);
+    add_rest(work, speeds);
+}
+
+/// What is left of a companion after the last pulse of the others belongs to their last piece.
+void Segmenter::add_rest(const Work& work, const Speeds& speeds) {
     if (at_ == work.to) return;
-    // What is left of a companion after the last pulse of the others belongs to their last piece.
     const auto c = static_cast<std::size_t>(std::max(0, work.companion));
-    if (work.companion >= 0 && !ready_.empty() && ready_.back().block == work.block &&
-        ready_.back().companion_channel == work.companion) {
+    if (work.companion >= 0 && chain_open_ && !ready_.empty() && ready_.back().companion_channel == work.companion) {
         ready_.back().companion_pulses += static_cast<std::int32_t>(work.to[c] - at_[c]);
         at_[c] = work.to[c];
         return;

@@ -15,13 +15,14 @@ Pulses4 AxisMap::pulses(const control::Point& position) const {
     return out;
 }
 
-Drawing drawing_of(const AxisMap& map, const control::Geometry& path) {
+Drawing drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8_t axes) {
     const control::Point worst = control::worst_components(path);
     int moving = 0, last = -1;
     bool rotary = false, beside_plane = false;
     double scale = 0, least = 1e300;
     for (std::size_t i = 0; i < worst.size(); ++i) {
-        if (map.channel[i] < 0 || worst[i] * path.length * map.limits[i].pulses_per_unit < 0.5) continue;
+        const bool moves = axes != 0 ? (axes >> i & 1) != 0 : worst[i] * path.length * map.limits[i].pulses_per_unit >= 0.5;
+        if (map.channel[i] < 0 || !moves) continue;
         ++moving;
         last = map.channel[i];
         rotary = rotary || i >= 3;

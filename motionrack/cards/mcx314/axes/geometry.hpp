@@ -29,7 +29,8 @@ struct Drawing {
     bool constant_vector = false;
     int companion = -1;  ///< channel
 };
-Drawing drawing_of(const AxisMap& map, const control::Geometry& path);
+/// `axes`: those that may move, a bit each; 0: those that do.
+Drawing drawing_of(const AxisMap& map, const control::Geometry& path, std::uint8_t axes = 0);
 double basic_pulses_along(const AxisMap& map, const Drawing& drawing, const control::Point& tangent);
 
 /// Radians between an arc's tangent at its ends and the first or last of the chords that it is drawn with, at most; 0: not with chords.

@@ -17,6 +17,8 @@ namespace {
 constexpr double acceleration_reserve = 1.015;
 // Register accesses between the interrupt at a joint and the new speed being written.
 constexpr double accesses_to_speed = 8;
+// Of a piece's pulses, those before its speed counts.
+constexpr double spent_pulses = 0.25;
 constexpr std::int32_t top_speed_units = 8'000;
 constexpr std::int64_t longest_line = 8'000'000;
 
@@ -35,6 +37,7 @@ Segmenter::Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& star
 
 void Segmenter::add(const control::PlannedMove& move) {
     Work work = classify(move);
+    if (waiting_ && work.move.even) waiting_->most_at_end = most_on(way_of(work, waiting_->to), false).speed;
     if (waiting_) emit(*waiting_, work.shape == Shape::pause ? std::nullopt : std::optional(work.units_in));
     // A move's start is where the one before it really ends, which only emit knows.
     waiting_ = std::move(work);
@@ -57,9 +60,10 @@ Segmenter::Work Segmenter::classify(const control::PlannedMove& move) {
         work.shape = Shape::pause;
         return work;
     }
-    const Drawing drawing = drawing_of(map_, work.path);
+    const Drawing drawing = drawing_of(map_, work.path, move.axes);
     work.companion = drawing.companion;
-    work.constant_vector = drawing.constant_vector;
+    // From piece to piece of a ride a basic pulse must stay what it is: pulses of the longest axis.
+    work.constant_vector = drawing.constant_vector && !move.even;
     if (work.path.shape == control::PathShape::arc) work.shape = drawing.constant_vector ? Shape::chip_arc : Shape::chords;
     work.units_in = units_along(work, work.path.tangent_in);
     work.units_out = units_along(work, work.path.tangent_out);
@@ -127,17 +131,35 @@ void Segmenter::emit(const Work& work, std::optional<double> next_units) {
         default: emit_straight(work, speeds); break;
     }
     if (rests) {
-        if (at_ != work.to) emit_line(work, work.to, speeds.exit, speeds.acceleration);
+        add_rest(work, speeds);
         close_chain();
     }
 }
 
-/// From the V that the piece before ends with to its own: on a bending path the basic pulses for a mm change from piece to piece too.
-void Segmenter::make_even(const Work& work, Speeds& speeds) const {
-    const double from = chain_open_ ? last_speed_ : speed_units(work.units_in, start_speed(work.path.tangent_in)), to = speeds.exit;
-    const double slope = std::fabs(to * to - from * from) / (2 * work.units_in * work.path.length);
-    speeds.top = speeds.exit;
-    speeds.acceleration = static_cast<std::int32_t>(std::clamp(std::ceil(slope * acceleration_reserve / 125), 1.0, 8'000.0));
+/// Without its companion's.
+Pulses4 Segmenter::way_of(const Work& work, const Pulses4& from) {
+    Pulses4 way = {};
+    for (std::size_t c = 0; c < way.size(); ++c)
+        if (static_cast<int>(c) != work.companion) way[c] = work.to[c] - from[c];
+    return way;
+}
+
+/// From the V that the piece before ends with to its own, over the pulses that it really has: on a bending path the basic pulses for a mm
+/// change from piece to piece too.
+void Segmenter::make_even(const Work& work, Speeds& speeds) {
+    const double from = chain_open_ ? reached_ : speed_units(work.units_in, start_speed(work.path.tangent_in));
+    const double to = std::min(speeds.exit, work.most_at_end);
+    const Pulses4 way = way_of(work, at_);
+    std::int64_t basic = 0;
+    for (const std::int64_t pulses : way) basic = std::max<std::int64_t>(basic, std::llabs(pulses));
+    speeds.top = speeds.exit = std::min(speeds.exit, work.most_at_end);
+    if (basic == 0) return;
+    const double length = (static_cast<double>(basic) - spent_pulses) / pulses_per_v_;  // V units * seconds
+    const double change = to * to - from * from, slope = std::fabs(change) / (2 * length);
+    const std::int32_t most = most_on(way, false).acceleration;
+    speeds.acceleration = std::clamp(static_cast<std::int32_t>(std::min(std::ceil(slope / 125), 8'000.0)), 1, most);
+    const double changed = 2 * length * 125 * speeds.acceleration;
+    reached_ = changed >= std::fabs(change) ? to : std::sqrt(std::max(1.0, from * from + (change > 0 ? changed : -changed)));
 }
 
 void Segmenter::emit_pause(const Work& work) {
@@ -158,7 +180,7 @@ void Segmenter::close_chain() {
 }
 
 void Segmenter::emit_straight(const Work& work, const Speeds& speeds) {
-    if (work.companion >= 0) return emit_chords(work, speeds);
+    if (work.companion >= 0 && !work.move.even) return emit_chords(work, speeds);
     if (speeds.fall_from > 0) {
         const Pulses4 middle = pulses_at(work, speeds.fall_from);
         Pulses4 fall = {};
@@ -354,7 +376,6 @@ void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
         segment.companion_pulses = static_cast<std::int32_t>(to[c] - at_[c]);
     }
     at_ = to;
-    last_speed_ = segment.speed;
     ready_.push_back(segment);
 }
 

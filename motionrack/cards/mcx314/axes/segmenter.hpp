@@ -58,6 +58,7 @@ class Segmenter {
         std::int32_t block = 0;
         std::int32_t companion = -1;  ///< channel of a fourth axis that moves beside the interpolation
         Pulses4 to = {};
+        std::int32_t most_at_end = 8'000;  ///< V with which the piece after it may begin
     };
     /// Which pieces a move is cut into: it drives towards `top` until `fall_from` along it, then towards `exit`.
     struct Speeds {
@@ -75,13 +76,15 @@ class Segmenter {
 
     Work classify(const control::PlannedMove& move);
     void emit(const Work& work, std::optional<double> next_units);
-    void make_even(const Work& work, Speeds& speeds) const;
+    static Pulses4 way_of(const Work& work, const Pulses4& from);
+    void make_even(const Work& work, Speeds& speeds);
     void emit_pause(const Work& work);
     bool emit_s_curve(const Work& work);
     void emit_straight(const Work& work, const Speeds& speeds);
     void emit_arcs(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration);
     bool emit_fitted_arc(const Work& work, double from, double to, std::int32_t v, std::int32_t acceleration);
     void emit_chords(const Work& work, const Speeds& speeds);
+    void add_rest(const Work& work, const Speeds& speeds);
     void emit_line(const Work& work, const Pulses4& to, std::int32_t v, std::int32_t acceleration);
     void append(Segment segment, const Work& work, const Pulses4& to);
     void close_chain();
@@ -103,7 +106,7 @@ class Segmenter {
     std::deque<Segment> ready_;
     std::vector<control::PathNote> notes_;
     bool chain_open_ = false;
-    std::int32_t last_speed_ = 1;  ///< V of the last segment
+    double reached_ = 1;  ///< V with which the last piece of a ride ends
     int generator_ = 0;
     std::int32_t next_block_ = 0;
 };
