@@ -11,7 +11,12 @@
 
 namespace motionrack::rack {
 
-inline RackConfig router() { return *read_rack_text(*rack_template("router")).config; }
+/// The template, with the speed along paths as said.
+inline RackConfig router(const std::string& profile = "trapezoid") {
+    RackConfig config = *read_rack_text(*rack_template("router")).config;
+    config.controller.profile = profile;
+    return config;
+}
 
 /// Of the environment: what picks random programs.
 inline std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {

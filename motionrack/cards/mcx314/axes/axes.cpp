@@ -218,9 +218,14 @@ Result<void> Axes::write_speed(const Segment& segment) {
     rest_speed_ = segment.rest_speed;
     const std::int32_t speed = braking_ ? std::min(segment.speed, rest_speed_) : segment.speed;
     if (speed != written_speed_) MOTIONRACK_CHECK(driver_.SetV(own, speed));
-    if (segment.acceleration != written_acceleration_) MOTIONRACK_CHECK(driver_.SetA(own, segment.acceleration));
     written_speed_ = speed;
-    written_acceleration_ = segment.acceleration;
+    braking_acceleration_ = segment.braking;
+    return write_acceleration(braking_ ? segment.braking : segment.acceleration);
+}
+
+Result<void> Axes::write_acceleration(std::int32_t acceleration) {
+    if (acceleration != written_acceleration_) MOTIONRACK_CHECK(driver_.SetA(1u << generator_, acceleration));
+    written_acceleration_ = acceleration;
     return {};
 }
 
@@ -229,6 +234,7 @@ Result<void> Axes::write_speed(const Segment& segment) {
 Result<void> Axes::brake() {
     if (!driver_.status().interpolating() || s_curve_) return stopped_by_user();
     if (!braking_ && written_speed_ > rest_speed_) {
+        MOTIONRACK_CHECK(write_acceleration(braking_acceleration_));
         MOTIONRACK_CHECK(driver_.SetV(1u << generator_, rest_speed_));
         written_speed_ = rest_speed_;
     }

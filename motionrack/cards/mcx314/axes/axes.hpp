@@ -54,6 +54,7 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     Result<void> brake();
     Result<void> wait_for_standstill();
     Result<void> write_speed(const Segment& segment);
+    Result<void> write_acceleration(std::int32_t acceleration);
     Result<void> command(const Segment& segment);
     Result<void> begin_segment(const Segment& segment);
     Result<void> wait_until_all_stand();
@@ -80,6 +81,7 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     std::int32_t current_line_ = 0;
     std::int32_t written_speed_ = 0;
     std::int32_t written_acceleration_ = 0;
+    std::int32_t braking_acceleration_ = 1;  ///< of the running segment
     int generator_ = 0;
     std::int32_t rest_speed_ = 1;    ///< of the running segment
     bool s_curve_ = false;           ///< of the running chain

@@ -27,6 +27,7 @@ struct Segment {
     std::int32_t speed = 1;                    ///< V from the segment's start on
     std::int32_t rest_speed = 1;               ///< V from which it may stand still at once
     std::int32_t acceleration = 1;             ///< A, both ways
+    std::int32_t braking = 1;                  ///< A when somebody wishes to stop: all that the axes can
     std::int32_t jerk = 65'535;                ///< K, s_curve only
     std::int32_t offset = 0;                   ///< AO, s_curve only: what falling takes more than rising
     std::int32_t companion_pulses = 0;         ///< pulses of the fourth axis that belong to this segment, signed

@@ -335,6 +335,7 @@ void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, s
     const Most most = most_on(way, segment.constant_vector);
     segment.speed = std::min(segment.speed, most.speed);
     segment.acceleration = std::min(segment.acceleration, most.acceleration);
+    if (work.move.even) segment.braking = most.acceleration;
     append(segment, work, to);
 }
 
@@ -368,6 +369,7 @@ void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
     }
     segment.rest_speed = std::min(speed_units(work.units_in, start_speed(work.path.tangent_in)),
                                   speed_units(work.units_out, start_speed(work.path.tangent_out)));
+    segment.braking = std::max(segment.braking, segment.acceleration);
     segment.block = work.block;
     segment.line = work.move.move.line;
     if (work.companion >= 0) {

@@ -211,5 +211,66 @@ TEST(AFeedPiece, IsAsLongAsItSaysAndMovesAsItsSquareSays) {
     EXPECT_NEAR((after.accel - before.accel) / (2 * step), here.jerk, 1e-6);
 }
 
+/// What is left of spans from a place on.
+std::vector<FeedSpan> spans_from(const std::vector<FeedSpan>& spans, double place) {
+    std::vector<FeedSpan> out;
+    double end = 0;
+    for (FeedSpan span : spans) {
+        end += span.length;
+        if (end <= place) continue;
+        span.length = std::min(span.length, end - place);
+        out.push_back(span);
+    }
+    return out;
+}
+
+TEST(AFeedProfileThatGoesOn, BeginsAsItWasAndKeepsTheLimits) {
+    FeedPlanner planner, on_the_way;
+    RandomSpans random(77);
+    int steady = 0, steady_found = 0, found = 0, all = 0;
+    for (int n = 0; n < 3000; ++n) {
+        std::vector<FeedSpan> spans = random.next(20);
+        for (FeedSpan& span : spans) span = {random.between(0.05, 30), random.between(5, 150), random.between(200, 3000), random.between(5e3, 1e5)};
+        const std::span<const FeedPiece> plan = planner.plan(spans);
+        double time = random.between(0.02, 0.9) * seconds_of(plan), left = seconds_of(plan) - time;
+        std::size_t k = 0;
+        while (time > plan[k].seconds) time -= plan[k++].seconds;
+        const FeedState state = plan[k].at(time);
+        const std::vector<FeedSpan> rest = spans_from(spans, state.place);
+        const std::span<const FeedPiece> next = on_the_way.plan_from({state.speed * state.speed, 2 * state.accel}, rest);
+        const bool is_steady = state.accel > -1 && state.jerk > -1;
+        ++all;
+        steady += is_steady;
+        if (next.empty()) continue;
+        ++found;
+        steady_found += is_steady;
+        const FeedState first = next[0].at(0);
+        EXPECT_NEAR(first.speed, state.speed, 1e-9 * state.speed);
+        EXPECT_NEAR(first.accel, state.accel, 1e-6 * rest[0].accel);
+        const Peaks peaks = peaks_of(next, rest);
+        EXPECT_LE(peaks.speed, 1 + 1e-6);
+        EXPECT_LE(peaks.accel, 1 + 1e-6);
+        EXPECT_LE(peaks.jerk, 1 + 1e-6);
+        EXPECT_LE(seconds_of(next), 1.1 * left);
+    }
+    EXPECT_GT(steady_found, 0.99 * steady);
+    EXPECT_GT(found, 0.85 * all);
+}
+
+TEST(AFeedProfileThatGoesOn, IsNotFoundWhereItCannotStopInTime) {
+    FeedPlanner planner;
+    const std::vector<FeedSpan> spans = {{0.2, 10, 1000, 20'000}};
+    EXPECT_TRUE(planner.plan_from({100, 0}, spans).empty());  // the jerk needs 0.2236 mm
+    EXPECT_FALSE(planner.plan_from({100, 0}, std::vector<FeedSpan>{{0.3, 10, 1000, 20'000}}).empty());
+    EXPECT_TRUE(planner.plan_from({101, 0}, std::vector<FeedSpan>{{50, 10, 1000, 20'000}}).empty());  // too fast already
+}
+
+TEST(ACell, ThatSlowsDownAndSpeedsUpAgainTakesItsTime) {
+    const FeedPiece cell = feed_cell(0, 1, 4, -7, 14);  // least 2.25 at the half
+    EXPECT_NEAR(cell.at(cell.seconds).place, 1, 1e-12);
+    EXPECT_NEAR(cell.at(cell.seconds).speed, 2, 1e-9);
+    EXPECT_GT(cell.seconds, 0.5);
+}
+
 }  // namespace
 }  // namespace motionrack::control

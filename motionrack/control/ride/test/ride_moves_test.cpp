@@ -1,0 +1,153 @@
+// A ride cut into straight moves for a card: they meet, their speeds meet, and nothing of the ride is lost.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/curve/test/curve_support.hpp>
+#include <motionrack/control/path.hpp>
+#include <motionrack/control/ride/ride_moves.hpp>
+#include <vector>
+
+namespace motionrack::control {
+namespace {
+
+using curve_test::arc_from;
+using curve_test::line_to;
+using curve_test::machine;
+
+std::vector<PlannedMove> moves_of(const std::vector<Move>& program, RideMovesSettings settings = {}) {
+    RideMoves planner(machine(), {}, settings);
+    std::vector<PlannedMove> out;
+    PlannedMove planned;
+    const auto pull = [&] {
+        while (planner.pull(planned)) out.push_back(planned);
+    };
+    for (const Move& move : program) {
+        while (!planner.has_room()) pull();
+        EXPECT_TRUE(planner.push(move));
+    }
+    planner.flush();
+    pull();
+    return out;
+}
+
+std::vector<Move> curvy() {
+    std::vector<Move> out = {line_to({20}, 0.05), line_to({20, 15}, 0.05)};
+    out.push_back(arc_from({20, 15}, pi / 2, 4, -pi, 0.05));
+    out.push_back(line_to({28, -5, 3}, 0.05));
+    for (int i = 1; i < 40; ++i) out.push_back(line_to({28 + 0.3 * i, -5 + 2 * sin_cos(0.2 * i).sin, 3}, 0.01));
+    out.push_back(line_to({20, -5, 3}));
+    return out;
+}
+
+TEST(TheMovesOfARide, MeetInPlaceAndSpeedAndBeginAndEndAtRest) {
+    const std::vector<PlannedMove> moves = moves_of(curvy());
+    ASSERT_GT(moves.size(), 100U);
+    EXPECT_EQ(moves.front().entry, 0);
+    EXPECT_EQ(moves.back().exit, 0);
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        const PlannedMove& move = moves[i];
+        EXPECT_TRUE(move.even);
+        EXPECT_GT(move.length, 0);
+        EXPECT_EQ(move.cruise, std::max(move.entry, move.exit));
+        if (i == 0) continue;
+        EXPECT_EQ(move.start, moves[i - 1].move.end);
+        EXPECT_NEAR(move.entry, moves[i - 1].exit, 1e-6 + 1e-3 * move.entry);
+        EXPECT_GE(move.number, moves[i - 1].number);
+    }
+    EXPECT_EQ(moves.back().move.end, curvy().back().end);
+    EXPECT_EQ(moves.back().number, static_cast<std::int64_t>(curvy().size()) - 1);
+}
+
+TEST(TheMovesOfARide, JumpAtTheirJointsByLessThanAStartSpeed) {
+    const std::vector<PlannedMove> moves = moves_of(curvy());
+    double greatest = 0;
+    for (std::size_t i = 1; i < moves.size(); ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto speed = [&](const PlannedMove& move, double along) { return along * (move.move.end[axis] - move.start[axis]) / move.length; };
+            greatest = std::max(greatest, std::fabs(speed(moves[i], moves[i].entry) - speed(moves[i - 1], moves[i - 1].exit)));
+        }
+    EXPECT_LT(greatest, machine()[0].start_speed);
+    EXPECT_GT(greatest, 0.1);
+}
+
+TEST(TheMovesOfARide, TakeAsLongAsTheRide) {
+    double seconds = 0;
+    for (const PlannedMove& move : moves_of(curvy())) seconds += seconds_of(move);
+    double ride = 0;
+    Rider rider(machine(), {});
+    const auto drive = [&] {
+        while (rider.next(false) == RideNext::motion) {
+            const double pass = std::min(0.01, rider.left());
+            rider.pass(pass);
+            ride += pass;
+        }
+    };
+    for (const Move& move : curvy()) {
+        if (!rider.has_room()) drive();
+        rider.push({move});
+    }
+    rider.flush();
+    drive();
+    EXPECT_NEAR(seconds, ride, 0.01 * ride);
+}
+
+TEST(TheMovesOfARide, KeepDwellsWholeOrCutThem) {
+    Move dwell;
+    dwell.kind = MoveKind::dwell;
+    dwell.seconds = 0.25;
+    const std::vector<Move> program = {line_to({1}), dwell, line_to({2})};
+    const auto seconds = [](const std::vector<PlannedMove>& moves, int& count) {
+        double sum = 0;
+        count = 0;
+        for (const PlannedMove& move : moves)
+            if (move.move.kind == MoveKind::dwell) sum += move.move.seconds, ++count;
+        return sum;
+    };
+    int count = 0;
+    EXPECT_DOUBLE_EQ(seconds(moves_of(program), count), 0.25);
+    EXPECT_EQ(count, 1);
+    RideMovesSettings settings;
+    settings.cut_dwells = true;
+    EXPECT_NEAR(seconds(moves_of(program, settings), count), 0.25, 1e-12);
+    EXPECT_EQ(count, 3);
+}
+
+TEST(TheMovesOfARide, RefuseWhatNoPlannerTakesAndGoOn) {
+    RideMoves planner(machine(), {});
+    Move bad = line_to({1});
+    bad.feed = 0;
+    const Result<void> refused = planner.push(bad);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("it must be above 0"), std::string::npos);
+    EXPECT_TRUE(planner.push(line_to({1})));
+    planner.flush();
+    PlannedMove planned;
+    EXPECT_TRUE(planner.pull(planned));
+}
+
+/// Draws two axes and steers a third.
+class TwoAxes : public DriveRule {
+  public:
+    double joint_speed(const Geometry&, const Geometry&) const override { return 1e9; }
+    double spent_length(const Geometry&) const override { return 0; }
+    int most_drawn() const override { return 2; }
+    double steering_seconds() const override { return 0.01; }
+};
+
+TEST(TheMovesOfARide, StandBeforeACornerThatWouldTakeMoreAxesThanTheCardDraws) {
+    const TwoAxes rule;
+    RideMovesSettings settings;
+    settings.drive = &rule;
+    const auto stands = [&](const std::vector<Move>& program) {
+        int count = 0;
+        for (const PlannedMove& move : moves_of(program, settings)) count += move.exit == 0;
+        return count;
+    };
+    EXPECT_EQ(stands({line_to({10}, 0.5), line_to({20, 1}, 0.5), line_to({30, 0}, 0.5)}), 1);
+    EXPECT_EQ(stands({line_to({10}, 0.5), line_to({20, 1}, 0.5), line_to({30, 1, 1}, 0.5)}), 2);
+    EXPECT_EQ(stands({line_to({10, 1, 1}, 0.5), line_to({20, 2, 2.1}, 0.5)}), 1);
+}
+
+}  // namespace
+}  // namespace motionrack::control

@@ -1,0 +1,235 @@
+// Programs driven while they still come, held, slowed and let go on at any instant: what holds at every instant of them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/curve/test/curve_support.hpp>
+#include <motionrack/control/ride/ride.hpp>
+#include <motionrack/control/ride/rider.hpp>
+#include <random>
+#include <vector>
+
+namespace motionrack::control {
+namespace {
+
+using curve_test::line_to;
+using curve_test::machine;
+
+constexpr double slack = 1 + 1e-6;
+
+/// Lines, some of them many and short, some with Z, and dwells.
+std::vector<Move> program(std::mt19937& random) {
+    const auto between = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
+    const auto one_of = [&](unsigned n) { return random() % n == 0; };
+    std::vector<Move> out;
+    const bool chords = one_of(3), exact = one_of(4);
+    const double tolerance = std::exp(between(std::log(0.003), std::log(0.3)));
+    double angle = 0;
+    Point place = {};
+    for (auto n = 5 + random() % 60; n > 0; --n) {
+        const double length = chords ? 0.3 : std::exp(between(std::log(0.05), std::log(30.0)));
+        angle += chords ? between(-0.3, 0.3) : between(-2.5, 2.5);
+        place[0] += length * std::cos(angle);
+        place[1] += length * std::sin(angle);
+        if (one_of(5)) place[2] += between(-1, 1);
+        Move move = line_to(place, tolerance);
+        if (exact) move.path = PathControl::exact_path;
+        move.feed = between(5, 120);
+        if (one_of(8)) move.kind = MoveKind::traverse;
+        move.line = static_cast<int>(out.size()) + 1;
+        out.push_back(move);
+        if (!one_of(25)) continue;
+        move.kind = MoveKind::dwell;
+        move.seconds = 0.05;
+        out.push_back(move);
+    }
+    return out;
+}
+
+/// Pushes moves while there is room, and passes the time; looks at all axes all the time.
+class Driven {
+  public:
+    Driven(std::vector<Move> moves, RiderSettings settings) : moves_(std::move(moves)), rider(machine(), {}, settings) {}
+
+    /// False when all is driven.
+    bool step(double seconds, bool early) {
+        while (next_ < moves_.size() && rider.has_room()) rider.push({moves_[next_++]});
+        if (next_ == moves_.size() && !flushed_ && rider.has_room()) flushed_ = (rider.flush(), true);
+        const RideNext next = rider.next(early);
+        if (next == RideNext::nothing) return next_ < moves_.size() || !flushed_;
+        if (next == RideNext::dwell) {
+            const double wait = std::min(seconds, rider.dwell_seconds());
+            rider.pass_dwell(wait);
+            now += wait;
+            return true;
+        }
+        const double pass = std::min(seconds, rider.left());
+        for (const double part : {0.005, 0.505}) look(part * pass);
+        rider.pass(pass);
+        now += pass;
+        return true;
+    }
+    void pass_time(double seconds) { now += seconds; }
+
+    double now = 0, speed = 0, accel = 0, jerk = 0, jump = 0;  ///< greatest parts of the limits; of what the limits let change
+    RideState last;
+
+  private:
+    void look(double seconds) {
+        const MachineLimits limits = machine();
+        const RideState state = rider.at(seconds);
+        const double gap = now + seconds - at_;
+        for (std::size_t i = 0; i < limits.size(); ++i) {
+            const AxisLimits& most = limits[i];
+            speed = std::max(speed, std::fabs(state.speed[i]) / most.max_speed);
+            accel = std::max(accel, std::fabs(state.accel[i]) / most.max_accel);
+            jerk = std::max(jerk, std::fabs(state.jerk[i]) / most.max_jerk);
+            jump = std::max({jump, std::fabs(state.place[i] - last.place[i]) / (slack * most.max_speed * gap + 1e-5),
+                             std::fabs(state.speed[i] - last.speed[i]) / (slack * most.max_accel * gap + 1e-4),
+                             std::fabs(state.accel[i] - last.accel[i]) / (slack * most.max_jerk * gap + 1e-2)});
+        }
+        last = state;
+        at_ = now + seconds;
+    }
+
+    std::vector<Move> moves_;
+    std::size_t next_ = 0;
+    bool flushed_ = false;
+    double at_ = 0;
+
+  public:
+    Rider rider;
+};
+
+void expect_limits(const Driven& driven) {
+    EXPECT_LE(driven.speed, slack);
+    EXPECT_LE(driven.accel, slack);
+    EXPECT_LE(driven.jerk, slack);
+    EXPECT_LE(driven.jump, 1);
+}
+
+void expect_end(const Driven& driven, const Point& end) {
+    for (std::size_t i = 0; i < end.size(); ++i) EXPECT_NEAR(driven.last.place[i], end[i], 1e-4);
+}
+
+double seconds_of_ride(const std::vector<Move>& moves) {
+    double seconds = 0;
+    Ride ride(machine(), {}, [&](const Stretch& stretch) { seconds += stretch.seconds - stretch.overlap + stretch.rest_seconds; });
+    for (const Move& move : moves) ride.push(move);
+    ride.flush();
+    return seconds;
+}
+
+TEST(ARiderLeftAlone, IsAsQuickAsIfAllWereKnownHoweverLittleItKnowsAhead) {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        const std::vector<Move> moves = program(random);
+        Driven driven(moves, {seed % 2 == 0 ? std::size_t{16'384} : 60});
+        while (driven.step(0.0015, false)) {}
+        expect_limits(driven);
+        expect_end(driven, moves.back().end);
+        EXPECT_NEAR(driven.now, seconds_of_ride(moves), 0.05 * driven.now);
+    }
+}
+
+TEST(ARiderDisturbedAtRandom, KeepsAllLimitsAndEndsWhereTheProgramEnds) {
+    for (unsigned seed = 0; seed < 40; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        const std::vector<Move> moves = program(random);
+        Driven driven(moves, {64});
+        const auto between = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
+        double wish = between(0.05, 0.5), resume = 1e9;
+        for (int steps = 0; driven.step(between(0.0005, 0.0025), true) || resume < 1e9; ++steps) {
+            ASSERT_LT(steps, 1'000'000);
+            if (driven.rider.stands()) driven.pass_time(0.001);
+            if (driven.now > wish && resume == 1e9) {
+                if (random() % 3 == 0) {
+                    driven.rider.hold();
+                    resume = driven.now + between(0, 0.6);
+                } else {
+                    driven.rider.set_overrides(between(0.05, 2), between(0.05, 1));
+                }
+                wish = driven.now + between(0.1, 0.6);
+            }
+            if (driven.now < resume) continue;
+            driven.rider.resume();
+            resume = 1e9;
+        }
+        expect_limits(driven);
+        expect_end(driven, moves.back().end);
+    }
+}
+
+Move long_line(double feed) {
+    Move move = line_to({100});
+    move.feed = feed;
+    return move;
+}
+
+TEST(ARider, StandsSoonAfterAHoldAndGoesOnFromThere) {
+    Driven driven({long_line(50)}, {});
+    while (driven.now < 0.5) driven.step(0.001, true);
+    driven.rider.hold();
+    const double asked = driven.now;
+    while (driven.rider.next(true) == RideNext::motion) driven.step(0.001, true);
+    // twice sqrt(speed / jerk): its acceleration is not reached
+    EXPECT_NEAR(driven.now - asked, 2 * std::sqrt(50 / machine()[0].max_jerk), 0.005);
+    EXPECT_TRUE(driven.rider.stands());
+    EXPECT_EQ(driven.rider.next(true), RideNext::nothing);
+    driven.rider.resume();
+    while (driven.step(0.001, true)) {}
+    EXPECT_NEAR(driven.last.place[0], 100, 1e-6);
+    expect_limits(driven);
+}
+
+TEST(ARider, TakesOtherFeedsAsSoonAsTheLimitsAllow) {
+    Driven driven({long_line(20)}, {});
+    const auto speed_after = [&](double seconds) {
+        for (const double until = driven.now + seconds; driven.now < until;) driven.step(0.001, true);
+        return driven.rider.at(0).speed[0];
+    };
+    EXPECT_NEAR(speed_after(0.5), 20, 1e-6);
+    driven.rider.set_overrides(0.5, 1);
+    EXPECT_NEAR(speed_after(0.15), 10, 1e-6);
+    driven.rider.set_overrides(2, 1);
+    EXPECT_NEAR(speed_after(0.2), 40, 1e-6);
+    driven.rider.set_overrides(0.01, 1);
+    EXPECT_NEAR(speed_after(0.3), 0.2, 1e-6);
+    expect_limits(driven);
+}
+
+TEST(ARider, AlwaysEndsAtRestInWhatItKnows) {
+    std::mt19937 random(3);
+    const std::vector<Move> moves = program(random);
+    Driven driven(moves, {40});
+    int looks = 0;
+    while (driven.step(0.003, false)) {
+        if (driven.rider.stands() || driven.rider.left() < driven.rider.until_rest()) continue;  // the next stretch begins before its end
+        const RideState end = driven.rider.at(driven.rider.until_rest());
+        for (const double speed : end.speed) EXPECT_EQ(speed, 0);
+        ++looks;
+    }
+    EXPECT_GT(looks, 100);
+}
+
+TEST(ARider, TellsWhichMoveItIsOnAndKeepsNoOther) {
+    std::vector<Move> moves;
+    for (int i = 1; i <= 3000; ++i) moves.push_back(line_to({0.3 * i, i % 2 * 0.2}, 0.001));
+    Driven driven(moves, {500});
+    std::int64_t last = 0;
+    while (driven.step(0.02, false)) {
+        if (driven.rider.next(false) != RideNext::motion) continue;
+        const std::int64_t number = driven.rider.move_of(driven.rider.at(0));
+        EXPECT_GE(number, last);
+        EXPECT_EQ(driven.rider.move(number).move.end, moves[static_cast<std::size_t>(number)].end);
+        EXPECT_NEAR(driven.rider.at(0).place[0], 0.3 * static_cast<double>(number), 0.7);
+        last = number;
+    }
+    EXPECT_GT(last, 2990);
+    EXPECT_EQ(driven.rider.first_left(), 3000);
+}
+
+}  // namespace
+}  // namespace motionrack::control
