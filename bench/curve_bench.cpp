@@ -2,10 +2,13 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/control/curve/curve.hpp>
 #include <motionrack/control/ride/ride.hpp>
+#include <motionrack/control/ride/rider.hpp>
 #include <vector>
 
 namespace motionrack::control {
@@ -125,6 +128,34 @@ BENCHMARK_CAPTURE(ride, chords_of_0_1_mm, chords(0.1, 0));
 BENCHMARK_CAPTURE(ride, chords_of_0_1_mm_rounded, chords(0.1, 0.001));
 BENCHMARK_CAPTURE(ride, long_lines, long_lines());
 BENCHMARK_CAPTURE(ride, arcs_of_1_mm, arcs(1));
+
+/// Block by block with a window, driven on where there is no room; in the slowest blocks thousands are planned.
+void rider(benchmark::State& state, const std::vector<Move>& moves) {
+    using Clock = std::chrono::steady_clock;
+    std::vector<double> seconds;
+    Rider rider(machine(), Point{});
+    std::size_t i = 0;
+    for (auto _ : state) {
+        const Clock::time_point begin = Clock::now();
+        while (!rider.has_room() && rider.next(false) == RideNext::motion) rider.pass(std::min(0.05, rider.left()));
+        rider.push({moves[i]});
+        seconds.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
+        if (++i < moves.size()) continue;
+        state.PauseTiming();
+        rider = Rider(machine(), Point{});
+        i = 0;
+        state.ResumeTiming();
+    }
+    std::sort(seconds.begin(), seconds.end());
+    state.SetItemsProcessed(state.iterations());
+    state.counters["p99.9_us"] = 1e6 * seconds[seconds.size() * 999 / 1000];
+    state.counters["most_us"] = 1e6 * seconds.back();
+}
+
+BENCHMARK_CAPTURE(rider, chords_of_0_1_mm, chords(0.1, 0));
+BENCHMARK_CAPTURE(rider, chords_of_0_1_mm_rounded, chords(0.1, 0.001));
+BENCHMARK_CAPTURE(rider, long_lines, long_lines());
+BENCHMARK_CAPTURE(rider, arcs_of_1_mm, arcs(1));
 
 }  // namespace
 }  // namespace motionrack::control

@@ -62,6 +62,7 @@ void Controller::remember(const gcode::Step& step, ProgramRun& run) {
 Result<void> Controller::take(const gcode::Step& step, ProgramRun& run) {
     using gcode::StepKind;
     if (step.kind == StepKind::move) {
+        run.moves += step.move.kind != MoveKind::dwell;
         if (!planner_->has_room()) MOTIONRACK_CHECK(hand_over());
         return planner_->push(step.move);
     }

@@ -36,6 +36,7 @@ struct ControllerSettings {
 struct ProgramRun {
     PlanSummary plan;
     std::int64_t lines = 0;            ///< lines read
+    std::int64_t moves = 0;            ///< read, without dwells
     std::vector<ProgramEvent> events;
     std::int64_t events_left_out = 0;
     bool ended = false;                ///< by M2 or M30

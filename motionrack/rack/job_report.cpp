@@ -87,6 +87,12 @@ std::string verdict_text(const JobOutcome& outcome) {
                        outcome.rest_axis < 3 ? "mm" : "deg", control::axis_letters[static_cast<std::size_t>(outcome.rest_axis)]);
 }
 
+
+/// A jerk-limited ride is planned in many short lines: what was programmed counts.
+std::int64_t moves_of(const RackConfig& config, const JobOutcome& outcome) {
+    return config.jerk_limited() ? outcome.run.moves : outcome.run.plan.moves;
+}
+
 }  // namespace
 
 trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcome, std::string_view program,
@@ -98,7 +104,7 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
     data.verdict = {outcome.ended.has_value() && outcome.position_trusted, verdict_text(outcome)};
     data.numbers = {{"Time of the job", fmt::format("{:.3f}", to_seconds(outcome.time)), "s"},
                     {"Path", fmt::format("{:.1f}", outcome.path_mm), "mm"},
-                    {"Moves", fmt::format("{}", outcome.run.plan.moves), ""},
+                    {"Moves", fmt::format("{}", moves_of(rack.config(), outcome)), ""},
                     {"Worst deviation", fmt::format("{:.4f}", outcome.worst.mm), "mm"}};
     if (!rack.config().point_to_point()) data.numbers.push_back({"Chip segments", fmt::format("{}", outcome.chip_segments), ""});
     add_axes(data, job, outcome);
@@ -128,7 +134,9 @@ trace::ReportData report_of(Rack& rack, const Job& job, const JobOutcome& outcom
         "Speeds are those of the pulse train; acceleration is taken over four looks. Where the speed jumps (at a start, a stop, a corner) there "
         "is no acceleration to draw; the greatest jump stands in the table, less what whole pulses make of it in pieces of a few pulses.",
         "The machine is stiff: no vibration, no bending, no play unless the rack file says so.",
-        "Deviation is the distance of X, Y, Z from the programmed path; a rotary axis that lags behind does not show in it."};
+        fmt::format("Deviation is the distance of X, Y, Z from the {}; a rotary axis that lags behind does not show in it.",
+                    rack.config().jerk_limited() ? "planned path, which cuts corners of the programmed one within its tolerance and is driven with limited jerk"
+                                                 : "programmed path")};
     if (outcome.rest_axis >= 0)
         data.notes.push_back("A servo's speed follows its voltage, which is that behind the card's relay, as its lag, current limit and friction let "
                              "it; each move is as long as the card's slope table makes it, not as the plan has it. The table has 24 steps of speed up and 24 down, "
@@ -142,7 +150,7 @@ std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
     std::string out = fmt::format("{}\n", verdict_text(outcome));
     out += fmt::format("  rack        {}\n", config.name);
     out += fmt::format("  time        {:.3f} s (planned {:.3f} s), {}, {}, {}\n", to_seconds(outcome.time), outcome.run.plan.seconds,
-                       counted(outcome.run.plan.moves, "move"), counted(outcome.run.plan.dwells, "dwell"),
+                       counted(moves_of(config, outcome), "move"), counted(outcome.run.plan.dwells, "dwell"),
                        counted(outcome.run.plan.stops, "stop"));
     out += fmt::format("  path        {:.3f} mm, worst deviation {:.4f} mm", outcome.path_mm, outcome.worst.mm);
     if (outcome.worst.line > 0) out += fmt::format(" in line {} at {:.3f} s", outcome.worst.line, to_seconds(outcome.worst.at));
@@ -167,7 +175,7 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
     json["seconds"] = to_seconds(outcome.time);
     json["planned_seconds"] = outcome.run.plan.seconds;
     json["path_mm"] = outcome.path_mm;
-    json["moves"] = outcome.run.plan.moves;
+    json["moves"] = moves_of(config, outcome);
     json["lines"] = outcome.run.lines;
     json["chip_segments"] = outcome.chip_segments;
     json["events"] = outcome.events;
