@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/profile.hpp>
+#include <motionrack/control/profile/travel.hpp>
 
 namespace motionrack::control {
 
@@ -57,6 +58,10 @@ std::span<const FeedPiece> FeedPlanner::plan_from(const FeedStart& start, std::s
     start_ = start;
     measure(spans);
     if (!(length_ > 0)) return pieces_;
+    if (all_alike(spans)) {
+        write_travel(spans.front());
+        return pieces_;
+    }
     cut(spans);
     approach();
     if (found_) write();
@@ -331,6 +336,31 @@ void FeedPlanner::write_s_curve(const FeedSpan& limits) {
         else pieces_.push_back(feed_ramp(begin, length, seconds, at.speed, phase == 3 ? 0 : at.accel, even ? 0 : -limits.jerk));
         begin = then.position;
         from = ends[phase];
+    }
+}
+
+/// The same from a motion that goes on. Nothing is written where it is too fast, or comes back from beyond its end.
+void FeedPlanner::write_travel(const FeedSpan& limits) {
+    const double speed = std::sqrt(start_.square), accel = 0.5 * start_.slope;
+    if (speed > limits.speed * (1 + rounding) || std::fabs(accel) > limits.accel * (1 + rounding)) return;
+    const auto found = travel({0, std::min(speed, limits.speed), std::clamp(accel, -limits.accel, limits.accel)}, {length_, 0, 0}, {limits.speed, limits.accel, limits.jerk});
+    if (!found) return;
+    const auto phases = found->phases();
+    double begin = 0;
+    for (std::size_t i = 0; i < phases.size(); ++i) {
+        const double seconds = std::fabs(phases[i].seconds);
+        const ProfileSample at = phases[i].at(phases[i].end - seconds), then = phases[i].at(phases[i].end);
+        const bool lands = i + 1 == phases.size();
+        const double turn = !lands && at.jerk != 0 ? -at.accel / at.jerk : -1;  // where the speed is greatest or least in it
+        const double within = turn > 0 && turn < seconds ? at.speed + 0.5 * at.accel * turn : at.speed;
+        if (std::min({at.speed, within, lands ? at.speed : then.speed}) <= 0 || std::max({at.speed, within, then.speed}) > limits.speed * (1 + rounding) ||
+            std::fabs(at.accel) > limits.accel * (1 + rounding)) {
+            pieces_.clear();
+            return;
+        }
+        const double length = lands ? at.speed * seconds / 3 : then.position - at.position;
+        pieces_.push_back(lands ? feed_landing(length_ - length, length, at.speed * at.speed) : feed_ramp(begin, length, seconds, at.speed, at.accel, at.jerk));
+        begin += length;
     }
 }
 

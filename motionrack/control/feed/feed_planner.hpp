@@ -84,6 +84,7 @@ class FeedPlanner {
     void follow(const Edge& edge, std::size_t to);
     void write();
     void write_s_curve(const FeedSpan& limits);
+    void write_travel(const FeedSpan& limits);
 
     FeedSettings settings_;
     FeedStart start_;

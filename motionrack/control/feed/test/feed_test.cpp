@@ -228,7 +228,7 @@ TEST(AFeedProfileThatGoesOn, BeginsAsItWasAndKeepsTheLimits) {
     FeedPlanner planner, on_the_way;
     RandomSpans random(77);
     int steady = 0, steady_found = 0, found = 0, all = 0;
-    for (int n = 0; n < 3000; ++n) {
+    for (int n = 0; n < 1500; ++n) {
         std::vector<FeedSpan> spans = random.next(20);
         for (FeedSpan& span : spans) span = {random.between(0.05, 30), random.between(5, 150), random.between(200, 3000), random.between(5e3, 1e5)};
         const std::span<const FeedPiece> plan = planner.plan(spans);
