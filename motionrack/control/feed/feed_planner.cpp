@@ -315,23 +315,32 @@ void FeedPlanner::follow(const Edge& edge, std::size_t to) {
     }
 }
 
-/// Where no limit changes the quickest is known.
+/// Where no limit changes the quickest is known. Lengths are of the phases' own times and speeds: between places a short one has no digits.
+///
+///   speed   v1 = jerk rise^2/2, v2 = v1 + accel even      length   jerk rise^3/6 │ even (v1 + v2)/2 │ ...
 void FeedPlanner::write_s_curve(const FeedSpan& limits) {
     const SCurve curve(length_, limits.speed, limits.accel, limits.jerk);
     const auto ends = curve.phase_ends();
-    double begin = 0, from = 0;
-    for (std::size_t phase = 0; phase < ends.size(); ++phase) {
-        const double seconds = ends[phase] - from;
-        if (!(seconds > 0)) continue;
-        const ProfileSample at = curve.sample(from), then = curve.sample(ends[phase]);
-        const double length = then.position - begin;
-        const bool even = phase % 2 == 1;  // constant acceleration, or cruise
-        if (phase == 0) pieces_.push_back(feed_launch(begin, length, then.speed * then.speed));
-        else if (phase == 6) pieces_.push_back(feed_landing(begin, length, at.speed * at.speed));
-        else pieces_.push_back(feed_ramp(begin, length, seconds, at.speed, phase == 3 ? 0 : at.accel, even ? 0 : -limits.jerk));
-        begin = then.position;
-        from = ends[phase];
-    }
+    const double jerk = limits.jerk, accel = curve.peak_accel(), peak = curve.peak();
+    const double rise = ends[0], even = ends[1] - ends[0], cruise = ends[3] - ends[2];
+    const double part = jerk * rise * rise * rise / 6, gain = 0.5 * jerk * rise * rise, top = peak - gain;
+    const FeedPiece launch{FeedPhase::launch, 0, part, rise, 0, 0, 0, jerk};
+    FeedPiece landing = launch;
+    landing.phase = FeedPhase::landing;
+    landing.begin = length_ - part;
+    double begin = part;
+    const auto add = [&](double seconds, double length, double speed, double now, double more) {
+        if (!(seconds > 0)) return;
+        pieces_.push_back(feed_ramp(begin, length, seconds, speed, now, more));
+        begin += length;
+    };
+    pieces_.push_back(launch);
+    add(even, 0.5 * even * (gain + top), gain, accel, 0);
+    add(rise, peak * rise - part, top, accel, -jerk);
+    add(cruise, peak * cruise, peak, 0, 0);
+    add(rise, peak * rise - part, peak, 0, -jerk);
+    add(even, 0.5 * even * (gain + top), top, -accel, 0);
+    pieces_.push_back(landing);
 }
 
 void FeedPlanner::write() {

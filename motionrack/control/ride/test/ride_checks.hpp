@@ -52,9 +52,6 @@ class RideChecks {
 
   private:
     static constexpr double slack = 1 + 1e-6;
-    /// Places are rounded: a piece that is short beside where it lies has so much less exact a jerk, and so it begins or ends with another
-    /// acceleration.
-    static constexpr double place_rounding = 4e-16;
     static constexpr double time_rounding = 1e-13;
     /// Where pieces of the curve and of the feed meet, a rounding decides which of the curve's is looked at with which of the feed's.
     static constexpr double beside = 1e-7;
@@ -65,8 +62,6 @@ class RideChecks {
     void hold(const char* name, double value, double most, const KeptStretch& kept, double time, const RideState& state) {
         if (!(value <= most)) fail(name, value / most, fmt::format("{:.9g} > {:.9g} at {:.9g} s of {:.9g} s, u {:.9g}, line {}", value, most, time, kept.stretch.seconds, state.u, state.line));
     }
-
-    static double slack_of(const FeedPiece& feed) { return slack + place_rounding * (feed.begin + feed.length) / feed.length; }
 
     void check(const KeptStretch& kept, double until, bool ends) {
         const Stretch stretch = kept.view();
@@ -79,12 +74,8 @@ class RideChecks {
         for (const FeedPiece& feed : kept.feed) {
             std::size_t pieces = 0;
             while (piece < kept.curve.size() && kept.curve[piece].begin < feed.begin + feed.length) ++piece, ++pieces;
-            const double slack_before = slack_;
-            slack_ = slack_of(feed);
-            if (begin < stretch.overlap) slack_ = std::max(slack_, slack_of(stretch.before.feed));
             const std::size_t looks = std::min<std::size_t>(200, 6 + 4 * pieces);
             for (std::size_t i = 0; i <= looks; ++i) {
-                jump_slack_ = i == 0 ? std::max(slack_, slack_before) : slack_;
                 const double time = begin + feed.seconds * std::clamp(static_cast<double>(i) / static_cast<double>(looks), beside, 1 - beside);
                 if (time > until) break;
                 look(kept, view, time);
@@ -106,11 +97,11 @@ class RideChecks {
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const AxisLimits& axis = limits_[i];
             hold("speed", std::fabs(state.speed[i]), axis.max_speed * slack, kept, time, state);
-            hold("acceleration", std::fabs(state.accel[i]), axis.max_accel * slack_, kept, time, state);
-            if (axis.max_jerk > 0) hold("jerk", std::fabs(state.jerk[i]), axis.max_jerk * slack_, kept, time, state);
+            hold("acceleration", std::fabs(state.accel[i]), axis.max_accel * slack, kept, time, state);
+            if (axis.max_jerk > 0) hold("jerk", std::fabs(state.jerk[i]), axis.max_jerk * slack, kept, time, state);
             hold("jump of place", std::fabs(state.place[i] - last_.place[i]), axis.max_speed * step + 3e-9, kept, time, state);
             hold("jump of speed", std::fabs(state.speed[i] - last_.speed[i]), axis.max_accel * step + 1e-6 * axis.max_speed, kept, time, state);
-            if (axis.max_jerk > 0) hold("jump of acceleration", std::fabs(state.accel[i] - last_.accel[i]), axis.max_jerk * slack_ * step + (jump_slack_ - 1) * axis.max_accel, kept, time, state);
+            if (axis.max_jerk > 0) hold("jump of acceleration", std::fabs(state.accel[i] - last_.accel[i]), axis.max_jerk * slack * step + (slack - 1) * axis.max_accel, kept, time, state);
         }
         check_feed(kept, state, time);
         if (looks_++ % 4 == 0) check_path(kept, state, time);
@@ -159,7 +150,7 @@ class RideChecks {
         const double hair = time_rounding * kept.stretch.seconds;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             hold("rest: speed", std::fabs(last_.speed[i]), 1e-7 * limits_[i].max_speed + limits_[i].max_accel * hair, kept, last_time_, last_);
-            hold("rest: acceleration", std::fabs(last_.accel[i]), (slack_ - 1) * limits_[i].max_accel + limits_[i].max_jerk * hair, kept, last_time_, last_);
+            hold("rest: acceleration", std::fabs(last_.accel[i]), (slack - 1) * limits_[i].max_accel + limits_[i].max_jerk * hair, kept, last_time_, last_);
             hold("rest: place", std::fabs(last_.place[i] - kept.stretch.end[i]), 3e-9, kept, last_time_, last_);
             last_.speed[i] = last_.accel[i] = 0;
             last_.place[i] = kept.stretch.end[i];
@@ -179,7 +170,7 @@ class RideChecks {
     double half_pulse_ = 0;
     Fault fault_;
     RideState last_;
-    double last_time_ = 0, slack_ = slack, jump_slack_ = slack;
+    double last_time_ = 0;
     int looks_ = 0;
 };
 
