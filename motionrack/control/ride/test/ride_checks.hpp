@@ -9,6 +9,7 @@
 #include <limits>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/ride/accel_bound.hpp>
+#include <motionrack/control/ride/limits_on.hpp>
 #include <motionrack/control/ride/test/ride_support.hpp>
 #include <motionrack/control/ride/test/wild_programs.hpp>
 #include <string>
@@ -69,6 +70,8 @@ class RideChecks {
         StretchView view(stretch);
         last_time_ = 0;
         looks_ = 0;
+        const double hair_before = hair_;
+        hair_ = time_rounding * stretch.seconds;
         double begin = 0;
         std::size_t piece = 0;
         for (const FeedPiece& feed : kept.feed) {
@@ -78,22 +81,22 @@ class RideChecks {
             for (std::size_t i = 0; i <= looks; ++i) {
                 const double time = begin + feed.seconds * std::clamp(static_cast<double>(i) / static_cast<double>(looks), beside, 1 - beside);
                 if (time > until) break;
-                look(kept, view, time);
+                look(kept, view, time, std::max(hair_, looks_ == 0 ? hair_before : 0));
                 if (!fault_.name.empty()) return;
             }
             begin += feed.seconds;
         }
-        if (!ends) look(kept, view, until);
+        if (!ends) look(kept, view, until, hair_);
         else last_ = view.at(until);
         if (ends) check_rest(kept);
         const double least = accel_bound(kept.curve, limits_);
         if (!(stretch.seconds >= least * (1 - 1e-3))) fail("bound", least / stretch.seconds, fmt::format("{:.9g} s, the bound {:.9g} s, line {}", stretch.seconds, least, stretch.line));
     }
 
-    void look(const KeptStretch& kept, StretchView& view, double time) {
+    void look(const KeptStretch& kept, StretchView& view, double time, double hair) {
         if (time < last_time_) return;
         const RideState state = view.at(time);
-        const double step = (time - last_time_) * slack + time_rounding * kept.stretch.seconds;
+        const double step = (time - last_time_) * slack + hair;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const AxisLimits& axis = limits_[i];
             hold("speed", std::fabs(state.speed[i]), axis.max_speed * slack, kept, time, state);
@@ -147,10 +150,10 @@ class RideChecks {
     }
 
     void check_rest(const KeptStretch& kept) {
-        const double hair = time_rounding * kept.stretch.seconds;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
-            hold("rest: speed", std::fabs(last_.speed[i]), 1e-7 * limits_[i].max_speed + limits_[i].max_accel * hair, kept, last_time_, last_);
-            hold("rest: acceleration", std::fabs(last_.accel[i]), (slack - 1) * limits_[i].max_accel + limits_[i].max_jerk * hair, kept, last_time_, last_);
+            const double jerk = limits_[i].max_jerk > 0 ? limits_[i].max_jerk : limits_[i].max_accel / jerk_seconds;
+            hold("rest: speed", std::fabs(last_.speed[i]), 1e-7 * limits_[i].max_speed + limits_[i].max_accel * hair_, kept, last_time_, last_);
+            hold("rest: acceleration", std::fabs(last_.accel[i]), (slack - 1) * limits_[i].max_accel + jerk * hair_, kept, last_time_, last_);
             hold("rest: place", std::fabs(last_.place[i] - kept.stretch.end[i]), 3e-9, kept, last_time_, last_);
             last_.speed[i] = last_.accel[i] = 0;
             last_.place[i] = kept.stretch.end[i];
@@ -171,6 +174,7 @@ class RideChecks {
     Fault fault_;
     RideState last_;
     double last_time_ = 0;
+    double hair_ = 0;  ///< s that a time of the stretch may be off by roundings
     int looks_ = 0;
 };
 
