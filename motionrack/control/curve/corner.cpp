@@ -8,45 +8,96 @@ namespace motionrack::control {
 
 namespace {
 
+constexpr double no_limit = 1e300;
+/// Jerk takes at least so long.
+constexpr double least_jerk_seconds = 1e-6;
+/// Speeds are found to about a part of 2 to this power: times are compared, not driven.
+constexpr int halvings = 12;
+constexpr double rounding = 1e-9;
+
 /// From one speed to another that is `more`, without acceleration at both.
-double ramp_seconds(double more, const CornerSide& side) {
-    const double full = side.accel * side.accel / side.jerk;
-    return more > full ? more / side.accel + side.accel / side.jerk : 2 * std::sqrt(more / side.jerk);
+double ramp_seconds(double more, const Leg& leg) {
+    const double full = leg.accel * leg.accel / leg.jerk;
+    return more > full ? more / leg.accel + leg.accel / leg.jerk : 2 * std::sqrt(more / leg.jerk);
 }
 
-/// Over `length`, with the same speed at both ends and no acceleration there.
-double leg_seconds(double length, double end, const CornerSide& side) {
-    if (length <= 0) return 0;
-    const auto ways = [&](double top) { return (end + top) * ramp_seconds(top - end, side); };
-    const double top = side.speed;
-    if (top <= end) return length / end;
-    if (const double way = ways(top); way <= length) return 2 * ramp_seconds(top - end, side) + (length - way) / top;
-    double least = end, most = top;
-    for (int i = 0; i < 40; ++i) {
+/// The greatest speed in least .. most for which way(speed), which grows, is no longer than `length`.
+template <class Way>
+double fastest(double least, double most, double length, Way way) {
+    if (way(most) <= length) return most;
+    for (int i = 0; i < halvings; ++i) {
         const double middle = 0.5 * (least + most);
-        (ways(middle) < length ? least : most) = middle;
+        (way(middle) < length ? least : most) = middle;
     }
-    return 2 * ramp_seconds(least - end, side);
+    return least;
 }
 
-// The tangent changes as two parabolas: its greatest rate is 2 changes over the width, the rate's rate is 4 over its square.
-double corner_speed(const Corner& corner) {
-    const double by_accel = std::sqrt(share_of_a_bend * corner.width / (2 * corner.per_accel));
-    const double by_jerk = corner.per_jerk > 0 ? cube_root(share_of_a_bend * corner.width * corner.width / (4 * corner.per_jerk)) : by_accel;
-    return std::min({by_accel, by_jerk, corner.sides[0].speed, corner.sides[1].speed});
+/// Where one of the leg's ends is passed.
+struct Side {
+    double speed = 0, half = 0;
+};
+Side side_at(const Joint& joint, bool stops, const Leg& leg) {
+    if (stops) return {};
+    return {std::min(joint.speed, leg.speed), joint.speed < leg.speed ? joint.half : 0};
+}
+
+/// In a launch into one leg and a landing on the other at the same time.
+double overlap_seconds(const Leg& before, const Leg& after, const Point& in, const Point& out, double room_mm, const MachineLimits& limits) {
+    if (!(room_mm > 0)) return 0;
+    for (std::size_t i = 0; i < limits.size(); ++i)
+        if (limits[i].max_jerk > 0 && std::fabs(before.jerk * in[i] + after.jerk * out[i]) > limits[i].max_jerk * (1 + rounding)) return 0;
+    const auto rise = [](const Leg& leg) { return std::min({leg.accel / leg.jerk, std::sqrt(leg.speed / leg.jerk), cube_root(0.5 * leg.length / leg.jerk)}); };
+    return std::min({rise(before), rise(after), (1 + cube_root(before.jerk / after.jerk)) * cube_root(6 * room_mm / before.jerk)});
 }
 
 }  // namespace
 
-bool is_better_passed(const Corner& corner) {
-    const double speed = corner_speed(corner);
-    if (!(speed > 0)) return false;
-    double passed = corner.width / speed, stopped = 0;
-    for (const CornerSide& side : corner.sides) {
-        passed += 0.5 * leg_seconds(side.length - corner.width, speed, side);
-        stopped += 0.5 * leg_seconds(side.length, 0, side);
+double accel_along(const Point& tangent, const MachineLimits& limits) {
+    double least = no_limit;
+    for (std::size_t i = 0; i < tangent.size(); ++i)
+        if (tangent[i] != 0) least = std::min(least, limits[i].max_accel / std::fabs(tangent[i]));
+    return least;
+}
+
+double jerk_along(const Point& tangent, const MachineLimits& limits) {
+    double least = accel_along(tangent, limits) / least_jerk_seconds;
+    for (std::size_t i = 0; i < tangent.size(); ++i)
+        if (tangent[i] != 0 && limits[i].max_jerk > 0) least = std::min(least, limits[i].max_jerk / std::fabs(tangent[i]));
+    return least;
+}
+
+// The tangent changes as two parabolas: its greatest rate is 2 changes over the width, the rate's rate is 4 over its square.
+Joint choice_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double width, double room_mm, const MachineLimits& limits) {
+    Point change;
+    for (std::size_t i = 0; i < change.size(); ++i) change[i] = out[i] - in[i];
+    const double by_accel = std::sqrt(0.5 * share_of_a_bend * width * accel_along(change, limits));
+    const double by_jerk = cube_root(0.25 * share_of_a_bend * width * width * jerk_along(change, limits));
+    Joint joint;
+    joint.can_pass = true;
+    joint.speed = std::min(by_accel, by_jerk);
+    joint.can_stop = joint.speed < std::max(before.speed, after.speed);
+    joint.half = 0.5 * width;
+    if (joint.can_stop) joint.gain = overlap_seconds(before, after, in, out, room_mm, limits);
+    return joint;
+}
+
+double leg_seconds(const Leg& leg, const Joint& begin, bool stops_at_begin, const Joint& end, bool stops_at_end) {
+    Side low = side_at(begin, stops_at_begin, leg), high = side_at(end, stops_at_end, leg);
+    if (low.speed > high.speed) std::swap(low, high);
+    const double rest = std::max(0.0, leg.length - low.half - high.half);
+    const double gain = 0.5 * ((stops_at_begin ? begin.gain : 0) + (stops_at_end ? end.gain : 0));
+    const auto way = [&](double from, double to) { return 0.5 * (from + to) * ramp_seconds(to - from, leg); };
+    const auto turn_seconds = [](const Side& side) { return side.half > 0 ? side.half / side.speed : 0; };
+    double seconds = turn_seconds(low) - gain;
+    if (way(low.speed, high.speed) > rest) {
+        high.speed = fastest(low.speed, high.speed, rest, [&](double to) { return way(low.speed, to); });
+        return high.speed > 0 ? seconds + turn_seconds(high) + ramp_seconds(high.speed - low.speed, leg) : no_limit;
     }
-    return passed < stopped;
+    seconds += turn_seconds(high);
+    const auto ways = [&](double top) { return way(low.speed, top) + way(high.speed, top); };
+    const double top = fastest(high.speed, leg.speed, rest, ways);
+    if (top > 0) seconds += ramp_seconds(top - low.speed, leg) + ramp_seconds(top - high.speed, leg) + std::max(0.0, rest - ways(top)) / top;
+    return seconds;
 }
 
 }  // namespace motionrack::control

@@ -1,27 +1,43 @@
-// A corner: driven through on a rounded path, or with a stop at its point?
+// Joints of a path: driven through on a rounded path, or with a stop at their point? What each costs, leg by leg.
+//
+//   speed  top ───────╮╱▔▔▔▔▔▔╲          a leg is a move between its two joints; where one is passed its half of the
+//                     │        ╲___      turn is driven at the joint's speed, and the rest of the leg is left for
+//              half ──┴─ rest ──┴─ half  changing it
+//
 #pragma once
 
-#include <array>
+#include <motionrack/control/limits.hpp>
+#include <motionrack/control/move.hpp>
 
 namespace motionrack::control {
 
 /// The greatest speed on a bend takes so much of an axis' acceleration across the path and of its jerk; the rest changes the speed.
 inline constexpr double share_of_a_bend = 0.8;
 
-/// One of the two moves that meet at a corner, and what the axes can do along it; mm or degrees, and s.
-struct CornerSide {
+/// A move, and what the axes can do along it; mm or degrees, and s.
+struct Leg {
     double length = 0;
     double speed = 0, accel = 0, jerk = 0;
 };
 
-struct Corner {
-    std::array<CornerSide, 2> sides;
-    double width = 0;      ///< over which the turn is spread
-    double per_accel = 0;  ///< the change of direction, over what the axes can do; the greatest of them
-    double per_jerk = 0;
+struct Joint {
+    bool can_stop = true;
+    bool can_pass = false;
+    double speed = 0;  ///< through its turn, by what the axes can do
+    double half = 0;   ///< of the way over which the turn is spread, on either side
+    double gain = 0;   ///< s that a stop wins because the next move begins before the one before it has ended
+
+    bool is_choice() const { return can_stop && can_pass; }
 };
 
-/// Whether both moves, each with such a corner at either end, take less time through their corners than from stop to stop.
-bool is_better_passed(const Corner& corner);
+/// What an axis can do along `tangent`, or over a turn: the least of limit / |tangent|.
+double accel_along(const Point& tangent, const MachineLimits& limits);
+double jerk_along(const Point& tangent, const MachineLimits& limits);
+
+/// A turn from one tangent to another that is spread over `width`, between these legs; `room_mm`: how far a stop may be from its corner.
+Joint choice_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double width, double room_mm, const MachineLimits& limits);
+
+/// s; a joint that is stopped at is left with its point. Very long where the leg has no room for it.
+double leg_seconds(const Leg& leg, const Joint& begin, bool stops_at_begin, const Joint& end, bool stops_at_end);
 
 }  // namespace motionrack::control

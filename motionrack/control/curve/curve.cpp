@@ -164,7 +164,7 @@ void CurveBuilder::begin_curve(const Span& span) {
     placed_ = alive_ = edge_ = 0;
     Turn& turn = add_turn(0, span.start, span.tangent_in);
     turn.fixed = true;
-    turn.feed = turn.feed_at = span.feed;
+    turn.feed = span.feed;
     turn.line = span.line;
     turns_.added();
 }
@@ -177,7 +177,6 @@ void CurveBuilder::add_corner(const Span& span) {
     turn.room_per_rotary = turn.room / room.rotary;
     turn.speed = std::max(last_.speed, span.speed);
     turn.feed = span.feed;
-    turn.feed_at = std::min(last_.feed, span.feed);
     turn.line = span.line;
     turns_.added();
 }
@@ -233,7 +232,7 @@ void CurveBuilder::add_arc_corner() {
     const Tolerance room = room_on(last_, 2 * arc_tangent_share);
     turn.room = room.linear;
     turn.room_per_rotary = room.linear / room.rotary;
-    turn.feed = turn.feed_at = last_.feed;
+    turn.feed = last_.feed;
     turn.line = last_.line;
     turns_.added();
 }
@@ -316,7 +315,6 @@ void CurveBuilder::fill(CurvePiece& piece, double end) {
             bend = 2 * x * turn.fall;
             twist = -2 * turn.fall;
         }
-        piece.feed = std::min(piece.feed, turn.feed_at);
         for (int i = 0; i < axis_count; ++i) {
             piece.start[i] += turn.change[i] * place;
             piece.tangent[i] += turn.change[i] * tangent;

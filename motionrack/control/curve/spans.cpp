@@ -144,49 +144,58 @@ bool SpanMaker::rests_between(const Geometry& path, const Span& span) const {
     if (last_move_.path == PathControl::exact_path) return true;
     const int first = span.rotary ? 3 : 0;
     if (dot(in, out, first) < sharpest_turn * std::sqrt(dot(in, in, first) * dot(out, out, first))) return true;
+    return !has_width(span, in, out);
+}
+
+/// Whether the turn between the last span and this one can be spread over a width to speak of.
+bool SpanMaker::has_width(const Span& span, const Point& in, const Point& out) const {
     double linear = 0, rotary = 0;
     for (int i = 0; i < axis_count; ++i) {
         double& most = i < 3 ? linear : rotary;
         most = std::max(most, std::fabs(out[i] - in[i]));
     }
     const Tolerance room{std::min(last_.tolerance.linear, span.tolerance.linear), std::min(last_.tolerance.rotary, span.tolerance.rotary)};
-    if (room.linear < least_width * linear || room.rotary < least_width * rotary) return true;
-    return !is_better_passed(corner_between(span, in, out, room));
+    return room.linear >= least_width * linear && room.rotary >= least_width * rotary;
 }
 
-/// How far from the corner's sides the path may be at a stop between these.
-double SpanMaker::room_to_cut(const Span& next) const {
-    if (last_move_.path != PathControl::continuous || next.rotary || last_.rotary) return 0;
-    return std::max(0.0, corner_share * std::min(last_.tolerance.linear, next.tolerance.linear) - last_.merged.linear);
+/// How far from the corner's sides the path may be at a stop between these, of which the program is to be kept nearly.
+double SpanMaker::room_to_cut(const Span& before, const Span& after) const {
+    if (before.rotary || after.rotary) return 0;
+    return std::max(0.0, corner_share * std::min(before.tolerance.linear, after.tolerance.linear) - before.merged.linear);
 }
 
-/// The turn as wide as its tolerance allows, but within its moves.
-Corner SpanMaker::corner_between(const Span& next, const Point& in, const Point& out, const Tolerance& room) const {
-    Corner corner;
-    corner.sides = {side_of(last_, in), side_of(next, out)};
+/// Of the turn: as wide as its tolerance allows, but within its moves.
+double SpanMaker::width_between(const Span& before, const Span& after) const {
     double linear = 0, rotary = 0;
-    for (std::size_t i = 0; i < in.size(); ++i) {
-        const double change = std::fabs(out[i] - in[i]);
+    for (std::size_t i = 0; i < before.tangent_out.size(); ++i) {
+        const double change = std::fabs(after.tangent_in[i] - before.tangent_out[i]);
         if (i < 3) linear += change * change;
         else rotary = std::max(rotary, change);
-        corner.per_accel = std::max(corner.per_accel, change / limits_[i].max_accel);
-        if (limits_[i].max_jerk > 0) corner.per_jerk = std::max(corner.per_jerk, change / limits_[i].max_jerk);
     }
-    corner.width = std::min(last_.length, next.length);
-    if (linear > 0) corner.width = std::min(corner.width, corner_share * 12 * room.linear / std::sqrt(linear));
-    if (rotary > 0) corner.width = std::min(corner.width, corner_share * 12 * room.rotary / rotary);
-    return corner;
+    double width = std::min(before.length, after.length);
+    if (linear > 0) width = std::min(width, corner_share * 12 * std::min(before.tolerance.linear, after.tolerance.linear) / std::sqrt(linear));
+    if (rotary > 0) width = std::min(width, corner_share * 12 * std::min(before.tolerance.rotary, after.tolerance.rotary) / rotary);
+    return width;
 }
 
-CornerSide SpanMaker::side_of(const Span& span, const Point& tangent) const {
-    CornerSide side{span.length, span.speed, 1e300, 1e300};
-    for (std::size_t i = 0; i < tangent.size(); ++i) {
-        if (tangent[i] == 0) continue;
-        side.accel = std::min(side.accel, limits_[i].max_accel / std::fabs(tangent[i]));
-        if (limits_[i].max_jerk > 0) side.jerk = std::min(side.jerk, limits_[i].max_jerk / std::fabs(tangent[i]));
+Joint SpanMaker::joint_between(const Span& before, const Span& after, double room_mm) const {
+    if (!after.tangent) return choice_between(leg_of(before), leg_of(after), before.tangent_out, after.tangent_in, width_between(before, after), room_mm, limits_);
+    Joint joint;
+    joint.can_stop = false;
+    joint.can_pass = true;
+    joint.speed = std::numeric_limits<double>::infinity();
+    return joint;
+}
+
+Leg SpanMaker::leg_of(const Span& span) const {
+    Leg leg{span.length, span.speed, accel_along(span.tangent_in, limits_), jerk_along(span.tangent_in, limits_)};
+    if (span.kind != SpanKind::arc) return leg;
+    for (const Point& tangent : {span.tangent_out, span.bow.at(0.5 * span.length).tangent}) {
+        leg.accel = std::min(leg.accel, accel_along(tangent, limits_));
+        leg.jerk = std::min(leg.jerk, jerk_along(tangent, limits_));
     }
-    side.jerk = std::min(side.jerk, 1e6 * side.accel);
-    return side;
+    leg.speed = std::min(leg.speed, std::sqrt(share_of_a_bend * leg.accel / span.bow.curvature()));
+    return leg;
 }
 
 void SpanMaker::push(const Move& move) {
@@ -212,7 +221,7 @@ void SpanMaker::push(const Move& move) {
     any_left_out_ = stop_left_out_ = false;
     if (rests || !merge(move, span)) {
         if (rests && open_) {
-            const double room = room_to_cut(span);
+            const double room = last_move_.path == PathControl::continuous ? room_to_cut(last_, span) : 0;
             rest(0, last_move_.line);
             spans_[(made_ - 1) % capacity].room_mm = room;
         }
@@ -287,20 +296,46 @@ void SpanMaker::add_left_out() {
     inner_count_ = 0;
 }
 
+/// The last span is whole: it waits until it is known whether the path rests at its end.
 void SpanMaker::close() {
     if (!open_) return;
     open_ = false;
-    spans_[made_++ % capacity] = last_;
+    if (waiting_ == waiting_past_) {
+        choice_.begin();
+    } else {
+        Waiting& before = waiting(waiting_past_ - 1);
+        before.room_mm = room_to_cut(before.span, last_);
+        choice_.add(leg_of(before.span), joint_between(before.span, last_, before.room_mm));
+    }
+    waiting(waiting_past_++) = {last_, last_move_.line, 0};
+    make_decided();
+}
+
+void SpanMaker::make_decided() {
+    while (choice_.decided() > 0) {
+        const Waiting& ended = waiting(waiting_++);
+        make(ended.span);
+        if (choice_.take() && waiting_ < waiting_past_) make_rest(0, ended.last_line, ended.room_mm, ended.span.end);
+    }
+}
+
+void SpanMaker::make_rest(double seconds, std::int32_t line, double room_mm, const Point& at) {
+    Span span;
+    span.seconds = seconds;
+    span.line = line;
+    span.room_mm = room_mm;
+    span.start = span.end = at;
+    make(span);
 }
 
 void SpanMaker::rest(double seconds, std::int32_t line) {
     if (any_left_out_) add_left_out();
     close();
-    Span& span = spans_[made_++ % capacity];
-    span = Span{};
-    span.seconds = seconds;
-    span.line = line;
-    span.start = span.end = position_;
+    if (waiting_ < waiting_past_) {
+        choice_.add(leg_of(waiting(waiting_past_ - 1).span), Joint{});
+        make_decided();
+    }
+    make_rest(seconds, line, 0, position_);
 }
 
 void SpanMaker::flush() {

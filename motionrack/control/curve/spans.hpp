@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <motionrack/control/curve/bow.hpp>
-#include <motionrack/control/curve/corner.hpp>
+#include <motionrack/control/curve/joint_choice.hpp>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/limits.hpp>
 #include <motionrack/control/move.hpp>
@@ -58,7 +58,7 @@ class SpanMaker {
   public:
     SpanMaker(const MachineLimits& limits, const Point& start);
 
-    bool has_room() const { return made_ - taken_ + most_a_push + most_a_flush <= capacity; }
+    bool has_room() const { return made_ - taken_ + 2 * (waiting_past_ - waiting_) + most_a_push + most_a_flush <= capacity; }
     void push(const Move& move);
     void flush();
 
@@ -69,7 +69,7 @@ class SpanMaker {
     void pop() { ++taken_; }
 
   private:
-    static constexpr std::size_t capacity = 16;
+    static constexpr std::size_t capacity = 48;
     static constexpr std::size_t most_a_push = 5, most_a_flush = 3;
     static constexpr std::size_t most_merged = 32;
 
@@ -80,17 +80,34 @@ class SpanMaker {
     Span span_of(const Move& move, const Geometry& path) const;
     void make_line(Span& span) const;
     bool rests_between(const Geometry& path, const Span& span) const;
-    double room_to_cut(const Span& next) const;
-    Corner corner_between(const Span& next, const Point& in, const Point& out, const Tolerance& room) const;
-    CornerSide side_of(const Span& span, const Point& tangent) const;
+    bool has_width(const Span& span, const Point& in, const Point& out) const;
+    double room_to_cut(const Span& before, const Span& after) const;
+    double width_between(const Span& before, const Span& after) const;
+    Joint joint_between(const Span& before, const Span& after, double room_mm) const;
+    Leg leg_of(const Span& span) const;
     bool merge(const Move& move, const Span& next);
     bool lies_along(const Point& end, const Span& next) const;
     void add_left_out();
     void close();
+    void make_decided();
+    void make(const Span& span) { spans_[made_++ % capacity] = span; }
+    void make_rest(double seconds, std::int32_t line, double room_mm, const Point& at);
     void rest(double seconds, std::int32_t line);
+
+    /// A span whose end is not decided yet.
+    struct Waiting {
+        Span span;
+        std::int32_t last_line = 0;  ///< of the last move in it
+        double room_mm = 0;          ///< at its end
+    };
+    static constexpr std::size_t most_waiting = JointChoice::most + 2;
+    Waiting& waiting(std::size_t i) { return spans_waiting_[i % most_waiting]; }
 
     MachineLimits limits_;
     Tolerance half_pulse_;
+    JointChoice choice_;
+    std::array<Waiting, most_waiting> spans_waiting_;
+    std::size_t waiting_ = 0, waiting_past_ = 0;
     std::array<Span, capacity> spans_;
     std::size_t made_ = 0;
     std::size_t taken_ = 0;

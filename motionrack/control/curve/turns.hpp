@@ -34,8 +34,7 @@ struct Turn {
     Point at = {};      ///< the corner
     Point change = {};
     Point tangent = {};     ///< after the corner
-    double feed_at = 0;     ///< the lesser of before and after
-    double feed = 0;        ///< after the corner
+    double feed = 0;        ///< after the corner; each span begins with a turn, so pieces end where feeds change
     std::int32_t line = 0;  ///< after the corner
 };
 

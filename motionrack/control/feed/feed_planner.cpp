@@ -11,7 +11,17 @@ namespace motionrack::control {
 namespace {
 
 /// Cells grow away from a rest or a narrow place by this much of the way.
-constexpr double growth = 0.25;
+#ifndef GR
+#define GR 0.25
+#endif
+constexpr double growth = GR;
+#ifndef UP
+#define UP 0.3
+#endif
+#ifndef GR
+#define GR 0.25
+#endif
+constexpr double unlike_part = UP;
 /// At least so many cells between two rests, and at most so many of the size that a span's speed asks for.
 constexpr double least_cells = 48, most_cells_of_a_span = 256;
 /// A launch and a landing take this part of a path at most: on a short one constant jerk ends after a twelfth.
@@ -30,6 +40,9 @@ constexpr double least_square = 1e-6;
 FeedSpan least_of(const FeedSpan& a, const FeedSpan& b) {
     return {a.length, std::min(a.speed, b.speed), std::min(a.accel, b.accel), std::min(a.jerk, b.jerk)};
 }
+
+/// With constant jerk from rest.
+double launch_length(double jerk, double seconds) { return jerk * seconds * seconds * seconds / 6; }
 
 bool all_alike(std::span<const FeedSpan> spans) {
     return std::all_of(spans.begin(), spans.end(), [&](const FeedSpan& span) {
@@ -94,24 +107,30 @@ void FeedPlanner::approach() {
 
 // ---- cells --------------------------------------------------------------------------------------------------------------------------
 
-/// As long as acceleration and speed allow with the full jerk, over spans whose jerks are alike.
+/// As long as acceleration and speed allow with the full jerk, over spans whose jerks are alike, and not so long that the speed cannot come
+/// back to what a span ahead allows: one that ends at half of that speed needs no braking, and one of a fourteenth of the way has the room.
 FeedPlanner::End FeedPlanner::end_of(std::span<const FeedSpan> spans, bool back) const {
     End end{length_ * most_launch, 0};
     FeedSpan least = spans[back ? spans.size() - 1 : 0];
     double before = 0;
-    for (std::size_t n = 0; n < spans.size() && before < end.length; ++n) {
+    bool within = true;
+    for (std::size_t n = 0; n < spans.size() && before * most_launch < end.length; ++n) {
         const FeedSpan& span = spans[back ? spans.size() - 1 - n : n];
-        const FeedSpan all = least_of(least, span);
-        const double time = std::min(all.accel / all.jerk, std::sqrt(2 * all.speed / all.jerk));
-        const double fits = all.jerk * time * time * time / 6;
-        const bool alike = span.jerk < alike_jerk * least.jerk && least.jerk < alike_jerk * span.jerk;
-        if (n > 0 && (fits <= before || !alike)) {
-            end.length = before;
-            break;
+        if (within) {
+            const FeedSpan all = least_of(least, span);
+            const double fits = launch_length(all.jerk, std::min(all.accel / all.jerk, std::sqrt(2 * all.speed / all.jerk)));
+            const bool alike = span.jerk < alike_jerk * least.jerk && least.jerk < alike_jerk * span.jerk;
+            if (n > 0 && (fits <= before || !alike)) {
+                end.length = std::min(end.length, before);
+                within = false;
+            } else {
+                least = all;
+                end.length = std::min(end.length, fits);
+            }
         }
-        least = all;
-        end.length = std::min(end.length, fits);
+        if (n > 0) end.length = std::min(end.length, std::max(before * most_launch, launch_length(least.jerk, std::sqrt(span.speed / least.jerk))));
         before += span.length;
+        within = within && before < end.length;
     }
     end.jerk = least.jerk;
     return end;
@@ -136,7 +155,7 @@ void FeedPlanner::grade(std::span<const FeedSpan> spans) {
     for (std::size_t k = 1; k < spans.size(); ++k) {
         const FeedSpan least = least_of(spans[k - 1], spans[k]);
         // Between unlike speeds the jerk needs about this length to reach or leave the lesser one.
-        const double ramp = spans[k - 1].speed == spans[k].speed ? length_ : least.speed * std::sqrt(least.speed / least.jerk);
+        const double ramp = spans[k - 1].speed == spans[k].speed ? length_ : unlike_part * least.speed * std::min(std::sqrt(least.speed / least.jerk), settings_.cell_seconds);
         sizes_[k] = std::min({wanted(spans[k - 1]), wanted(spans[k]), ramp});
     }
     for (std::size_t k = 1; k < sizes_.size(); ++k) sizes_[k] = std::min(sizes_[k], sizes_[k - 1] + growth * spans[k - 1].length);
@@ -320,23 +339,32 @@ void FeedPlanner::follow(const Edge& edge, std::size_t to) {
     }
 }
 
-/// Where no limit changes the quickest is known.
+/// Where no limit changes the quickest is known. Lengths are of the phases' own times and speeds: between places a short one has no digits.
+///
+///   speed   v1 = jerk rise^2/2, v2 = v1 + accel even      length   jerk rise^3/6 │ even (v1 + v2)/2 │ ...
 void FeedPlanner::write_s_curve(const FeedSpan& limits) {
     const SCurve curve(length_, limits.speed, limits.accel, limits.jerk);
     const auto ends = curve.phase_ends();
-    double begin = 0, from = 0;
-    for (std::size_t phase = 0; phase < ends.size(); ++phase) {
-        const double seconds = ends[phase] - from;
-        if (!(seconds > 0)) continue;
-        const ProfileSample at = curve.sample(from), then = curve.sample(ends[phase]);
-        const double length = then.position - begin;
-        const bool even = phase % 2 == 1;  // constant acceleration, or cruise
-        if (phase == 0) pieces_.push_back(feed_launch(begin, length, then.speed * then.speed));
-        else if (phase == 6) pieces_.push_back(feed_landing(begin, length, at.speed * at.speed));
-        else pieces_.push_back(feed_ramp(begin, length, seconds, at.speed, phase == 3 ? 0 : at.accel, even ? 0 : -limits.jerk));
-        begin = then.position;
-        from = ends[phase];
-    }
+    const double jerk = limits.jerk, accel = curve.peak_accel(), peak = curve.peak();
+    const double rise = ends[0], even = ends[1] - ends[0], cruise = ends[3] - ends[2];
+    const double part = jerk * rise * rise * rise / 6, gain = 0.5 * jerk * rise * rise, top = peak - gain;
+    const FeedPiece launch{FeedPhase::launch, 0, part, rise, 0, 0, 0, jerk};
+    FeedPiece landing = launch;
+    landing.phase = FeedPhase::landing;
+    landing.begin = length_ - part;
+    double begin = part;
+    const auto add = [&](double seconds, double length, double speed, double now, double more) {
+        if (!(seconds > 0)) return;
+        pieces_.push_back(feed_ramp(begin, length, seconds, speed, now, more));
+        begin += length;
+    };
+    pieces_.push_back(launch);
+    add(even, 0.5 * even * (gain + top), gain, accel, 0);
+    add(rise, peak * rise - part, top, accel, -jerk);
+    add(cruise, peak * cruise, peak, 0, 0);
+    add(rise, peak * rise - part, peak, 0, -jerk);
+    add(even, 0.5 * even * (gain + top), top, -accel, 0);
+    pieces_.push_back(landing);
 }
 
 /// The same from a motion that goes on. Nothing is written where it is too fast, or comes back from beyond its end.

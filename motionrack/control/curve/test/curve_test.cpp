@@ -242,27 +242,26 @@ TEST(Curve, LeavesOutMovesThatAreTooShortButEndsWhereTheyDo) {
     EXPECT_LT(items.size(), 40u);
 }
 
-TEST(Curve, FeedsAreThoseOfTheProgramAndTheLesserOnAJoint) {
+/// Also beside corners and joints: each move's feed holds on its own part of the path, whatever its neighbours' are.
+TEST(Curve, FeedsAreThoseOfTheProgram) {
     std::vector<Move> moves = {line_to({10, 0, 0}), line_to({20, 1, 0}), line_to({30, 1, 0}), line_to({40, 0, 0})};
     moves[1].feed = 20;
     moves[2].kind = MoveKind::traverse;
     moves[3].feed_mode = FeedMode::inverse_time;
     moves[3].feed = 2;
-    const auto pieces = pieces_of(curve_of(numbered(moves)));
-    double last = 100;
-    for (const CurvePiece& piece : pieces) {
-        const double own = piece.line == 1   ? 100
-                           : piece.line == 2 ? 20
-                           : piece.line == 3 ? std::numeric_limits<double>::infinity()
-                                             : 2 * std::sqrt(101.0);
-        if (piece.bend == Point{} && piece.twist == Point{})
-            EXPECT_DOUBLE_EQ(piece.feed, own) << piece.line;
-        else
-            EXPECT_LE(piece.feed, std::min(own, std::max(own, last))) << piece.line;
-        last = piece.feed;
+    moves.push_back(arc_from({40, 0, 0}, -0.099668652491162038, 5, 2));
+    moves.back().feed = 3;
+    const double lengths[] = {10, std::sqrt(101.0), 10, std::sqrt(101.0), 1e9};
+    const double feeds[] = {100, 20, std::numeric_limits<double>::infinity(), 2 * std::sqrt(101.0), 3};
+    double begin = 0;
+    std::size_t of = 0;
+    for (const CurvePiece& piece : pieces_of(curve_of(numbered(moves)))) {
+        if (piece.begin >= begin + lengths[of] - 1e-9) begin += lengths[of++];
+        ASSERT_EQ(piece.line, static_cast<int>(of) + 1) << piece.begin;
+        EXPECT_LE(piece.feed, feeds[of]) << piece.line;
+        EXPECT_GE(piece.feed, feeds[of] * 0.99) << piece.line;
     }
-    EXPECT_EQ(pieces.front().feed, 100);
-    EXPECT_DOUBLE_EQ(pieces.back().feed, 2 * std::sqrt(101.0));
+    EXPECT_EQ(of, 4u);
 }
 
 TEST(Curve, EndsAtRestWheneverItIsFlushed) {
@@ -309,7 +308,7 @@ TEST(Curve, BitsAreTheSameOnEveryCompilerAndCpu) {
         mix({piece.begin, piece.length, piece.feed, 0, 0, 0});
         for (const Point& values : {piece.start, piece.tangent, piece.bend, piece.twist}) mix(values);
     }
-    EXPECT_EQ(fold, 9572342886543823183u);
+    EXPECT_EQ(fold, 3069145024620826959u);
 }
 
 }  // namespace

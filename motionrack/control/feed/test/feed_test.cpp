@@ -87,6 +87,20 @@ TEST(AFeedProfile, OfSpansThatAreAlikeIsTheQuickestSCurve) {
         }
 }
 
+/// Jerk may last for so short a way that places beside it have no digits for it.
+TEST(AFeedProfile, OfOneSpanHasItsJerkHoweverShort) {
+    FeedPlanner planner;
+    for (const double jerk : {1e9, 1e12, 1e15}) {
+        const std::vector<FeedSpan> spans = {{92, 50, 1000, jerk}};
+        const auto pieces = planner.plan(spans);
+        EXPECT_NEAR(seconds_of(pieces) / SCurve(92, 50, 1000, jerk).duration(), 1, 1e-12) << jerk;
+        const Peaks peaks = peaks_of(pieces, spans);
+        EXPECT_LE(std::max({peaks.speed, peaks.accel, peaks.jerk}), 1 + 1e-9) << jerk;
+        EXPECT_LE(peaks.jump, 1e-8) << jerk;  // roundings of 50 beside speeds of 1e-12
+        for (const FeedPiece& piece : pieces) EXPECT_GT(piece.length, 0) << jerk;
+    }
+}
+
 TEST(AFeedProfile, OfSpansThatAreNearlyAlikeIsNearlyThat) {
     FeedPlanner planner;
     for (const double length : {1000.0, 100.0, 20.0, 5.0, 1.0, 0.1, 0.001}) {

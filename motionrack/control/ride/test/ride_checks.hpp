@@ -9,6 +9,7 @@
 #include <limits>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/ride/accel_bound.hpp>
+#include <motionrack/control/ride/limits_on.hpp>
 #include <motionrack/control/ride/test/ride_support.hpp>
 #include <motionrack/control/ride/test/wild_programs.hpp>
 #include <string>
@@ -52,9 +53,6 @@ class RideChecks {
 
   private:
     static constexpr double slack = 1 + 1e-6;
-    /// Places are rounded: a piece that is short beside where it lies has so much less exact a jerk, and so it begins or ends with another
-    /// acceleration.
-    static constexpr double place_rounding = 4e-16;
     static constexpr double time_rounding = 1e-13;
     /// Where pieces of the curve and of the feed meet, a rounding decides which of the curve's is looked at with which of the feed's.
     static constexpr double beside = 1e-7;
@@ -66,51 +64,47 @@ class RideChecks {
         if (!(value <= most)) fail(name, value / most, fmt::format("{:.9g} > {:.9g} at {:.9g} s of {:.9g} s, u {:.9g}, line {}", value, most, time, kept.stretch.seconds, state.u, state.line));
     }
 
-    static double slack_of(const FeedPiece& feed) { return slack + place_rounding * (feed.begin + feed.length) / feed.length; }
-
     void check(const KeptStretch& kept, double until, bool ends) {
         const Stretch stretch = kept.view();
         if (!(stretch.seconds > 0 && stretch.seconds < 1e15)) return fail("finite time", stretch.seconds, fmt::format("{}", stretch.seconds));
         StretchView view(stretch);
         last_time_ = 0;
         looks_ = 0;
+        const double hair_before = hair_;
+        hair_ = time_rounding * stretch.seconds;
         double begin = 0;
         std::size_t piece = 0;
         for (const FeedPiece& feed : kept.feed) {
             std::size_t pieces = 0;
             while (piece < kept.curve.size() && kept.curve[piece].begin < feed.begin + feed.length) ++piece, ++pieces;
-            const double slack_before = slack_;
-            slack_ = slack_of(feed);
-            if (begin < stretch.overlap) slack_ = std::max(slack_, slack_of(stretch.before.feed));
             const std::size_t looks = std::min<std::size_t>(200, 6 + 4 * pieces);
             for (std::size_t i = 0; i <= looks; ++i) {
-                jump_slack_ = i == 0 ? std::max(slack_, slack_before) : slack_;
                 const double time = begin + feed.seconds * std::clamp(static_cast<double>(i) / static_cast<double>(looks), beside, 1 - beside);
                 if (time > until) break;
-                look(kept, view, time);
+                look(kept, view, time, std::max(hair_, looks_ == 0 ? hair_before : 0));
                 if (!fault_.name.empty()) return;
             }
             begin += feed.seconds;
         }
-        if (!ends) look(kept, view, until);
+        if (!ends) look(kept, view, until, hair_);
         else last_ = view.at(until);
         if (ends) check_rest(kept);
         const double least = accel_bound(kept.curve, limits_);
         if (!(stretch.seconds >= least * (1 - 1e-3))) fail("bound", least / stretch.seconds, fmt::format("{:.9g} s, the bound {:.9g} s, line {}", stretch.seconds, least, stretch.line));
     }
 
-    void look(const KeptStretch& kept, StretchView& view, double time) {
+    void look(const KeptStretch& kept, StretchView& view, double time, double hair) {
         if (time < last_time_) return;
         const RideState state = view.at(time);
-        const double step = (time - last_time_) * slack + time_rounding * kept.stretch.seconds;
+        const double step = (time - last_time_) * slack + hair;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const AxisLimits& axis = limits_[i];
             hold("speed", std::fabs(state.speed[i]), axis.max_speed * slack, kept, time, state);
-            hold("acceleration", std::fabs(state.accel[i]), axis.max_accel * slack_, kept, time, state);
-            if (axis.max_jerk > 0) hold("jerk", std::fabs(state.jerk[i]), axis.max_jerk * slack_, kept, time, state);
+            hold("acceleration", std::fabs(state.accel[i]), axis.max_accel * slack, kept, time, state);
+            if (axis.max_jerk > 0) hold("jerk", std::fabs(state.jerk[i]), axis.max_jerk * slack, kept, time, state);
             hold("jump of place", std::fabs(state.place[i] - last_.place[i]), axis.max_speed * step + 3e-9, kept, time, state);
             hold("jump of speed", std::fabs(state.speed[i] - last_.speed[i]), axis.max_accel * step + 1e-6 * axis.max_speed, kept, time, state);
-            if (axis.max_jerk > 0) hold("jump of acceleration", std::fabs(state.accel[i] - last_.accel[i]), axis.max_jerk * slack_ * step + (jump_slack_ - 1) * axis.max_accel, kept, time, state);
+            if (axis.max_jerk > 0) hold("jump of acceleration", std::fabs(state.accel[i] - last_.accel[i]), axis.max_jerk * slack * step + (slack - 1) * axis.max_accel, kept, time, state);
         }
         check_feed(kept, state, time);
         if (looks_++ % 4 == 0) check_path(kept, state, time);
@@ -156,10 +150,10 @@ class RideChecks {
     }
 
     void check_rest(const KeptStretch& kept) {
-        const double hair = time_rounding * kept.stretch.seconds;
         for (std::size_t i = 0; i < limits_.size(); ++i) {
-            hold("rest: speed", std::fabs(last_.speed[i]), 1e-7 * limits_[i].max_speed + limits_[i].max_accel * hair, kept, last_time_, last_);
-            hold("rest: acceleration", std::fabs(last_.accel[i]), (slack_ - 1) * limits_[i].max_accel + limits_[i].max_jerk * hair, kept, last_time_, last_);
+            const double jerk = limits_[i].max_jerk > 0 ? limits_[i].max_jerk : limits_[i].max_accel / jerk_seconds;
+            hold("rest: speed", std::fabs(last_.speed[i]), 1e-7 * limits_[i].max_speed + limits_[i].max_accel * hair_, kept, last_time_, last_);
+            hold("rest: acceleration", std::fabs(last_.accel[i]), (slack - 1) * limits_[i].max_accel + jerk * hair_, kept, last_time_, last_);
             hold("rest: place", std::fabs(last_.place[i] - kept.stretch.end[i]), 3e-9, kept, last_time_, last_);
             last_.speed[i] = last_.accel[i] = 0;
             last_.place[i] = kept.stretch.end[i];
@@ -179,7 +173,8 @@ class RideChecks {
     double half_pulse_ = 0;
     Fault fault_;
     RideState last_;
-    double last_time_ = 0, slack_ = slack, jump_slack_ = slack;
+    double last_time_ = 0;
+    double hair_ = 0;  ///< s that a time of the stretch may be off by roundings
     int looks_ = 0;
 };
 

@@ -7,15 +7,12 @@ namespace motionrack::control {
 namespace {
 
 constexpr std::uint64_t in_a_test = 1000;
-/// Not kept there: a line of 92 mm whose last jerk takes 7e-15 mm, less than its place has digits, ends 2e-8 mm beside its end.
-constexpr std::uint64_t known = 5092;
 
 class ARideOfAnything : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(ARideOfAnything, KeepsAllThatHoldsAtEveryInstant) {
     int faults = 0;
     for (std::uint64_t seed = GetParam() * in_a_test + 1; seed <= (GetParam() + 1) * in_a_test && faults < 5; ++seed) {
-        if (seed == known) continue;
         const ride_test::WildProgram program = ride_test::WildMaker(seed).program();
         const ride_test::Fault fault = ride_test::fault_of(program);
         EXPECT_EQ(fault.name, "") << "seed " << seed << ": " << fault.text << "\nthe least of it:\n" << ride_test::text_of(ride_test::reduced(program));
