@@ -158,6 +158,7 @@ class Stream {
     std::deque<std::int64_t> blocks_;   ///< numbers of the moves of what the axes have had, from the one that they drive on
     std::int64_t first_block_ = 0;      ///< of blocks_, as the axes count
     bool ride_ends_ = true;             ///< it was told that its path ends
+    Instant last_push_{};               ///< when it got a move last
     std::deque<Entry> entries_;  ///< front: being driven
     std::optional<Cutting> cutting_;
     std::string text_;           ///< of the last line

@@ -9,8 +9,10 @@ namespace {
 
 /// s of motion that the axes have at once: how soon a wish is felt.
 constexpr double most_seconds = 0.03;
-/// The ride is told that its path ends so long before it would slow down for that: later it could not go on beyond the last corners.
+/// Of the last moves the ride tells nothing until it knows what follows, or that nothing does: which it is told if no line has come for so
+/// long, and so long before it would slow down for the end of what it tells.
 constexpr double ends_before = 0.2;
+constexpr Duration sender_is_silent = milliseconds(50);
 
 }  // namespace
 
@@ -36,13 +38,18 @@ Result<StreamState> Stream::drive_ride(bool more_may_come) {
     }
     const bool rest_follows = !more_may_come || planned_ < entries_.size();
     if (ride_may_wait(rest_follows)) return state_ = StreamState::waiting;
-    const bool late = ride_->rider().brakes_in() < ends_before;
+    const bool late = ride_->rider().brakes_in() < ends_before && host_.now() > last_push_ + sender_is_silent;
     if (!ride_ends_ && (rest_follows || late) && ride_->has_room()) {
         ride_->flush();
         ride_ends_ = true;
     }
     if (PlannedMove planned; ride_->pull(planned, true)) return hand_over_ride(planned);
-    return path_begun_ ? finish_ride() : stand();
+    const bool more_follows = !ride_ends_ && !rest_follows && wish_ == Wish::none;
+    if (path_begun_) {
+        const Result<StreamState> finished = finish_ride();
+        if (!finished || !more_follows) return finished;
+    }
+    return more_follows ? state_ = StreamState::waiting : stand();
 }
 
 /// A first move alone waits for the line after it: then it need not end at rest.
@@ -57,6 +64,7 @@ Result<void> Stream::fill_ride() {
         entry.number = ride_->rider().pushed();
         MOTIONRACK_CHECK(ride_->push(entry.step.move, !entry.by_hand));
         ride_ends_ = false;
+        last_push_ = host_.now();
     }
     return {};
 }
