@@ -23,6 +23,9 @@ constexpr double least_snapped = 0.7;
 constexpr double least_snapped_even = 0.45;
 constexpr double even = 0.01;
 
+/// Widths reach from their corner to this part of the way to where the curve begins or ends.
+constexpr double part_to_rest = 0.6;
+
 /// Lengths that differ by less, relatively, are equal.
 constexpr double equal = 1e-10;
 
@@ -117,8 +120,9 @@ double TurnRow::proposed_width(std::int64_t k) const {
     if (own.linear < no_change && own.rotary < no_change) return 0;
     const std::int64_t first = std::max<std::int64_t>(0, k - reach);
     const std::int64_t past = std::min(made_, k + reach + 1);
-    const double left = own.u - (*this)[first].u;
-    const double right = (past == k + reach + 1 ? (*this)[past - 1].u : end_) - own.u;
+    // No width reaches far towards a rest: what turns there takes the jerk with which the path begins or ends.
+    const double left = (own.u - (*this)[first].u) * (first == 0 ? part_to_rest : 1);
+    const double right = past == k + reach + 1 ? (*this)[past - 1].u - own.u : part_to_rest * (end_ - own.u);
     const double most = 2 * std::min(left, right);
     Sum sum;
     sum.add(own, weight_of(own, own), 0);

@@ -2,11 +2,31 @@
 #include <motionrack/control/feed/feed_piece.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace motionrack::control {
 
 namespace {
+
+/// What is off falls to about its square in a step, so after one of this part of the time nothing is left.
+constexpr double settled_part = 1e-10;
+constexpr double rounding = 4e-16;
+
+constexpr int most_terms = 60;
+/// What makes the k-th term of a series out of the one before it.
+struct Factors {
+    std::array<double, most_terms> sine = {}, cosine = {};
+};
+constexpr Factors factors = [] {
+    Factors out;
+    for (int k = 1; k < most_terms; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        out.sine[i] = 1 / (2.0 * k * (2 * k + 1));
+        out.cosine[i] = 1 / ((2.0 * k + 1) * (2 * k + 2));
+    }
+    return out;
+}();
 
 /// sinh(q)/q and (cosh(q) - 1)/(q^2/2) for q^2 = `square`, which may be negative (then sin and cos).
 struct Series {
@@ -15,12 +35,12 @@ struct Series {
 Series series_of(double square) {
     Series out{1, 1};
     double sine = 1, cosine = 1;
-    for (int k = 1; k < 60; ++k) {
-        sine *= square / (2.0 * k * (2 * k + 1));
-        cosine *= square / ((2.0 * k + 1) * (2 * k + 2));
+    for (std::size_t k = 1; k < most_terms; ++k) {
+        sine *= square * factors.sine[k];
+        cosine *= square * factors.cosine[k];
         out.sine += sine;
         out.cosine += cosine;
-        if (std::fabs(sine) < 1e-18 && std::fabs(cosine) < 1e-18) break;
+        if (std::fabs(sine) < 1e-18) break;  // the other is less
     }
     return out;
 }
@@ -48,8 +68,9 @@ FeedPiece feed_cell(double begin, double length, double square, double slope, do
         const double there = moved(cell, speed, time);
         (there < length ? least : most) = time;
         double next = time + (length - there) / std::sqrt(square_at(cell, std::clamp(there, 0.0, length)));
-        if (!(next > least && next < most)) next = 0.5 * (least + most);
-        const bool settled = std::fabs(next - time) <= 4e-16 * time;
+        const bool inside = next > least && next < most;
+        if (!inside) next = 0.5 * (least + most);
+        const bool settled = std::fabs(next - time) <= (inside ? settled_part : rounding) * time;
         time = next;
         if (settled) break;
     }
@@ -86,6 +107,12 @@ FeedState FeedPiece::at(double time) const {
     const double x = std::clamp(moved(*this, std::sqrt(square), time), 0.0, length);
     const double speed = std::sqrt(square_at(*this, x));
     return {begin + x, speed, 0.5 * (slope + bend * x), 0.5 * bend * speed};
+}
+
+FeedState FeedPiece::last() const {
+    if (phase != FeedPhase::cell) return at(seconds);
+    const double speed = std::sqrt(square_at(*this, length));
+    return {begin + length, speed, 0.5 * (slope + bend * length), 0.5 * bend * speed};
 }
 
 }  // namespace motionrack::control

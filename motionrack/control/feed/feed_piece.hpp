@@ -35,6 +35,8 @@ struct FeedPiece {
 
     /// `time` from the piece's begin, 0 .. seconds.
     FeedState at(double time) const;
+    /// at(seconds), quicker.
+    FeedState last() const;
 };
 
 /// A cell with its time. `square` is above 0 all over it.

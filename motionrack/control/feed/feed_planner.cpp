@@ -11,17 +11,11 @@ namespace motionrack::control {
 namespace {
 
 /// Cells grow away from a rest or a narrow place by this much of the way.
-#ifndef GR
-#define GR 0.25
-#endif
-constexpr double growth = GR;
-#ifndef UP
-#define UP 0.3
-#endif
-#ifndef GR
-#define GR 0.25
-#endif
-constexpr double unlike_part = UP;
+constexpr double growth = 0.25;
+/// Beside a narrow place cells take so much of the time that the jerk needs to leave it.
+constexpr double unlike_part = 0.25;
+/// Where full acceleration is reached sooner than in a cell's time, cells take as long as that, but no less than this part of their time.
+constexpr double quickest_cell = 0.2;
 /// At least so many cells between two rests, and at most so many of the size that a span's speed asks for.
 constexpr double least_cells = 48, most_cells_of_a_span = 256;
 /// A launch and a landing take this part of a path at most: on a short one constant jerk ends after a twelfth.
@@ -30,7 +24,7 @@ constexpr double alike_jerk = 1.5;
 /// No cell is shorter than this part of the path: places have no more digits.
 constexpr double least_part = 1e-13;
 /// The speed is taken for this much above what a hull found when the next one is sought; then nearer.
-constexpr double first_guess = 2, guess_falls = 0.45;
+constexpr double first_guess = 2, guess_falls = 0.3;
 
 /// Of a limit: so much beyond it a motion may begin.
 constexpr double rounding = 1e-7;
@@ -138,7 +132,8 @@ FeedPlanner::End FeedPlanner::end_of(std::span<const FeedSpan> spans, bool back)
 
 /// How long cells should be for a span's own sake.
 double FeedPlanner::wanted(const FeedSpan& span) const {
-    return std::min(std::max(span.speed * settings_.cell_seconds, span.length / most_cells_of_a_span), length_ / least_cells);
+    const double seconds = std::clamp(span.accel / span.jerk, quickest_cell * settings_.cell_seconds, settings_.cell_seconds);
+    return std::min(std::max(span.speed * seconds, span.length / most_cells_of_a_span), length_ / least_cells);
 }
 
 /// Where a motion goes on: no longer than its speed and its acceleration last.
@@ -154,8 +149,10 @@ void FeedPlanner::grade(std::span<const FeedSpan> spans) {
     sizes_.back() = landing_.length / 3;
     for (std::size_t k = 1; k < spans.size(); ++k) {
         const FeedSpan least = least_of(spans[k - 1], spans[k]);
-        // Between unlike speeds the jerk needs about this length to reach or leave the lesser one.
-        const double ramp = spans[k - 1].speed == spans[k].speed ? length_ : unlike_part * least.speed * std::min(std::sqrt(least.speed / least.jerk), settings_.cell_seconds);
+        // Between unlike speeds the jerk needs about this time to reach or leave the lesser one.
+        const double unlike = 1 - least.speed / std::max(spans[k - 1].speed, spans[k].speed);
+        const double seconds = std::min(std::sqrt(least.speed / least.jerk), settings_.cell_seconds);
+        const double ramp = unlike > 0 ? unlike_part * least.speed * seconds / unlike : length_;
         sizes_[k] = std::min({wanted(spans[k - 1]), wanted(spans[k]), ramp});
     }
     for (std::size_t k = 1; k < sizes_.size(); ++k) sizes_[k] = std::min(sizes_[k], sizes_[k - 1] + growth * spans[k - 1].length);

@@ -28,7 +28,7 @@ struct FeedStart {
 
 struct FeedSettings {
     double cell_seconds = 0.004;  ///< a cell takes about so long at its limit
-    int refinements = 4;          ///< steps from a safe to a tight idea of the speed, on which the jerk's bend depends
+    int refinements = 3;          ///< steps from a safe to a tight idea of the speed, on which the jerk's bend depends
 };
 
 /// Allocates only when a path is longer than all before it.

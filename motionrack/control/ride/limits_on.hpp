@@ -1,6 +1,7 @@
 // What the axes' limits mean for the speed along a curve.
 #pragma once
 
+#include <motionrack/control/curve/corner.hpp>
 #include <motionrack/control/curve/curve.hpp>
 #include <motionrack/control/feed/feed_span.hpp>
 #include <motionrack/control/limits.hpp>
@@ -13,6 +14,16 @@ namespace motionrack::control {
 /// reaches its acceleration with in `jerk_seconds`.
 /// The slower `most_speed`, the more is left.
 FeedSpan limits_on(const CurvePiece& piece, const MachineLimits& limits, double most_speed);
+
+/// How much of its acceleration and of its jerk an axis may need for the bend alone; 0 .. 1.
+struct BendShares {
+    double accel = share_of_a_bend;
+    double jerk = share_of_a_bend;
+};
+FeedSpan limits_on(const CurvePiece& piece, const MachineLimits& limits, double most_speed, const BendShares& shares);
+
+/// The greatest shares that leave what these take: `accel` and `jerk` along the piece, at `speed`; no less than a bend has anyway.
+BendShares shares_beside(const CurvePiece& piece, const MachineLimits& limits, double speed, double accel, double jerk);
 
 inline constexpr double jerk_seconds = 0.002;
 

@@ -22,7 +22,7 @@ class StretchPlanner {
     double seconds() const { return seconds_; }
 
   private:
-    bool narrow(std::span<const CurvePiece> curve);
+    bool narrow(std::span<const CurvePiece> curve, double slack);
 
     MachineLimits limits_;
     FeedPlanner planner_;

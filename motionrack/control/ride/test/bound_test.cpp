@@ -130,7 +130,7 @@ TEST(AnAccelBound, HasTheSameBitsOnEveryCompilerAndCpu) {
     std::uint64_t fold = 0;
     for (const auto& shape : {circle(0.7), sine(0.25), spiral(1)})
         fold = (fold ^ std::bit_cast<std::uint64_t>(accel_bound(curve_test::pieces_of(curve_test::curve_of(shape)), machine()))) * 0x9E3779B97F4A7C15u;
-    EXPECT_EQ(fold, 18390399189846930323u);
+    EXPECT_EQ(fold, 18085057422729386909u);
 }
 
 TEST(ARide, IsNeverQuickerThanWithAnyJerk) {
@@ -142,7 +142,7 @@ TEST(ARide, IsNeverQuickerThanWithAnyJerk) {
             }
     for (std::uint64_t seed = 1; seed <= 40; ++seed)
         for (const ride_test::KeptStretch& kept : ride_test::kept_ride(ProgramMaker(seed).program(4), machine()))
-            EXPECT_GE(kept.stretch.seconds, ride_test::quickest_seconds(kept.curve, machine()) * (1 - 1e-3)) << seed;
+            EXPECT_GE(kept.stretch.seconds, ride_test::quickest_seconds(kept.curve, machine(), 60) * (1 - 1e-3)) << seed;
 }
 
 struct Nearness {
@@ -152,12 +152,12 @@ struct Nearness {
 };
 
 /// With a jerk that asks for no time. At the feed what is lost is at the ends and on bends that are sharper than the feed allows; without
-/// one a bend is driven at 0.8 of the acceleration, sqrt(1/0.8) = 1.12 of the time, and long chords have bends that come and go.
+/// one, on bends where the speed changes, for what an axis needs for either is kept free for both; long chords have bends that come and go.
 TEST(ARide, IsNearTheQuickestOnSmoothShapes) {
     const std::vector<Nearness> shapes = {
-        {"circle 0.1", circle(0.1), 1.001, 1.09},  {"circle 0.25", circle(0.25), 1.001, 1.09}, {"circle 1", circle(1), 1.001, 1.095},
-        {"sine 0.1", sine(0.1), 1.03, 1.12},       {"sine 0.25", sine(0.25), 1.04, 1.14},      {"sine 1", sine(1), 1.14, 1.25},
-        {"spiral 0.1", spiral(0.1), 1.004, 1.085}, {"spiral 0.25", spiral(0.25), 1.004, 1.085}, {"spiral 1", spiral(1), 1.035, 1.14}};
+        {"circle 0.1", circle(0.1), 1.001, 1.07},  {"circle 0.25", circle(0.25), 1.001, 1.07}, {"circle 1", circle(1), 1.001, 1.08},
+        {"sine 0.1", sine(0.1), 1.027, 1.115},       {"sine 0.25", sine(0.25), 1.034, 1.125},      {"sine 1", sine(1), 1.095, 1.18},
+        {"spiral 0.1", spiral(0.1), 1.004, 1.075}, {"spiral 0.25", spiral(0.25), 1.004, 1.07}, {"spiral 1", spiral(1), 1.02, 1.105}};
     const MachineLimits limits = with_jerk(1e8);
     for (const Nearness& shape : shapes) {
         const Seconds fed = seconds_of(shape.moves, limits), free = seconds_of(at_feed(shape.moves, 1000), limits);

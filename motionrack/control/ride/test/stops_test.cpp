@@ -1,6 +1,5 @@
-// Rides against exact stops, as S-curves, on programs of straight lines. Each corner is judged by itself, so a few programs would be quicker
-// with stops: where short lines leave no room to speed up between corners that are passed slowly, and in inverse time, where a turn between a
-// short move and a long one is driven at the feed of the short one.
+// Rides against exact stops, as S-curves, on programs of straight lines. What a row of corners takes is estimated before they are chosen to
+// be passed or stopped at, so a few programs would be quicker with stops, by little.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -49,14 +48,14 @@ TEST(ARideBesideExactStops, IsSeldomSlower) {
     }
     RecordProperty("slower", slower);
     RecordProperty("most", std::to_string(most));
-    EXPECT_LE(slower, 0.05 * programs) << "of " << programs;
-    EXPECT_LE(most, 1.25);
+    EXPECT_LE(slower, 0.005 * programs) << "of " << programs;
+    EXPECT_LE(most, 1.04);
 }
 
 /// Short, long, short with turns of 40 degrees.
-TEST(ARideBesideExactStops, IsSlowerBetweenShortLines) {
+TEST(ARideBesideExactStops, IsNotSlowerBetweenShortLines) {
     std::vector<Move> moves = {line_to({0.25, 0}, 0.01), line_to({1.35, 0.92}, 0.01), line_to({1.6, 0.92}, 0.01)};
-    EXPECT_LE(times_stopping(moves), 2.0);
+    EXPECT_LE(times_stopping(moves), 1.0);
 }
 
 /// Nearly straight.
