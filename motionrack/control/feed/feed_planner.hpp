@@ -43,6 +43,7 @@ class FeedPlanner {
     std::span<const FeedPiece> plan_from(const FeedStart& start, std::span<const FeedSpan> spans);
 
   private:
+    static constexpr double rounding = 1e-7;  ///< of a limit: so much beyond it a motion may begin
     /// What a cell asks, and its control point.
     struct Cell {
         double begin = 0, length = 0;

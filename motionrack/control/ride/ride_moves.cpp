@@ -92,7 +92,8 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
     const RideState begin = rider_.at(0);
     const double seconds = last_seconds_ = seconds_of_next();
     const RideState end = rider_.at(seconds);
-    if (size_of(between(place_, end.place)) < smallest_move) {  // where it turns round
+    const double length = size_of(between(place_, end.place));
+    if (length < smallest_move && size_of(end.speed) > 0) {  // where it turns round
         rider_.pass(seconds);
         return pull(planned, early);
     }
@@ -102,11 +103,11 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
     if (planned.move.kind != MoveKind::traverse) planned.move.kind = MoveKind::feed;
     planned.move.end = end.place;
     const double speed_in = size_of(begin.speed), speed_out = size_of(end.speed);
-    planned.length = size_of(between(place_, end.place));
+    planned.length = length;
     planned.entry = speed_in;
     planned.cruise = std::max(speed_in, speed_out);
     planned.exit = speed_out;
-    planned.accel = std::max(std::fabs(speed_out * speed_out - speed_in * speed_in) / (2 * planned.length), least_accel);
+    planned.accel = std::max(std::fabs(speed_out * speed_out - speed_in * speed_in) / (2 * std::max(length, smallest_length)), least_accel);
     planned.even = true;
     planned.move.feed = planned.cruise;
     place_ = end.place;

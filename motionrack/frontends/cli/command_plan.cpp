@@ -168,7 +168,7 @@ void add_plan(CLI::App& app, Action& chosen) {
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
     command->add_option("--picture", options->picture, "write the jerk-limited plan as SVG: the path coloured by its speed, speed, acceleration and jerk over time");
     command->add_flag("--json", options->json, "print the plans as JSON");
-    command->footer("Example: motionrack plan part.ngc --rack my.toml --picture part.svg\nCards drive the trapezoids; the jerk-limited plan keeps every axis within its jerk too.");
+    command->footer("Example: motionrack plan part.ngc --rack my.toml --picture part.svg\nCards drive the trapezoids; with profile = \"jerk_limited\" in the rack file the jerk-limited plan, which keeps every axis within its jerk too.");
     command->callback([options, &chosen] { chosen = [options] { return plan(*options); }; });
 }
 

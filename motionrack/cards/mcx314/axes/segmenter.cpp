@@ -17,8 +17,6 @@ namespace {
 constexpr double acceleration_reserve = 1.015;
 // Register accesses between the interrupt at a joint and the new speed being written.
 constexpr double accesses_to_speed = 8;
-// Of a piece's pulses, those before its speed counts.
-constexpr double spent_pulses = 0.25;
 constexpr std::int32_t top_speed_units = 8'000;
 constexpr std::int64_t longest_line = 8'000'000;
 
@@ -134,32 +132,6 @@ void Segmenter::emit(const Work& work, std::optional<double> next_units) {
         add_rest(work, speeds);
         close_chain();
     }
-}
-
-/// Without its companion's.
-Pulses4 Segmenter::way_of(const Work& work, const Pulses4& from) {
-    Pulses4 way = {};
-    for (std::size_t c = 0; c < way.size(); ++c)
-        if (static_cast<int>(c) != work.companion) way[c] = work.to[c] - from[c];
-    return way;
-}
-
-/// From the V that the piece before ends with to its own, over the pulses that it really has: on a bending path the basic pulses for a mm
-/// change from piece to piece too.
-void Segmenter::make_even(const Work& work, Speeds& speeds) {
-    const double from = chain_open_ ? reached_ : speed_units(work.units_in, start_speed(work.path.tangent_in));
-    const double to = std::min(speeds.exit, work.most_at_end);
-    const Pulses4 way = way_of(work, at_);
-    std::int64_t basic = 0;
-    for (const std::int64_t pulses : way) basic = std::max<std::int64_t>(basic, std::llabs(pulses));
-    speeds.top = speeds.exit = std::min(speeds.exit, work.most_at_end);
-    if (basic == 0) return;
-    const double length = (static_cast<double>(basic) - spent_pulses) / pulses_per_v_;  // V units * seconds
-    const double change = to * to - from * from, slope = std::fabs(change) / (2 * length);
-    const std::int32_t most = most_on(way, false).acceleration;
-    speeds.acceleration = std::clamp(static_cast<std::int32_t>(std::min(std::ceil(slope / 125), 8'000.0)), 1, most);
-    const double changed = 2 * length * 125 * speeds.acceleration;
-    reached_ = changed >= std::fabs(change) ? to : std::sqrt(std::max(1.0, from * from + (change > 0 ? changed : -changed)));
 }
 
 void Segmenter::emit_pause(const Work& work) {

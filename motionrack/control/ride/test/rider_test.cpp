@@ -120,16 +120,17 @@ double seconds_of_ride(const std::vector<Move>& moves) {
     return seconds;
 }
 
-TEST(ARiderLeftAlone, IsAsQuickAsIfAllWereKnownHoweverLittleItKnowsAhead) {
+TEST(ARiderLeftAlone, IsAsQuickAsIfAllWereKnownAndHardlySlowerIfItKnowsLittle) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
         const std::vector<Move> moves = program(random);
-        Driven driven(moves, {seed % 2 == 0 ? std::size_t{16'384} : 60});
+        const bool knows_all = seed % 2 == 0;
+        Driven driven(moves, {knows_all ? std::size_t{16'384} : 60});
         while (driven.step(0.0015, false)) {}
         expect_limits(driven);
         expect_end(driven, moves.back().end);
-        EXPECT_NEAR(driven.now, seconds_of_ride(moves), 0.05 * driven.now);
+        EXPECT_NEAR(driven.now, seconds_of_ride(moves), (knows_all ? 1e-3 : 0.1) * driven.now);
     }
 }
 
