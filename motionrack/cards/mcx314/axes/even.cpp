@@ -9,7 +9,7 @@ namespace motionrack::mcx314 {
 namespace {
 
 // Of a piece's pulses, those before its speed counts.
-constexpr double spent_pulses = 0.25;
+constexpr double spent_pulses = 0.6;
 
 }  // namespace
 
@@ -19,6 +19,16 @@ Pulses4 Segmenter::way_of(const Work& work, const Pulses4& from) {
     for (std::size_t c = 0; c < way.size(); ++c)
         if (static_cast<int>(c) != work.companion) way[c] = work.to[c] - from[c];
     return way;
+}
+
+/// Where the path turns round it is slow, but less slow than planned by half a pulse: it stands there, or the speed would jump twice.
+void Segmenter::look_at_next(Work& work, const Work& next) const {
+    const Pulses4 way = way_of(next, work.to);
+    work.most_at_end = most_on(way, false).speed;
+    double along = 0;
+    for (std::size_t i = 0; i < control::axis_count; ++i)
+        along += (work.move.move.end[i] - work.move.start[i]) * (next.move.move.end[i] - next.move.start[i]);
+    work.turns_back = work.move.even && along < 0;
 }
 
 /// From the V that the piece before ends with to its own, over the pulses that it really has: on a bending path the basic pulses for a mm

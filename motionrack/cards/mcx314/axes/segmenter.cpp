@@ -35,7 +35,7 @@ Segmenter::Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& star
 
 void Segmenter::add(const control::PlannedMove& move) {
     Work work = classify(move);
-    if (waiting_ && work.move.even) waiting_->most_at_end = most_on(way_of(work, waiting_->to), false).speed;
+    if (waiting_ && work.move.even) look_at_next(*waiting_, work);
     if (waiting_) emit(*waiting_, work.shape == Shape::pause ? std::nullopt : std::optional(work.units_in));
     // A move's start is where the one before it really ends, which only emit knows.
     waiting_ = std::move(work);
@@ -109,7 +109,7 @@ double Segmenter::fall_length(double units, const Speeds& speeds) const {
 
 void Segmenter::emit(const Work& work, std::optional<double> next_units) {
     if (work.shape == Shape::pause) return emit_pause(work);
-    const bool rests = !next_units || work.move.exit <= 0;
+    const bool rests = !next_units || work.move.exit <= 0 || work.turns_back;
     if (rests && !chain_open_ && work.move.jerk > 0 && emit_s_curve(work)) return;
     const double units = std::min(work.units_in, work.units_out);
     Speeds speeds;

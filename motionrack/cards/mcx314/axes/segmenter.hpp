@@ -59,6 +59,7 @@ class Segmenter {
         std::int32_t companion = -1;  ///< channel of a fourth axis that moves beside the interpolation
         Pulses4 to = {};
         std::int32_t most_at_end = 8'000;  ///< V with which the piece after it may begin
+        bool turns_back = false;           ///< the piece after it goes back
     };
     /// Which pieces a move is cut into: it drives towards `top` until `fall_from` along it, then towards `exit`.
     struct Speeds {
@@ -77,6 +78,7 @@ class Segmenter {
     Work classify(const control::PlannedMove& move);
     void emit(const Work& work, std::optional<double> next_units);
     static Pulses4 way_of(const Work& work, const Pulses4& from);
+    void look_at_next(Work& work, const Work& next) const;
     void make_even(const Work& work, Speeds& speeds);
     void emit_pause(const Work& work);
     bool emit_s_curve(const Work& work);
