@@ -129,7 +129,7 @@ double RideMoves::seconds_of_next() const {
     // No crumb before the end.
     const double left = rider_.left();
     if (left - seconds >= 0.5 * seconds) return seconds;
-    return roughness_of(begin, left).turn <= jump_share ? left : 0.5 * left;
+    return left < 2 * shortest || roughness_of(begin, left).turn <= jump_share ? left : 0.5 * left;
 }
 
 RideMoves::Roughness RideMoves::roughness_of(const RideState& begin, double seconds) const {
