@@ -1,6 +1,9 @@
 // What the ride's tests share: whole rides, kept beyond the callback.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <motionrack/control/path.hpp>
 #include <motionrack/control/ride/ride.hpp>
 #include <vector>
 
@@ -28,6 +31,27 @@ inline std::vector<KeptStretch> kept_ride(const std::vector<Move>& moves, const 
     for (const Move& move : moves) ride.push(move);
     ride.flush();
     return out;
+}
+
+inline double seconds_of_ride(const std::vector<Move>& moves, const MachineLimits& limits) {
+    double seconds = 0;
+    for (const KeptStretch& kept : kept_ride(moves, limits)) seconds += kept.stretch.seconds - kept.stretch.overlap + kept.stretch.rest_seconds;
+    return seconds;
+}
+
+/// By the planner of trapezoids; S-curves from stop to stop.
+inline double seconds_stopping(std::vector<Move> moves, const MachineLimits& limits) {
+    Planner planner(limits, {});
+    PlanSummary sum;
+    PlannedMove planned;
+    for (Move& move : moves) {
+        move.path = PathControl::exact_stop;
+        while (!planner.has_room() && planner.pull(planned)) sum.add(planned);
+        EXPECT_TRUE(planner.push(move));
+    }
+    planner.flush();
+    while (planner.pull(planned)) sum.add(planned);
+    return sum.seconds;
 }
 
 }  // namespace motionrack::control::ride_test

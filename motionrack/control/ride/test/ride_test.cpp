@@ -7,6 +7,7 @@
 #include <motionrack/control/curve/test/curve_support.hpp>
 #include <motionrack/control/path.hpp>
 #include <motionrack/control/ride/ride.hpp>
+#include <motionrack/control/ride/test/ride_support.hpp>
 #include <vector>
 
 namespace motionrack::control {
@@ -49,21 +50,6 @@ Ridden ride(const std::vector<Move>& moves, double step = 0.0005) {
     return out;
 }
 
-/// By the planner of trapezoids; S-curves from stop to stop.
-double seconds_stopping(std::vector<Move> moves) {
-    Planner planner(machine(), {});
-    PlanSummary sum;
-    PlannedMove planned;
-    for (Move& move : moves) {
-        move.path = PathControl::exact_stop;
-        while (!planner.has_room() && planner.pull(planned)) sum.add(planned);
-        EXPECT_TRUE(planner.push(move));
-    }
-    planner.flush();
-    while (planner.pull(planned)) sum.add(planned);
-    return sum.seconds;
-}
-
 std::vector<Move> square_wave(int legs, double length, double tolerance_mm) {
     std::vector<Move> out;
     for (int i = 1; i <= legs; ++i) out.push_back(line_to({(i + 1) / 2 * length, (i / 2) % 2 * length}, tolerance_mm));
@@ -101,7 +87,7 @@ TEST(ARide, OfAStraightLineIsAnSCurve) {
 }
 
 TEST(ARide, GainsWhatTheToleranceOfACornerAllows) {
-    const double stopping = seconds_stopping(square_wave(40, 20, 0));
+    const double stopping = ride_test::seconds_stopping(square_wave(40, 20, 0), machine());
     double last = stopping * 1.015;
     for (const double tolerance : {0.001, 0.01, 0.1}) {
         const double seconds = ride(square_wave(40, 20, tolerance)).seconds;
@@ -131,7 +117,7 @@ TEST(ARide, OfAZigzagIsHardlySlowerThanWithExactStops) {
         for (const double length : {0.5, 5.0, 50.0}) {
             std::vector<Move> moves;
             for (int i = 1; i <= 30; ++i) moves.push_back(line_to({i * length, i % 2 * length}, tolerance));
-            EXPECT_LE(ride(moves).seconds, 1.03 * seconds_stopping(moves)) << tolerance << " " << length;
+            EXPECT_LE(ride(moves).seconds, 1.03 * ride_test::seconds_stopping(moves, machine())) << tolerance << " " << length;
         }
 }
 

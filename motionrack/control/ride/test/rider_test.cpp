@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/control/curve/test/curve_support.hpp>
-#include <motionrack/control/ride/ride.hpp>
 #include <motionrack/control/ride/rider.hpp>
+#include <motionrack/control/ride/test/ride_support.hpp>
 #include <random>
 #include <vector>
 
@@ -112,14 +112,6 @@ void expect_end(const Driven& driven, const Point& end) {
     for (std::size_t i = 0; i < end.size(); ++i) EXPECT_NEAR(driven.last.place[i], end[i], 1e-4);
 }
 
-double seconds_of_ride(const std::vector<Move>& moves) {
-    double seconds = 0;
-    Ride ride(machine(), {}, [&](const Stretch& stretch) { seconds += stretch.seconds - stretch.overlap + stretch.rest_seconds; });
-    for (const Move& move : moves) ride.push(move);
-    ride.flush();
-    return seconds;
-}
-
 TEST(ARiderLeftAlone, IsAsQuickAsIfAllWereKnownAndHardlySlowerIfItKnowsLittle) {
     for (unsigned seed = 0; seed < 40; ++seed) {
         SCOPED_TRACE(seed);
@@ -130,7 +122,7 @@ TEST(ARiderLeftAlone, IsAsQuickAsIfAllWereKnownAndHardlySlowerIfItKnowsLittle) {
         while (driven.step(0.0015, false)) {}
         expect_limits(driven);
         expect_end(driven, moves.back().end);
-        EXPECT_NEAR(driven.now, seconds_of_ride(moves), (knows_all ? 1e-3 : 0.1) * driven.now);
+        EXPECT_NEAR(driven.now, ride_test::seconds_of_ride(moves, machine()), (knows_all ? 1e-3 : 0.1) * driven.now);
     }
 }
 

@@ -13,27 +13,7 @@ namespace {
 using curve_test::line_to;
 using curve_test::machine;
 
-double seconds_of_ride(const std::vector<Move>& moves) {
-    double seconds = 0;
-    for (const ride_test::KeptStretch& kept : ride_test::kept_ride(moves, machine())) seconds += kept.stretch.seconds - kept.stretch.overlap + kept.stretch.rest_seconds;
-    return seconds;
-}
-
-double seconds_stopping(std::vector<Move> moves) {
-    Planner planner(machine(), {});
-    PlanSummary sum;
-    PlannedMove planned;
-    for (Move& move : moves) {
-        move.path = PathControl::exact_stop;
-        while (!planner.has_room() && planner.pull(planned)) sum.add(planned);
-        EXPECT_TRUE(planner.push(move));
-    }
-    planner.flush();
-    while (planner.pull(planned)) sum.add(planned);
-    return sum.seconds;
-}
-
-double times_stopping(const std::vector<Move>& moves) { return seconds_of_ride(moves) / seconds_stopping(moves); }
+double times_stopping(const std::vector<Move>& moves) { return ride_test::seconds_of_ride(moves, machine()) / ride_test::seconds_stopping(moves, machine()); }
 
 TEST(ARideBesideExactStops, IsSeldomSlower) {
     int slower = 0, programs = 0;
@@ -71,7 +51,7 @@ TEST(ARideBesideExactStops, TakesTheProgrammedTimeInInverseTime) {
         moves.back().feed = length < 0.02 ? 2 : 3;
         programmed += 1 / moves.back().feed;
     }
-    const double seconds = seconds_of_ride(moves);
+    const double seconds = ride_test::seconds_of_ride(moves, machine());
     EXPECT_GE(seconds, programmed);
     EXPECT_LE(seconds, 1.02 * programmed);
 }
