@@ -1,7 +1,6 @@
 // The planner of a card's axes.
 #pragma once
 
-#include <memory>
 #include <motionrack/control/path.hpp>
 #include <motionrack/control/path_axes.hpp>
 #include <motionrack/control/ride/ride_moves.hpp>

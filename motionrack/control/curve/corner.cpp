@@ -43,14 +43,18 @@ Side side_at(const Joint& joint, bool stops, const Leg& leg) {
 
 /// In a launch into one leg and a landing on the other at the same time.
 double overlap_seconds(const Leg& before, const Leg& after, const Point& in, const Point& out, double room_mm, const MachineLimits& limits) {
-    if (!(room_mm > 0)) return 0;
-    for (std::size_t i = 0; i < limits.size(); ++i)
-        if (limits[i].max_jerk > 0 && std::fabs(before.jerk * in[i] + after.jerk * out[i]) > limits[i].max_jerk * (1 + rounding)) return 0;
     const auto rise = [](const Leg& leg) { return std::min({leg.accel / leg.jerk, std::sqrt(leg.speed / leg.jerk), cube_root(0.5 * leg.length / leg.jerk)}); };
-    return std::min({rise(before), rise(after), (1 + cube_root(before.jerk / after.jerk)) * cube_root(6 * room_mm / before.jerk)});
+    return std::min({rise(before), rise(after), overlap_within(room_mm, before.jerk, in, after.jerk, out, limits)});
 }
 
 }  // namespace
+
+double speed_along(const Point& tangent, const MachineLimits& limits) {
+    double least = no_limit;
+    for (std::size_t i = 0; i < tangent.size(); ++i)
+        if (tangent[i] != 0) least = std::min(least, limits[i].max_speed / std::fabs(tangent[i]));
+    return least;
+}
 
 double accel_along(const Point& tangent, const MachineLimits& limits) {
     double least = no_limit;
@@ -64,6 +68,16 @@ double jerk_along(const Point& tangent, const MachineLimits& limits) {
     for (std::size_t i = 0; i < tangent.size(); ++i)
         if (tangent[i] != 0 && limits[i].max_jerk > 0) least = std::min(least, limits[i].max_jerk / std::fabs(tangent[i]));
     return least;
+}
+
+// With t from the next one's begin, the one before it has still jerk (T - t)^3 / 6 to go, and the next one has gone jerk t^3 / 6. The path is
+// no farther from one side than it has gone along the other, so it is farthest where both are equal. Speeds and accelerations are greatest at
+// the ends, where one of the two is 0.
+double overlap_within(double room_mm, double jerk_in, const Point& in, double jerk_out, const Point& out, const MachineLimits& limits) {
+    if (!(room_mm > 0)) return 0;
+    for (std::size_t i = 0; i < limits.size(); ++i)
+        if (limits[i].max_jerk > 0 && std::fabs(jerk_in * in[i] + jerk_out * out[i]) > limits[i].max_jerk * (1 + rounding)) return 0;
+    return (1 + cube_root(jerk_in / jerk_out)) * cube_root(6 * room_mm / jerk_in);
 }
 
 // The tangent changes as two parabolas: its greatest rate is 2 changes over the width, the rate's rate is 4 over its square.

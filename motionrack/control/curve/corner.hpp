@@ -30,9 +30,14 @@ struct Joint {
     bool is_choice() const { return can_stop && can_pass; }
 };
 
-/// What an axis can do along `tangent`, or over a turn: the least of limit / |tangent|.
+/// What the axes can do along `tangent`, or over a turn: the least of limit / |tangent|.
+double speed_along(const Point& tangent, const MachineLimits& limits);
 double accel_along(const Point& tangent, const MachineLimits& limits);
 double jerk_along(const Point& tangent, const MachineLimits& limits);
+
+/// s by which the next stretch may begin before the one before has ended, both with constant jerk, so that at a corner the path is no farther
+/// from its sides than `room_mm`; 0: there is no room, or an axis of both would get too much jerk.
+double overlap_within(double room_mm, double jerk_in, const Point& in, double jerk_out, const Point& out, const MachineLimits& limits);
 
 /// A turn from one tangent to another that is spread over `width`, between these legs; `room_mm`: how far a stop may be from its corner.
 Joint choice_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double width, double room_mm, const MachineLimits& limits);

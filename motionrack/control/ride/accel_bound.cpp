@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <motionrack/control/curve/corner.hpp>
 #include <vector>
 
 namespace motionrack::control {
@@ -26,9 +27,7 @@ struct Cell {
 };
 
 double cap_of(const Point& tangent, const MachineLimits& limits, double feed) {
-    double speed = feed;
-    for (std::size_t i = 0; i < tangent.size(); ++i)
-        if (tangent[i] != 0) speed = std::min(speed, limits[i].max_speed / std::fabs(tangent[i]));
+    const double speed = std::min(feed, speed_along(tangent, limits));
     return speed < 1e100 ? speed * speed : no_cap;
 }
 

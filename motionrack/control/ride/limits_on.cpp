@@ -43,8 +43,6 @@ AxisOnPiece axis_on(const CurvePiece& piece, const MachineLimits& limits, std::s
 
 }  // namespace
 
-FeedSpan limits_on(const CurvePiece& piece, const MachineLimits& limits, double most_speed) { return limits_on(piece, limits, most_speed, {}); }
-
 FeedSpan limits_on(const CurvePiece& piece, const MachineLimits& limits, double most_speed, const BendShares& shares) {
     std::array<AxisOnPiece, axis_count> axes;
     double speed = std::min(piece.feed, most_speed);

@@ -6,12 +6,6 @@
 
 namespace motionrack::control {
 
-namespace {
-
-constexpr double no_speed_limit = 1e300;
-
-}  // namespace
-
 RideState StretchView::at(double seconds) {
     const auto& feed = stretch_.feed;
     const auto& curve = stretch_.curve;
@@ -41,7 +35,7 @@ void Ride::take() {
     while (builder_.pull(item)) {
         if (!item.rest) {
             curve_.push_back(item.piece);
-            spans_.push_back(limits_on(item.piece, limits_, no_speed_limit));
+            spans_.push_back(limits_on(item.piece, limits_));
             continue;
         }
         Stretch stretch{curve_, {}, 0, 0, end_, item.seconds, item.line, item.at};

@@ -11,7 +11,6 @@ namespace motionrack::control {
 
 namespace {
 
-constexpr double no_speed_limit = 1e300;
 /// s before it has to slow down at which a path is planned further: more than anybody passes at once.
 constexpr double margin = 0.15;
 /// s until another plan is sought where none was found.
@@ -22,11 +21,8 @@ constexpr std::size_t least_drop = 1'024;
 constexpr std::int64_t tags = std::int64_t{1} << 30;
 
 double fastest_of_axes(const CurvePiece& piece, const MachineLimits& limits) {
-    double speed = no_speed_limit;
-    for (const Point& tangent : {piece.tangent, tangent_on(piece, 0.5 * piece.length), tangent_on(piece, piece.length)})
-        for (std::size_t i = 0; i < limits.size(); ++i)
-            if (tangent[i] != 0) speed = std::min(speed, limits[i].max_speed / std::fabs(tangent[i]));
-    return speed;
+    const Point middle = tangent_on(piece, 0.5 * piece.length), end = tangent_on(piece, piece.length);
+    return std::min({speed_along(piece.tangent, limits), speed_along(middle, limits), speed_along(end, limits)});
 }
 
 }  // namespace
@@ -110,7 +106,7 @@ void Rider::set_feed(Part& part, std::size_t i, double at_least) const {
             piece.feed = rapid_override_ * fastest_of_axes(piece, limits_);
     }
     piece.feed = std::max(piece.feed, at_least);
-    part.spans[i] = limits_on(piece, limits_, no_speed_limit);
+    part.spans[i] = limits_on(piece, limits_);
 }
 
 void Rider::drop_passed() {

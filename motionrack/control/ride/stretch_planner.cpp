@@ -17,7 +17,6 @@ constexpr double first_slack = 0.25, slack_falls = 0.4;
 constexpr double nearly = 1.01;
 /// What a piece needed for changing the speed becomes more where neighbours become quicker.
 constexpr double reserve = 1.3;
-constexpr double no_speed_limit = 1e300;
 
 }  // namespace
 

@@ -35,11 +35,10 @@ void Segmenter::look_at_next(Work& work, const Work& next) const {
 /// change from piece to piece too.
 void Segmenter::make_even(const Work& work, Speeds& speeds) {
     const double from = chain_open_ ? reached_ : speed_units(work.units_in, start_speed(work.path.tangent_in));
-    const double to = std::min(speeds.exit, work.most_at_end);
+    const double to = speeds.top = speeds.exit = std::min(speeds.exit, work.most_at_end);
     const Pulses4 way = way_of(work, at_);
     std::int64_t basic = 0;
     for (const std::int64_t pulses : way) basic = std::max<std::int64_t>(basic, std::llabs(pulses));
-    speeds.top = speeds.exit = std::min(speeds.exit, work.most_at_end);
     if (basic == 0) return;
     const double length = (static_cast<double>(basic) - spent_pulses) / pulses_per_v_;  // V units * seconds
     const double change = to * to - from * from, slope = std::fabs(change) / (2 * length);
