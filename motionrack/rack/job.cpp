@@ -55,6 +55,7 @@ JobOutcome Job::run() {
     settings.gcode = reader_settings(rack_.config(), settings_.block_delete);
     settings.kept_back = rack_.axes().front().card->kept_back();
     settings.jerk_limited = rack_.config().jerk_limited();
+    settings.stop = settings_.stop;
     const std::int64_t lines = 1 + std::count(settings_.program.begin(), settings_.program.end(), '\n');
     const Instant began = rack_.kernel().now();
     const std::uint64_t events_before = rack_.kernel().events();
