@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t most_unflushed = 1'000'000;
 constexpr Duration least_flush_period = whole_seconds(1);
 
-std::string lower(char letter) { return {1, static_cast<char>(letter - 'A' + 'a')}; }
+std::string lower(char letter) { return std::string(1, static_cast<char>(letter - 'A' + 'a')); }
 
 /// "motion.xlmtp" -> "wires/motion/xlmtp"; names without a dot are the rack's.
 std::string wire_path(const std::string& name) {
@@ -187,7 +187,6 @@ std::vector<trace::Fact> facts_of(const JobOutcome& outcome) {
     add("moves", outcome.run.moves);
     add("lines", outcome.run.lines);
     add("chip_segments", outcome.chip_segments);
-    add("events", outcome.events);
     add("trace_hash", fmt::format("{:016x}", outcome.trace_hash));
     add("position_trusted", outcome.position_trusted ? "yes" : "no");
     add("worst_deviation_mm", outcome.worst.mm);

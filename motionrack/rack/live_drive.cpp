@@ -1,6 +1,7 @@
 // Lines go in while there is room, and the stream drives.
 #include <fmt/format.h>
 
+#include <motionrack/control/geometry.hpp>
 #include <motionrack/rack/live_drive.hpp>
 #include <utility>
 
@@ -78,21 +79,20 @@ class Feeder {
     std::optional<Error> problem_;
 };
 
-}  // namespace
-
-Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text, const std::string& file, control::ProgramRun& run) {
+Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& orders, Feeder& feeder, const std::string& file) {
     using control::StreamState;
-    stream.on_move([&run](const control::Move& move, const control::Point&) { run.moves += move.kind != control::MoveKind::dwell; });
-    Feeder feeder(text, file, run);
     while (true) {
         if (!orders.stopped()) feeder.feed(stream);
         MOTIONRACK_TRY(const StreamState state, stream.drive(feeder.more()));
         switch (state) {
             case StreamState::waiting: host.pass(look); break;
             case StreamState::held:
-                if (!orders.pending())
+                if (!orders.holds())
+                    stream.resume();
+                else if (!orders.pending())
                     return fail(Trouble::stopped, fmt::format("The job was held in line {}, and nobody resumed it.", stream.line_driven()), {stream.line_driven(), 0}, file);
-                host.pass(look);
+                else
+                    host.pass(look);
                 break;
             case StreamState::paused: stream.resume(); break;  // M0: nobody waits in simulated time
             case StreamState::driving: break;
@@ -103,6 +103,24 @@ Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPla
                 break;
         }
     }
+}
+
+}  // namespace
+
+Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text, const std::string& file, control::ProgramRun& run) {
+    // What is left of a move after a hold is planned again: what was programmed counts.
+    double path_mm = 0;
+    stream.on_move([&](const control::Move& move, const control::Point& start) {
+        ++run.moves;
+        const bool linear = start[0] != move.end[0] || start[1] != move.end[1] || start[2] != move.end[2] || move.kind == control::MoveKind::arc;
+        if (linear) path_mm += control::geometry_of(move, start).length;
+    });
+    Feeder feeder(text, file, run);
+    const Result<void> ended = drive(stream, host, orders, feeder, file);
+    stream.on_move({});
+    run.plan.moves = run.moves;
+    run.plan.path_mm = path_mm;
+    return ended;
 }
 
 }  // namespace motionrack::rack

@@ -99,6 +99,7 @@ void OrderPlan::apply_due() {
 
 void OrderPlan::apply(const Order& order) {
     if (order.kind == Kind::stop) stop_flag_ = true;
+    if (order.kind == Kind::hold || order.kind == Kind::resume) holds_ = order.kind == Kind::hold;
     if (stream_ == nullptr) return;
     switch (order.kind) {
         case Kind::stop: stream_->stop(); break;

@@ -39,6 +39,8 @@ class OrderPlan final : public sim::Device {
     std::optional<Instant> ask_stop();
     void apply_due();
     bool stopped() const { return stop_flag_; }
+    /// The last of holds and resumes was a hold. A resume that comes before the axes stand lets them go on as soon as they do.
+    bool holds() const { return holds_; }
     /// An order is still to come.
     bool pending() const;
     /// Sentences about what was not done because the run ended before.
@@ -66,7 +68,7 @@ class OrderPlan final : public sim::Device {
     std::vector<Order> orders_;  // in the order of time
     control::Stream* stream_ = nullptr;
     std::atomic<bool> stop_flag_{false};
-    bool needs_stream_ = false, asked_ = false;
+    bool needs_stream_ = false, asked_ = false, holds_ = false;
     double feed_ = 1, rapid_ = 1;
 };
 

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t block = 1 << 14;
 constexpr std::uint64_t most_inputs = 1'000'000;
 /// The outcome's facts, in the order in which they are told.
-constexpr const char* fact_names[] = {"ended", "message", "line", "seconds", "path_mm", "moves", "lines", "chip_segments", "events", "trace_hash", "position_trusted",
+constexpr const char* fact_names[] = {"ended", "message", "line", "seconds", "path_mm", "moves", "lines", "chip_segments", "trace_hash", "position_trusted",
                                       "worst_deviation_mm", "pulse_positions", "counts_read", "real_ends"};
 
 }  // namespace
