@@ -60,7 +60,7 @@ Handle column_settings(std::size_t chunk) {
 Handle text_type(std::size_t bytes) {
     Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
     H5Tset_size(type.get(), std::max<std::size_t>(bytes, 1));
-    H5Tset_cset(type.get(), H5T_CSET_UTF8);
+    // UTF-8 inside, but not called so: Octave reads no text that says it is UTF-8.
     H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
     return type;
 }

@@ -5,7 +5,7 @@
 
 namespace motionrack::trace::hdf5 {
 
-/// A text of so many bytes (at least 1), UTF-8, zeros after its end.
+/// A text of so many bytes (at least 1), zeros after its end.
 Handle text_type(std::size_t bytes);
 /// The library's number for it; of text that of a byte.
 std::int64_t number_type(Type type);
