@@ -152,7 +152,9 @@ TEST_F(ARecordedRun, IsTheSameAgainWithHoldsOverridesAndFaults) {
         ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();
         const auto reader = trace::RecordingReader::open(at("a.h5"));
         for (const auto& [when, speed] : read<double>(*reader, "X.speed"))
-            if (Instant{when} > milliseconds(700) && Instant{when} < milliseconds(800)) EXPECT_EQ(speed, 0) << "held, at " << when;
+            if (Instant{when} > milliseconds(700) && Instant{when} < milliseconds(800)) {
+                EXPECT_EQ(speed, 0) << "held, at " << when;
+            }
         for (std::size_t i = 0; i < plain.axes.size(); ++i) EXPECT_EQ(outcome.axes[i].pulse_position, plain.axes[i].pulse_position) << i;
         expect_same_again("a.h5");
         EXPECT_FALSE(trace::diff_files(at("a.h5"), at("plain.h5"))->same());

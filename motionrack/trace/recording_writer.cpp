@@ -11,8 +11,9 @@ namespace motionrack::trace {
 namespace {
 
 constexpr double tick_s = 1e-10;
-constexpr std::size_t edge_chunk = 1 << 14, level_chunk = 1 << 10, sample_chunk = 1 << 12;
-constexpr std::size_t edge_buffer = 1 << 12, level_buffer = 1 << 7;
+// A chunk that was flushed before it was full is written again in another place: the smaller, the less is lost by that.
+constexpr std::size_t edge_chunk = 1 << 12, level_chunk = 1 << 9, sample_chunk = 1 << 10;
+constexpr std::size_t edge_buffer = 1 << 12, level_buffer = 1 << 7, sample_buffer = 1 << 9;
 
 /// Elements that wait to be written.
 template <class T>
@@ -138,7 +139,7 @@ void RecordingWriter::make_signals(const RecordingHead& head) {
 void RecordingWriter::make_samples(const RecordingHead& head) {
     samples_ = std::make_unique<Samples>();
     const auto column = [&](auto& buffered, const std::string& path, const std::string& unit, double scale = 1) {
-        buffered = {file_, "samples/" + path, sample_chunk, sample_chunk / 4, unit, scale};
+        buffered = {file_, "samples/" + path, sample_chunk, sample_buffer, unit, scale};
     };
     column(samples_->times, "time", "s", tick_s);
     column(samples_->deviation, "deviation", "mm");
