@@ -5,6 +5,8 @@
 set(motionrack_public_packages "fmt 9" "tl-expected 1.0" "tomlplusplus 3.3" "ZLIB 1.2")
 # Those of them that are libraries, as a linker calls them.
 set(motionrack_linked_libraries fmt tomlplusplus z)
+# Recordings: HDF5 1.10 or later, which each system calls otherwise; without MPI. Linked by its name, so that an installed room has no paths in it.
+set(motionrack_hdf5_names hdf5_serial hdf5)
 # Headers that only our own sources include.
 set(motionrack_private_packages "nlohmann_json 3.11" "CLI11 2.1" "CycloneDDS 0.10" "pugixml 1.13" "SQLite3 3.40" "OpenSSL 3.0" "Boost 1.81")
 
@@ -18,4 +20,9 @@ macro(motionrack_find_packages)
   endforeach()
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(RSVG REQUIRED IMPORTED_TARGET ${motionrack_private_modules})
+  find_path(MOTIONRACK_HDF5_HEADERS hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
+  find_library(MOTIONRACK_HDF5_LIBRARY NAMES ${motionrack_hdf5_names} REQUIRED)
+  get_filename_component(motionrack_hdf5 "${MOTIONRACK_HDF5_LIBRARY}" NAME_WE)
+  string(REGEX REPLACE "^lib" "" motionrack_hdf5 "${motionrack_hdf5}")
+  list(APPEND motionrack_linked_libraries ${motionrack_hdf5})
 endmacro()

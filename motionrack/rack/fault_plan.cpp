@@ -2,44 +2,39 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <limits>
 #include <motionrack/rack/fault_plan.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
 namespace motionrack::rack {
 
-namespace {
-
-constexpr double most_seconds = 1e6;
-
-/// The whole text as a number, or NaN.
-double number(std::string_view text) {
-    double value = 0;
-    const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return bad == std::errc() && end == text.data() + text.size() ? value : std::numeric_limits<double>::quiet_NaN();
+Result<std::vector<TimedText>> read_faults(const std::vector<std::string>& texts) {
+    std::vector<TimedText> faults;
+    for (const std::string& text : texts) {
+        std::optional<TimedText> timed = read_timed_text(text);
+        if (!timed)
+            return fail(Trouble::bad_input,
+                        fmt::format("The fault {} needs its time, 0 to {:.0f} s: NAME=VALUE@TIME, such as X.limit_plus=0@0.5s or "
+                                    "X.encoder.broken_a@20ms. Nothing was moved.",
+                                    in_quotes(text), most_planned_seconds));
+        faults.push_back(std::move(*timed));
+    }
+    return faults;
 }
-
-/// "0.5s", "20ms", "1e3us" in seconds, or NaN.
-double seconds(std::string_view text) {
-    struct Unit {
-        std::string_view name;
-        double size;
-    };
-    for (const Unit unit : {Unit{"ms", 1e-3}, Unit{"us", 1e-6}, Unit{"s", 1.0}})
-        if (text.size() > unit.name.size() && text.substr(text.size() - unit.name.size()) == unit.name)
-            return number(text.substr(0, text.size() - unit.name.size())) * unit.size;
-    return std::numeric_limits<double>::quiet_NaN();
-}
-
-}  // namespace
 
 Result<std::unique_ptr<FaultPlan>> FaultPlan::create(Rack& rack, const std::vector<std::string>& texts) {
+    MOTIONRACK_TRY(const std::vector<TimedText> faults, read_faults(texts));
+    return create_timed(rack, faults);
+}
+
+Result<std::unique_ptr<FaultPlan>> FaultPlan::create_timed(Rack& rack, const std::vector<TimedText>& faults) {
     std::unique_ptr<FaultPlan> plan(new FaultPlan(rack));
-    for (const std::string& text : texts) {
-        MOTIONRACK_TRY(PlannedFault fault, plan->read(text));
+    for (const TimedText& text : faults) {
+        PlannedFault fault;
+        fault.text = text.text;
+        fault.at = text.at;
+        MOTIONRACK_CHECK(plan->read_action(text.text, text.action, fault));
         plan->faults_.push_back(std::move(fault));
     }
     std::stable_sort(plan->faults_.begin(), plan->faults_.end(),
@@ -48,28 +43,13 @@ Result<std::unique_ptr<FaultPlan>> FaultPlan::create(Rack& rack, const std::vect
     return plan;
 }
 
-Result<PlannedFault> FaultPlan::read(const std::string& text) {
-    PlannedFault fault;
-    fault.text = text;
-    const std::size_t at = text.rfind('@');
-    const double time = at == std::string::npos ? std::nan("") : seconds(std::string_view(text).substr(at + 1));
-    if (!(time >= 0 && time <= most_seconds))
-        return fail(Trouble::bad_input,
-                    fmt::format("The fault {} needs its time, 0 to {:.0f} s: NAME=VALUE@TIME, such as X.limit_plus=0@0.5s or "
-                                "X.encoder.broken_a@20ms. Nothing was moved.",
-                                in_quotes(text), most_seconds));
-    fault.at = from_seconds(time);
-    MOTIONRACK_CHECK(read_action(text, std::string_view(text).substr(0, at), fault));
-    return fault;
-}
-
 Result<void> FaultPlan::read_action(const std::string& text, std::string_view action, PlannedFault& fault) {
     const std::size_t equals = action.find('=');
     const std::string_view name = action.substr(0, equals);
     if (desk_.knows(name)) {
         const std::string_view value = equals == std::string_view::npos ? "1" : action.substr(equals + 1);
         fault.name = name;
-        fault.value = number(value);
+        fault.value = whole_number(value);
         if (std::isnan(fault.value) && value != "release")
             return fail(Trouble::bad_input, fmt::format("The fault {}: the value of a wire is 0, 1 or release, not {}. Nothing was "
                                                         "moved.",

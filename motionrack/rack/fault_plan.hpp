@@ -4,6 +4,7 @@
 #pragma once
 
 #include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/timed_text.hpp>
 #include <motionrack/rack/wire_desk.hpp>
 #include <string>
 #include <string_view>
@@ -23,11 +24,15 @@ struct PlannedFault {
     std::string refused;  ///< why it could not be done when its time had come: the part cannot have that value
 };
 
+/// Takes texts as users write them apart; what they name is looked at later. Errors: bad_input, one without its time.
+Result<std::vector<TimedText>> read_faults(const std::vector<std::string>& texts);
+
 class FaultPlan final : public sim::Device {
   public:
     /// Before the rack is started; nothing is planned if it fails. Errors: bad_input and refused, for the first text that
     /// cannot be obeyed.
     static Result<std::unique_ptr<FaultPlan>> create(Rack& rack, const std::vector<std::string>& texts);
+    static Result<std::unique_ptr<FaultPlan>> create_timed(Rack& rack, const std::vector<TimedText>& faults);
 
     /// After the rack was started.
     void begin();
@@ -40,7 +45,6 @@ class FaultPlan final : public sim::Device {
 
   private:
     explicit FaultPlan(Rack& rack) : rack_(rack), desk_(rack) {}
-    Result<PlannedFault> read(const std::string& text);
     Result<void> read_action(const std::string& text, std::string_view action, PlannedFault& fault);
 
     Rack& rack_;

@@ -7,6 +7,12 @@
 
 namespace motionrack::rack {
 
+namespace {
+
+constexpr Duration slice = milliseconds(50);
+
+}  // namespace
+
 std::vector<WatchedAxis> watched_axes(Rack& rack) {
     std::vector<WatchedAxis> watched;
     for (RunningAxis& axis : rack.axes()) {
@@ -40,9 +46,67 @@ control::gcode::Settings reader_settings(const RackConfig& config, bool block_de
 
 Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(settings)) {
     monitor_ = std::make_unique<Monitor>(rack_.kernel(), watched_axes(rack_), settings_.sample_period, settings_.most_samples);
+    monitor_->on_sample(settings_.on_sample);
 }
 
 Job::~Job() = default;
+
+void Job::planned(std::int64_t block, const control::PlannedMove& move, JobOutcome& out) {
+    monitor_->planned(block, move);
+    if (!rack_.config().point_to_point() && move.move.path == control::PathControl::continuous)
+        out.tolerance_mm = std::max(out.tolerance_mm, move.move.tolerance_mm);
+    if (planned_.size() < most_planned) planned_.push_back(move);
+}
+
+void Job::listen(const std::vector<control::BlockStart>& starts) {
+    for (const control::BlockStart& start : starts) line_ = start.line;
+    monitor_->started(starts);
+    monitor_->drain();
+    if (settings_.orders != nullptr) settings_.orders->apply_due();
+    if (settings_.on_slice) settings_.on_slice();
+    if (settings_.progress) settings_.progress({to_seconds(rack_.kernel().now() - began_), line_, lines_});
+}
+
+Result<void> Job::drive(control::PathAxes& axes, JobOutcome& out) {
+    control::ControllerSettings settings;
+    settings.gcode = reader_settings(rack_.config(), settings_.block_delete);
+    settings.kept_back = rack_.axes().front().card->kept_back();
+    settings.jerk_limited = rack_.config().jerk_limited();
+    if (settings_.orders != nullptr && settings_.orders->needs_stream()) return drive_by_stream(axes, settings, out);
+    settings.stop = settings_.orders != nullptr ? settings_.orders->stop_flag() : settings_.stop;
+    rack_.set_stop_flag(settings.stop);
+    rack_.on_slice(slice, [&] { listen(axes.take_starts()); });
+    control::Controller controller(axes, settings);
+    controller.on_block([&](std::int64_t block, const control::PlannedMove& move) { planned(block, move, out); });
+    monitor_->begin();
+    const Result<void> ended = controller.run(settings_.program, settings_.program_name, out.run);
+    out.time = rack_.kernel().now() - began_;
+    listen(axes.take_starts());
+    return ended;
+}
+
+Result<void> Job::drive_by_stream(control::PathAxes& axes, const control::ControllerSettings& settings, JobOutcome& out) {
+    PathWatch watch(axes, [&](std::int64_t block, const control::PlannedMove& move) {
+        out.run.plan.add(move);
+        planned(block, move, out);
+    });
+    control::StreamSettings stream_settings;
+    stream_settings.gcode = settings.gcode;
+    stream_settings.kept_back = settings.kept_back;
+    stream_settings.jerk_limited = settings.jerk_limited;
+    Interrupt& host = rack_.axes().front().card->host();
+    control::Stream stream(watch, host, stream_settings);
+    rack_.set_stop_flag(stream.stop_flag());
+    rack_.on_slice(slice, [&] { listen(watch.heard()); });
+    settings_.orders->attach(&stream);
+    monitor_->begin();
+    const Result<void> ended = drive_live(stream, host, *settings_.orders, settings_.program, settings_.program_name, out.run);
+    out.time = rack_.kernel().now() - began_;
+    listen(watch.heard());
+    settings_.orders->attach(nullptr);
+    rack_.set_stop_flag(nullptr);
+    return ended;
+}
 
 JobOutcome Job::run() {
     JobOutcome out;
@@ -51,40 +115,13 @@ JobOutcome Job::run() {
         out.ended = tl::unexpected<Error>(axes.error());
         return out;
     }
-    control::ControllerSettings settings;
-    settings.gcode = reader_settings(rack_.config(), settings_.block_delete);
-    settings.kept_back = rack_.axes().front().card->kept_back();
-    settings.jerk_limited = rack_.config().jerk_limited();
-    settings.stop = settings_.stop;
-    const std::int64_t lines = 1 + std::count(settings_.program.begin(), settings_.program.end(), '\n');
-    const Instant began = rack_.kernel().now();
+    lines_ = 1 + std::count(settings_.program.begin(), settings_.program.end(), '\n');
+    began_ = rack_.kernel().now();
     const std::uint64_t events_before = rack_.kernel().events();
-
-    int line = 0;
-    auto listen = [&] {
-        for (const control::BlockStart& start : (*axes)->take_starts()) {
-            line = start.line;
-            monitor_->started({start});
-        }
-        monitor_->drain();
-        if (settings_.on_slice) settings_.on_slice();
-        if (settings_.progress) settings_.progress({to_seconds(rack_.kernel().now() - began), line, lines});
-    };
-    rack_.set_stop_flag(settings_.stop);
-    rack_.on_slice(milliseconds(50), listen);
-    control::Controller controller(**axes, settings);
-    controller.on_block([&](std::int64_t block, const control::PlannedMove& move) {
-        monitor_->planned(block, move);
-        if (!settings.gcode.point_to_point) out.tolerance_mm = std::max(out.tolerance_mm, move.move.path == control::PathControl::continuous ? move.move.tolerance_mm : 0.0);
-        if (planned_.size() < most_planned) planned_.push_back(move);
-    });
-    monitor_->begin();
-    out.ended = controller.run(settings_.program, settings_.program_name, out.run);
+    out.ended = drive(**axes, out);
     if (!out.ended && out.ended.error().trouble == Trouble::machine) out.ended.error().file = settings_.program_name;
-    out.time = rack_.kernel().now() - began;
-    listen();
     monitor_->finish();
-    rack_.on_slice(milliseconds(50), {});
+    rack_.on_slice(slice, {});
 
     out.path_mm = out.run.plan.path_mm;
     out.worst = monitor_->worst();
@@ -92,7 +129,7 @@ JobOutcome Job::run() {
     out.events = rack_.kernel().events() - events_before;
     out.trace_hash = rack_.kernel().trace_hash();
     for (const control::PathNote& note : (*axes)->take_notes())
-        out.warnings.push_back({began, note.line, fmt::format("{} (it costs at most {:.4f} mm)", note.what, note.deviation_mm)});
+        out.warnings.push_back({began_, note.line, fmt::format("{} (it costs at most {:.4f} mm)", note.what, note.deviation_mm)});
     collect_conditions(out);
     out.axes = axis_outcomes((*axes)->commanded_position());
     for (const AxisOutcome& axis : out.axes) {

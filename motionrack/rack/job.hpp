@@ -5,7 +5,9 @@
 #include <functional>
 #include <memory>
 #include <motionrack/control/controller.hpp>
+#include <motionrack/rack/live_drive.hpp>
 #include <motionrack/rack/monitor.hpp>
+#include <motionrack/rack/order_plan.hpp>
 #include <motionrack/rack/rack.hpp>
 #include <string>
 #include <string_view>
@@ -25,9 +27,11 @@ struct JobSettings {
     bool block_delete = false;
     Duration sample_period = milliseconds(1);
     std::size_t most_samples = 200'000;
-    const std::atomic<bool>* stop = nullptr;               ///< Ctrl-C
+    const std::atomic<bool>* stop = nullptr;               ///< Ctrl-C; not used if there are orders
+    OrderPlan* orders = nullptr;                           ///< planned orders, and stops; must outlive the job
     std::function<void(const JobProgress&)> progress = {}; ///< about every 50 ms of virtual time
     std::function<void()> on_slice = {};                   ///< between runs: recorders drain here
+    std::function<void(const Sample&, double deviation_mm)> on_sample = {};  ///< every sample, between runs
 };
 
 /// What one axis did.
@@ -91,6 +95,10 @@ class Job {
     static constexpr std::size_t most_planned = 20'000;
 
   private:
+    Result<void> drive(control::PathAxes& axes, JobOutcome& out);
+    Result<void> drive_by_stream(control::PathAxes& axes, const control::ControllerSettings& settings, JobOutcome& out);
+    void planned(std::int64_t block, const control::PlannedMove& move, JobOutcome& out);
+    void listen(const std::vector<control::BlockStart>& starts);
     std::vector<AxisOutcome> axis_outcomes(const control::Point& sent_to);
     void collect_conditions(JobOutcome& out);
 
@@ -98,6 +106,9 @@ class Job {
     JobSettings settings_;
     std::unique_ptr<Monitor> monitor_;
     std::vector<control::PlannedMove> planned_;
+    Instant began_{};
+    int line_ = 0;            ///< being driven
+    std::int64_t lines_ = 0;  ///< of the program
 };
 
 }  // namespace motionrack::rack

@@ -68,8 +68,8 @@ Monitor::Monitor(sim::Kernel& kernel, std::vector<WatchedAxis> axes, Duration pe
       axes_(std::move(axes)),
       ears_(axes_.size()),
       period_(period),
-      most_samples_(std::max<std::size_t>(most_samples, 16)),
-      ring_(ring_size) {
+      ring_(ring_size),
+      kept_(most_samples) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         ears_[i].jump_hz = axes_[i].jump_hz;
         ears_[i].full_step = axes_[i].full_step;
@@ -113,6 +113,7 @@ void Monitor::take(Instant now) {
     raw.at = now;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         raw.count[i] = axes_[i].real->count(now);
+        raw.commanded[i] = axes_[i].commanded->count(now);
         raw.rate[i] = axes_[i].commanded->rate(now);
         if (axes_[i].servo != nullptr) raw.volts[i] = static_cast<float>(axes_[i].servo->volts());
         raw.jumps[i] = ears_[i].jumps;
@@ -164,6 +165,7 @@ void Monitor::work_off(const RawSample& raw) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         const auto axis = static_cast<std::size_t>(axes_[i].index);
         sample.position[axis] = axes_[i].origin + static_cast<double>(raw.count[i]) / axes_[i].pulses_per_unit;
+        sample.commanded[axis] = axes_[i].origin + static_cast<double>(raw.commanded[i]) / axes_[i].pulses_per_unit;
         sample.volts[axis] = raw.volts[i];
         sample.speed[axis] = raw.rate[i] / axes_[i].pulses_per_unit;
         if (raw.steady[i]) statistics_[axis].top_speed = std::max(statistics_[axis].top_speed, std::fabs(sample.speed[axis]));
@@ -173,12 +175,8 @@ void Monitor::work_off(const RawSample& raw) {
     if (off > worst_.mm) worst_ = {off, sample.at, open_block_.line, {sample.position[0], sample.position[1], sample.position[2]}};
     if (block_open_) open_block_.deviation_mm = std::max(open_block_.deviation_mm, off);
     ++taken_;
-    if (++skipped_ >= keep_every_) {
-        skipped_ = 0;
-        kept_.push_back(sample);
-        deviations_.push_back(off);
-        if (kept_.size() > most_samples_) thin_out();
-    }
+    kept_.add(sample, off);
+    if (on_sample_) on_sample_(sample, off);
 }
 
 void Monitor::accelerations(const RawSample& raw, Sample& sample) {
@@ -211,17 +209,6 @@ double Monitor::deviation_of(const Sample& sample) {
         if (best < 0 || off < best) best = off;
     }
     return std::max(best, 0.0);
-}
-
-void Monitor::thin_out() {
-    std::size_t out = 0;
-    for (std::size_t i = 0; i < kept_.size(); i += 2, ++out) {
-        kept_[out] = kept_[i];
-        deviations_[out] = std::max(deviations_[i], i + 1 < deviations_.size() ? deviations_[i + 1] : 0.0);
-    }
-    kept_.resize(out);
-    deviations_.resize(out);
-    keep_every_ *= 2;
 }
 
 }  // namespace motionrack::rack

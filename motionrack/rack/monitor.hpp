@@ -7,12 +7,14 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/path_axes.hpp>
 #include <motionrack/control/plan.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/parts/dc_motor.hpp>
+#include <motionrack/trace/sample_keeper.hpp>
 #include <vector>
 
 namespace motionrack::rack {
@@ -33,6 +35,7 @@ struct WatchedAxis {
 struct Sample {
     Instant at{};
     std::array<double, control::axis_count> position = {};  ///< real, mm or degrees
+    std::array<double, control::axis_count> commanded = {}; ///< by the pulses, mm or degrees
     std::array<double, control::axis_count> speed = {};     ///< of the pulses, per second
     std::array<float, control::axis_count> volts = {};      ///< at the amplifier of a servo
     std::array<float, control::axis_count> accel = {};      ///< over 4 samples, per second squared; NaN where the speed jumped
@@ -84,8 +87,11 @@ class Monitor final : public sim::Device {
     /// Works off the ring; call between runs, at least every ring_size periods.
     void drain();
 
-    const std::vector<Sample>& samples() const { return kept_; }
-    const std::vector<double>& deviations() const { return deviations_; }  ///< mm, one a sample
+    /// Hears every sample with its deviation in mm, between runs; nothing is left out.
+    void on_sample(std::function<void(const Sample&, double deviation)> call) { on_sample_ = std::move(call); }
+
+    const std::vector<Sample>& samples() const { return kept_.samples(); }
+    const std::vector<double>& deviations() const { return kept_.deviations(); }  ///< mm, one a sample
     const AxisStatistics& statistics(int index) const { return statistics_[static_cast<std::size_t>(index)]; }
     const Deviation& worst() const { return worst_; }
     const std::vector<DrivenBlock>& blocks() const { return blocks_; }
@@ -121,7 +127,7 @@ class Monitor final : public sim::Device {
     };
     struct RawSample {
         Instant at{};
-        std::array<std::int64_t, control::axis_count> count = {};
+        std::array<std::int64_t, control::axis_count> count = {}, commanded = {};
         std::array<double, control::axis_count> rate = {};
         std::array<float, control::axis_count> volts = {};
         std::array<std::uint32_t, control::axis_count> jumps = {};
@@ -138,14 +144,12 @@ class Monitor final : public sim::Device {
     void accelerations(const RawSample& raw, Sample& sample);
     double deviation_of(const Sample& sample);
     void close_block(Instant end);
-    void thin_out();
 
     sim::Kernel& kernel_;
     sim::DeviceId id_;
     std::vector<WatchedAxis> axes_;
     std::vector<Ear> ears_;
     Duration period_;
-    std::size_t most_samples_;
     std::vector<RawSample> ring_;
     std::size_t ring_begin_ = 0;
     std::size_t ring_end_ = 0;
@@ -154,10 +158,8 @@ class Monitor final : public sim::Device {
 
     std::array<RawSample, 5> last_ = {};  // for accelerations, newest first
     int last_count_ = 0;
-    std::vector<Sample> kept_;
-    std::vector<double> deviations_;
-    std::size_t keep_every_ = 1;
-    std::size_t skipped_ = 0;
+    trace::SampleKeeper<Sample> kept_;
+    std::function<void(const Sample&, double)> on_sample_;
     std::int64_t taken_ = 0;
     std::array<AxisStatistics, control::axis_count> statistics_ = {};
     std::deque<Planned> planned_;

@@ -105,6 +105,8 @@ void Rack::build_axis(const RackAxis& axis) {
     running.channel = running.card->channel_number(axis.channel);
     if (axis.servo) running.servo = std::make_unique<parts::DcMotor>(kernel_, name + ".servo", servo_settings(axis), name + ".drive");
     running.machine = std::make_unique<parts::AxisMachine>(kernel_, name, settings);
+    running.pulse_ears = std::make_unique<EdgeFork>([machine = running.machine.get()](sim::EdgeListener* ear) { machine->listen_pulse_edges(ear); });
+    running.encoder_ears = std::make_unique<EdgeFork>([machine = running.machine.get()](sim::EdgeListener* ear) { machine->encoder().listen_edges(ear); });
     axes_.push_back(std::move(running));
 }
 

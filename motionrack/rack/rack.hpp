@@ -14,6 +14,7 @@
 #include <motionrack/control/positioning.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config.hpp>
+#include <motionrack/rack/forks.hpp>
 #include <motionrack/rack/marking.hpp>
 #include <motionrack/rack/motions.hpp>
 #include <motionrack/rack/stage.hpp>
@@ -41,6 +42,7 @@ struct RunningAxis {
     std::unique_ptr<parts::AxisMachine> machine;
     std::unique_ptr<parts::ReferenceCam> cam;  ///< may be nullptr
     std::unique_ptr<parts::LineEncoder> lines;  ///< the encoder's tracks as wires, where a card wants them so; may be nullptr
+    std::unique_ptr<EdgeFork> pulse_ears, encoder_ears;  ///< who hears the edges of the card's pulses and of the encoder
 
     /// What turns the machine: the card's pulses or the servo.
     sim::Motion& turned_by() const { return servo ? static_cast<sim::Motion&>(*servo) : card->pulses(channel); }
@@ -69,6 +71,8 @@ class Rack {
     RunningTrack* track(std::string_view name);
     RunningScanner* scanner(std::string_view name);
     sim::InputLog& input_log() { return log_; }
+    /// Who hears the changes of wires.
+    WireFork& wire_ears() { return wire_ears_; }
     /// Takes the state of another rack of the same config. Both are started and between runs.
     void copy_from(Rack& other);
 
@@ -105,6 +109,7 @@ class Rack {
 
     RackConfig config_;
     sim::Kernel kernel_;
+    WireFork wire_ears_{kernel_};
     sim::InputLog log_;
     std::vector<std::unique_ptr<Card>> cards_;
     std::vector<RunningAxis> axes_;

@@ -124,7 +124,7 @@ Result<std::unique_ptr<WaveRecorder>> WaveRecorder::create(Rack& rack, const Wav
     }
     out->recording_ = true;
     for (const sim::WireId wire : out->followed_) out->tap_->follow(wire, true);
-    rack.kernel().observe_wires(out.get());
+    rack.wire_ears().add(*out);
     return out;
 }
 
@@ -147,16 +147,20 @@ void WaveRecorder::choose_axes() {
         if (pulses) {
             const std::size_t step = add(name, "step", 1, 0), direction = add(name, "dir", 1, 1);
             steps_.push_back(std::make_unique<StepEar>(*this, step, direction));
-            machine.listen_pulse_edges(steps_.back().get());
+            hear(*axis.pulse_ears, *steps_.back());
         }
         if (lines) {
             const parts::Lines now = machine.encoder_lines(rack_.kernel().now());
             const std::size_t a = add(name, "enc_a", 1, now.a != 0), b = add(name, "enc_b", 1, now.b != 0);
             lines_.push_back(std::make_unique<LineEar>(*this, a, b));
-            machine.encoder().listen_edges(lines_.back().get());
+            hear(*axis.encoder_ears, *lines_.back());
         }
-        if (pulses || lines) heard_.push_back(&machine);
     }
+}
+
+void WaveRecorder::hear(EdgeFork& fork, sim::EdgeListener& ear) {
+    fork.add(ear);
+    heard_.emplace_back(&fork, &ear);
 }
 
 std::uint64_t WaveRecorder::shown(sim::WireId wire, int level) const {
@@ -236,14 +240,11 @@ void WaveRecorder::drain() {
 }
 
 void WaveRecorder::stop_listening() {
-    for (parts::AxisMachine* machine : heard_) {
-        machine->listen_pulse_edges(nullptr);
-        if (machine->has_encoder()) machine->encoder().listen_edges(nullptr);
-    }
+    for (const auto& [fork, ear] : heard_) fork->remove(*ear);
     heard_.clear();
     if (!recording_) return;
     recording_ = false;
-    rack_.kernel().observe_wires(nullptr);
+    rack_.wire_ears().remove(*this);
     if (is_device_) rack_.kernel().schedule(id_, never);
     for (const sim::WireId wire : followed_) tap_->follow(wire, false);
 }

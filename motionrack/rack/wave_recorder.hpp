@@ -90,6 +90,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     /// What is recorded of a wire's level.
     std::uint64_t shown(sim::WireId wire, int level) const;
     void choose_axes();
+    void hear(EdgeFork& fork, sim::EdgeListener& ear);
     void choose_wires();
     void choose_counters();
     void stop_listening();
@@ -110,7 +111,7 @@ class WaveRecorder final : public sim::Device, public sim::Kernel::WireObserver 
     std::vector<std::int64_t> wire_signals_;  // signal of each kernel wire, -1: not recorded
     std::vector<std::unique_ptr<StepEar>> steps_;
     std::vector<std::unique_ptr<LineEar>> lines_;
-    std::vector<parts::AxisMachine*> heard_;
+    std::vector<std::pair<EdgeFork*, sim::EdgeListener*>> heard_;
     std::vector<sim::WireId> followed_;
     std::vector<Counter> counters_;
     std::vector<Event> buffer_;

@@ -93,7 +93,7 @@ Result<WaveFormat> wave_format(const std::string& path) {
     if (ends_in(".vcd")) return WaveFormat::vcd;
     if (ends_in(".csv")) return WaveFormat::csv;
     if (ends_in(".h5"))
-        return fail(Trouble::refused, fmt::format("'{}': recordings cannot be written as HDF5; take .vcd or .csv. Nothing "
+        return fail(Trouble::refused, fmt::format("'{}': waves cannot be written as HDF5; take .vcd or .csv. Nothing "
                                                   "was recorded.",
                                                   path));
     return fail(Trouble::refused, fmt::format("'{}': the ending of the name chooses the format of a recording, .vcd or "

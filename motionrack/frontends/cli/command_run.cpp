@@ -7,10 +7,8 @@
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/rack/fault_plan.hpp>
-#include <motionrack/rack/job.hpp>
 #include <motionrack/rack/job_report.hpp>
-#include <motionrack/rack/wave_recorder.hpp>
+#include <motionrack/rack/recorded_job.hpp>
 #include <motionrack/trace/csv.hpp>
 #include <motionrack/trace/report.hpp>
 #include <vector>
@@ -20,33 +18,44 @@ namespace motionrack::cli {
 namespace {
 
 struct RunOptions {
-    std::string program, rack, report = "report.html", vcd, csv, events;
-    std::vector<std::string> signals, faults;
+    std::string program, rack, report = "report.html", record, vcd, csv, events;
+    std::vector<std::string> signals, faults, orders;
     double timescale_ns = 100;
     bool json = false, quiet = false, no_report = false, block_delete = false, stream = false;
 };
 
-int prepare_recorder(rack::Rack& rack, const RunOptions& options, std::unique_ptr<rack::WaveRecorder>& recorder) {
-    if (options.vcd.empty()) return exit_done;
-    rack::WaveSettings settings;
-    settings.path = options.vcd;
-    settings.signals = options.signals;
-    settings.timescale = from_seconds(options.timescale_ns * 1e-9);
-    auto made = rack::WaveRecorder::create(rack, settings);
-    if (!made) return report(made.error());
-    recorder = std::move(*made);
+/// What is to be run; the exit code where it cannot.
+int read_request(const RunOptions& options, rack::JobRequest& request) {
+    int code = exit_done;
+    auto config = load_rack(options.rack, code);
+    if (!config) return code;
+    request.config = std::move(*config);
+    Result<ProgramText> rack_text = load_rack_text(options.rack);
+    if (!rack_text) return report(rack_text.error());
+    Result<ProgramText> program = load_program(options.program);
+    if (!program) return report(program.error());
+    request.rack_text = std::move(rack_text->text);
+    request.rack_file = std::move(rack_text->name);
+    request.program = std::move(program->text);
+    request.program_name = std::move(program->name);
+    request.block_delete = options.block_delete;
+    request.stream = options.stream;
+    request.version = MOTIONRACK_VERSION;
+    auto faults = rack::read_faults(options.faults);
+    if (!faults) return report(faults.error());
+    auto orders = rack::read_orders(options.orders);
+    if (!orders) return report(orders.error());
+    request.faults = std::move(*faults);
+    request.orders = std::move(*orders);
     return exit_done;
 }
 
-int write_results(rack::Rack& rack, const rack::Job& job, const rack::JobOutcome& outcome, const RunOptions& options,
-                  const std::string& text, const std::string& name) {
+int write_results(const rack::RecordedJob& job, const RunOptions& options) {
     int code = exit_done;
     std::vector<std::string> written;
-    trace::ReportData data;
-    if (!options.no_report || !options.csv.empty() || !options.events.empty()) data = rack::report_of(rack, job, outcome, text, name);
     const auto write = [&](const std::string& path, const auto& writer) {
         if (path.empty()) return;
-        if (const Result<void> done = writer(data, path); !done)
+        if (const Result<void> done = writer(job.report(), path); !done)
             code = report(done.error());
         else
             written.push_back(path);
@@ -55,59 +64,51 @@ int write_results(rack::Rack& rack, const rack::Job& job, const rack::JobOutcome
     write(options.csv, trace::write_csv);
     write(options.events, trace::write_events_csv);
     if (!options.vcd.empty()) written.push_back(options.vcd);
+    if (!options.record.empty()) written.push_back(options.record);
     if (!options.json && !written.empty() && !options.quiet) fmt::print("\nwritten: {}\n", fmt::join(written, ", "));
     return code;
 }
 
-int run(const RunOptions& options) {
-    int code = exit_done;
-    const auto config = load_rack(options.rack, code);
-    if (!config) return code;
-    const Result<ProgramText> program = load_program(options.program);
-    if (!program) return report(program.error());
-    const auto& [text, name] = *program;
-    const control::gcode::Settings settings = reader_settings(*config, options.block_delete);
-    if (const Result<void> good = control::gcode::check_settings(settings); !good) return report(good.error());
-    if (!options.stream)
-        if (const int bad = print_problems(control::gcode::check_program(text, settings, 20, name), name); bad != exit_done) return bad;
+void print_outcome(const rack::RecordedJob& job, const rack::JobRequest& request, const rack::JobOutcome& outcome, const RunOptions& options) {
+    fmt::print("{}", options.json ? rack::summary_json(request.config, outcome) + "\n" : rack::summary_of(request.config, outcome));
+    if (options.json) return;
+    static constexpr std::size_t warnings_shown = 12;
+    for (std::size_t i = 0; i < outcome.warnings.size() && i < warnings_shown; ++i) print_warning(outcome.warnings[i].text);
+    if (outcome.warnings.size() > warnings_shown)
+        print_warning(fmt::format("{} more are in the report", outcome.warnings.size() - warnings_shown));
+    for (const std::string& one : job.not_done()) print_warning(one);
+}
 
-    rack::Rack rack(*config);
-    std::unique_ptr<rack::WaveRecorder> recorder;
-    if (const int bad = prepare_recorder(rack, options, recorder); bad != exit_done) return bad;
-    const auto faults = rack::FaultPlan::create(rack, options.faults);
-    if (!faults) return report(faults.error());
-    ProgressLine progress(options.quiet || options.json);
-    rack::JobSettings job_settings;
-    job_settings.program = text;
-    job_settings.program_name = name;
-    job_settings.block_delete = options.block_delete;
-    job_settings.stop = &stop_asked;
-    job_settings.progress = [&progress](const rack::JobProgress& p) {
-        progress.show(static_cast<double>(p.line) / static_cast<double>(p.lines), fmt::format("line {} of {}, {:.2f} s", p.line, p.lines, p.seconds));
-    };
-    job_settings.on_slice = [&recorder, &faults] {
-        if (recorder) recorder->drain();
-        (*faults)->apply_due();
-    };
-    rack::Job job(rack, job_settings);
-    rack.start();
-    if (recorder) recorder->begin();
-    (*faults)->begin();
-    stop_on_signals();
-    const rack::JobOutcome outcome = job.run();
-    progress.clear();
-    if (recorder)
-        if (const Result<void> done = recorder->finish(); !done) code = report(done.error());
-    if (!outcome.ended) code = report(outcome.ended.error());
-    fmt::print("{}", options.json ? rack::summary_json(*config, outcome) + "\n" : rack::summary_of(*config, outcome));
-    if (!options.json) {
-        static constexpr std::size_t warnings_shown = 12;
-        for (std::size_t i = 0; i < outcome.warnings.size() && i < warnings_shown; ++i) print_warning(outcome.warnings[i].text);
-        if (outcome.warnings.size() > warnings_shown)
-            print_warning(fmt::format("{} more are in the report", outcome.warnings.size() - warnings_shown));
-        for (const std::string& fault : (*faults)->not_done()) print_warning(fault);
+int run(const RunOptions& options) {
+    rack::JobRequest request;
+    if (const int bad = read_request(options, request); bad != exit_done) return bad;
+    const control::gcode::Settings settings = rack::reader_settings(request.config, options.block_delete);
+    if (const Result<void> good = control::gcode::check_settings(settings); !good) return report(good.error());
+    const std::string& name = request.program_name;
+    if (!options.stream)
+        if (const int bad = print_problems(control::gcode::check_program(request.program, settings, 20, name), name); bad != exit_done) return bad;
+
+    rack::JobWatchers watchers;
+    watchers.recording = options.record;
+    if (!options.vcd.empty()) {
+        rack::WaveSettings& waves = watchers.waves.emplace();
+        waves.path = options.vcd;
+        waves.signals = options.signals;
+        waves.timescale = from_seconds(options.timescale_ns * 1e-9);
     }
-    const int wrote = write_results(rack, job, outcome, options, text, name);
+    auto job = rack::RecordedJob::create(request, watchers);
+    if (!job) return report(job.error());
+    ProgressLine progress(options.quiet || options.json);
+    stop_on_signals();
+    const rack::JobOutcome& outcome = (*job)->run(&stop_asked, [&progress](const rack::JobProgress& p) {
+        progress.show(static_cast<double>(p.line) / static_cast<double>(p.lines), fmt::format("line {} of {}, {:.2f} s", p.line, p.lines, p.seconds));
+    });
+    progress.clear();
+    int code = exit_done;
+    if (const Result<void> done = (*job)->finish(); !done) code = report(done.error());
+    if (!outcome.ended) code = report(outcome.ended.error());
+    print_outcome(**job, request, outcome, options);
+    const int wrote = write_results(**job, options);
     if (code == exit_done) code = wrote;
     return code == exit_done && !outcome.position_trusted ? static_cast<int>(exit_machine) : code;
 }
@@ -119,6 +120,8 @@ void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
     command->add_option("--csv", options->csv, "write the samples (position, speed, deviation every ms) as CSV");
     command->add_option("--events", options->events, "write what happened (blocks, warnings, the stop) as CSV");
     command->add_option("--fault", options->faults, "break something on the way, NAME=VALUE@TIME: X.limit_plus=0@0.5s, X.encoder.broken_a@1s")
+        ->allow_extra_args(false);
+    command->add_option("--at", options->orders, "order something on the way, ORDER@TIME: hold@1.5s, resume@2s, feed=0.5@1s, rapid=0.25@1s, stop@3s")
         ->allow_extra_args(false);
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
     command->add_flag("--stream", options->stream, "move line by line as it is read, without checking the whole program first");
@@ -134,9 +137,11 @@ void add_run(CLI::App& app, Action& chosen) {
     command->add_option("PROGRAM", options->program, "part program, '-': standard input (default: the built-in example)");
     command->add_option("--report", options->report, "where the report goes")->capture_default_str();
     command->add_flag("--no-report", options->no_report, "write no report");
+    command->add_option("--record", options->record, "write a recording (HDF5) of everything, from which report, diff and replay work");
     command->add_option("--vcd", options->vcd, "write the waves as a VCD file");
     add_common(command, options);
     command->footer("Example: motionrack run part.ngc --rack my.toml --report part.html\n"
+                    "Example: motionrack run part.ngc --record part.h5 --at hold@0.5s --at resume@1s\n"
                     "Example: motionrack run part.ngc --fault X.motor.lose_steps=64@1.5s --fault X.limit_plus=0@2s --events events.csv\nCtrl-C brings the axes to rest along the path and keeps "
                     "what was recorded.");
     command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });

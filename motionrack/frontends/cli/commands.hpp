@@ -11,6 +11,9 @@ using Action = std::function<int()>;
 
 void add_run(CLI::App& app, Action& chosen);
 void add_trace(CLI::App& app, Action& chosen);
+void add_diff(CLI::App& app, Action& chosen);
+void add_replay(CLI::App& app, Action& chosen);
+void add_report(CLI::App& app, Action& chosen);
 void add_home(CLI::App& app, Action& chosen);
 void add_check(CLI::App& app, Action& chosen);
 void add_canon(CLI::App& app, Action& chosen);

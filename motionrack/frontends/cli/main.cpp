@@ -13,6 +13,8 @@ constexpr const char* footer = R"(Examples:
   motionrack run part.ngc --rack router.toml     run a program, write report.html
   motionrack check part.ngc --rack router.toml   list everything wrong, move nothing
   motionrack home XY --rack router.toml          find the home switches, tell what was found
+  motionrack run part.ngc --record part.h5       keep everything of a run
+  motionrack diff a.h5 b.h5                      where two recordings differ first
   motionrack new router > router.toml            a commented rack file to start from
   motionrack serve router.toml                   operate a rack in a browser
   motionrack decode run.vcd                      count the encoders in a logic capture
@@ -38,6 +40,9 @@ int main(int argc, char** argv) {
     add_describe(app, chosen);
     add_registers(app, chosen);
     add_trace(app, chosen);
+    add_report(app, chosen);
+    add_diff(app, chosen);
+    add_replay(app, chosen);
     add_canon(app, chosen);
     add_plan(app, chosen);
     add_decode(app, chosen);

@@ -15,14 +15,21 @@ Result<ProgramText> load_program(const std::string& path) {
     return ProgramText{std::move(text), path};
 }
 
+Result<ProgramText> load_rack_text(const std::string& path, BuiltInRack built_in) {
+    if (path.empty() && built_in == BuiltInRack::router) return ProgramText{*rack::rack_template("router"), "built-in router"};
+    if (path.empty()) return ProgramText{demonstration_rack(), "built-in demonstration"};
+    MOTIONRACK_TRY(std::string text, read_text(path));
+    return ProgramText{std::move(text), path};
+}
+
 std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code_out, BuiltInRack built_in) {
     rack::RackReading reading;
-    if (!path.empty())
+    if (!path.empty()) {
         reading = rack::read_rack_file(path);
-    else if (built_in == BuiltInRack::router)
-        reading = rack::read_rack_text(*rack::rack_template("router"), "built-in router");
-    else
-        reading = rack::read_rack_text(demonstration_rack(), "built-in demonstration");
+    } else {
+        const Result<ProgramText> text = load_rack_text(path, built_in);
+        reading = rack::read_rack_text(text->text, text->name);
+    }
     for (const Error& warning : reading.warnings) print_warning(warning.text());
     for (const Error& error : reading.errors) print_error(error.text());
     if (!reading.errors.empty()) exit_code_out = exit_code(reading.errors.front().trouble);

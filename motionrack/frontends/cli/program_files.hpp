@@ -27,6 +27,9 @@ enum class BuiltInRack { router, demonstration };
 /// Reads a rack file, prints its warnings, and every error; nothing if there are errors. An empty path is the built-in one.
 std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code, BuiltInRack built_in = BuiltInRack::router);
 
+/// The text that load_rack reads from this path, and what it is called. Errors: io.
+Result<ProgramText> load_rack_text(const std::string& path, BuiltInRack built_in = BuiltInRack::router);
+
 /// Prints up to 20 problems of a program with their lines; the exit code (0 if there are none).
 int print_problems(const control::gcode::Check& check, const std::string& name);
 

@@ -1,0 +1,102 @@
+// replay: a recorded run once more, and whether it is the same bit for bit.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+#include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/stop.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/rack/recorded_job.hpp>
+#include <motionrack/trace/diff.hpp>
+#include <string>
+#include <system_error>
+
+namespace motionrack::cli {
+
+namespace {
+
+struct ReplayOptions {
+    std::string recording, record;
+    bool json = false, quiet = false;
+};
+
+/// A file that goes when it is no longer needed.
+struct Scratch {
+    std::string path;
+    bool keep = false;
+    ~Scratch() {
+        std::error_code ignored;
+        if (!keep) std::filesystem::remove(path, ignored);
+    }
+};
+
+int run_again(const trace::RecordingReader& recording, const std::string& path, const ReplayOptions& options) {
+    Result<rack::JobRequest> request = rack::request_of(recording);
+    if (!request) return report(request.error());
+    request->version = MOTIONRACK_VERSION;
+    rack::JobWatchers watchers;
+    watchers.recording = path;
+    const auto job = rack::RecordedJob::create(*request, watchers);
+    if (!job) return report(job.error());
+    ProgressLine progress(options.quiet || options.json);
+    stop_on_signals();
+    (*job)->run(&stop_asked, [&progress](const rack::JobProgress& p) {
+        progress.show(static_cast<double>(p.line) / static_cast<double>(p.lines), fmt::format("line {} of {}, {:.2f} s", p.line, p.lines, p.seconds));
+    });
+    progress.clear();
+    const Result<void> done = (*job)->finish();
+    return done ? exit_done : report(done.error());
+}
+
+int compare(const trace::RecordingReader& recording, const std::string& path, const ReplayOptions& options) {
+    const Result<trace::RecordingReader> again = trace::RecordingReader::open(path);
+    if (!again) return report(again.error());
+    ProgressLine progress(options.quiet || options.json);
+    trace::DiffSettings settings;
+    settings.progress = [&progress](double part) { progress.show(part, "compared"); };
+    const Result<trace::Diff> diff = trace::diff_recordings(recording, *again, settings);
+    progress.clear();
+    if (!diff) return report(diff.error());
+    const std::string name = options.record.empty() ? "the replay" : options.record;
+    if (options.json)
+        fmt::print("{}\n", trace::diff_json(*diff, recording.path(), name));
+    else if (diff->same())
+        fmt::print("The replay is the same bit for bit{}: {} signals, {} values.\n", diff->until ? fmt::format(" before {:.6f} s", to_seconds(*diff->until)) : "", diff->signals, diff->compared);
+    else
+        fmt::print("The replay is another run.\n{}", trace::diff_text(*diff, recording.path(), name));
+    std::fflush(stdout);
+    if (!options.json && !diff->same() && recording.head().version != again->head().version)
+        print_warning(fmt::format("the recording was written by version {}, this is {}", recording.head().version, again->head().version));
+    return diff->same() ? exit_done : exit_differ;
+}
+
+int replay(const ReplayOptions& options) {
+    const Result<trace::RecordingReader> recording = trace::RecordingReader::open(options.recording);
+    if (!recording) return report(recording.error());
+    if (!recording->whole()) print_warning(recording->cut_sentence());
+    std::error_code none;
+    if (!options.record.empty() && std::filesystem::equivalent(options.record, options.recording, none))
+        return report({Trouble::refused, "The replay would be written over its recording; choose another name. Nothing was run."});
+    const std::string scratch = (std::filesystem::temp_directory_path() / fmt::format("motionrack_replay_{}.h5", ::getpid())).string();
+    const Scratch file{options.record.empty() ? scratch : options.record, !options.record.empty()};
+    if (const int bad = run_again(*recording, file.path, options); bad != exit_done) return bad;
+    if (stop_asked) return report({Trouble::stopped, "Stopped before the replay was done; nothing is told of it."});
+    return compare(*recording, file.path, options);
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<ReplayOptions>();
+    CLI::App* command = app.add_subcommand("replay", "Run a recording's program on its rack again, with all that came from outside, and tell whether it is the same bit for bit");
+    command->add_option("RECORDING", options->recording, "recording of run --record")->required();
+    command->add_option("--record", options->record, "keep the recording of the replay");
+    command->add_flag("--json", options->json, "print the comparison as JSON");
+    command->add_flag("-q,--quiet", options->quiet, "no progress");
+    command->footer("Example: motionrack replay part.h5\nExit code 0: the same; 1: it differs, and where first.");
+    command->callback([options, &chosen] { chosen = [options] { return replay(*options); }; });
+}
+
+}  // namespace motionrack::cli

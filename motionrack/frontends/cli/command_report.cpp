@@ -1,0 +1,69 @@
+// report: the page of a run out of its recording.
+#include <fmt/format.h>
+
+#include <memory>
+#include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/trace/csv.hpp>
+#include <motionrack/trace/diff.hpp>
+#include <motionrack/trace/report.hpp>
+#include <motionrack/trace/report_csv.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::cli {
+
+namespace {
+
+struct ReportOptions {
+    std::string recording, report = "report.html", csv, events;
+    bool no_report = false;
+};
+
+Result<trace::ReportData> read_data(const std::string& path) {
+    MOTIONRACK_TRY(const trace::FileKind kind, trace::kind_of_file(path));
+    if (kind == trace::FileKind::csv) return trace::report_from_csv(path);
+    if (kind == trace::FileKind::vcd)
+        return fail(Trouble::bad_input, "A VCD file has wires and counters, but no positions, so there is nothing to show on a page. Take a recording (--record) or the samples (--csv) of the run.",
+                    {}, path);
+    MOTIONRACK_TRY(const trace::RecordingReader recording, trace::RecordingReader::open(path));
+    if (!recording.whole()) print_warning(recording.cut_sentence());
+    return recording.report();
+}
+
+int make_report(const ReportOptions& options) {
+    const Result<trace::ReportData> data = read_data(options.recording);
+    if (!data) return report(data.error());
+    std::vector<std::string> written;
+    int code = exit_done;
+    const auto write = [&](const std::string& path, const auto& writer) {
+        if (path.empty()) return;
+        if (const Result<void> done = writer(*data, path); !done)
+            code = report(done.error());
+        else
+            written.push_back(path);
+    };
+    write(options.no_report ? std::string() : options.report, trace::write_report);
+    write(options.csv, trace::write_csv);
+    write(options.events, trace::write_events_csv);
+    fmt::print("{}\n{}", data->verdict.text, written.empty() ? "" : fmt::format("written: {}\n", fmt::join(written, ", ")));
+    return code;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Action& chosen) {
+    auto options = std::make_shared<ReportOptions>();
+    CLI::App* command = app.add_subcommand("report", "Make the page of a run (report.html) out of its recording, or out of the samples of a CSV file");
+    command->add_option("RECORDING", options->recording, "recording of run --record, or samples of run --csv")->required();
+    command->add_option("--report", options->report, "where the page goes")->capture_default_str();
+    command->add_flag("--no-report", options->no_report, "write no page");
+    command->add_option("--csv", options->csv, "write the samples as CSV");
+    command->add_option("--events", options->events, "write what happened (blocks, warnings, the stop) as CSV");
+    command->footer("Example: motionrack report part.h5 --report part.html\n"
+                    "The page of a recording is the one that run wrote; of a recording that was cut off it shows what is there.");
+    command->callback([options, &chosen] { chosen = [options] { return make_report(*options); }; });
+}
+
+}  // namespace motionrack::cli

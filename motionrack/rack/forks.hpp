@@ -1,0 +1,61 @@
+// Several who hear the same edges or wires: what makes them has room for one listener each.
+//
+//   part ──edges──► EdgeFork ──┬──► waves (VCD)          kernel ──wires──► WireFork ──┬──► waves
+//                              └──► recording                                         └──► recording
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/motion.hpp>
+#include <utility>
+#include <vector>
+
+namespace motionrack::rack {
+
+class EdgeFork final : public sim::EdgeListener {
+  public:
+    /// `attach`: makes somebody the one listener, or nobody (nullptr).
+    explicit EdgeFork(std::function<void(sim::EdgeListener*)> attach) : attach_(std::move(attach)) {}
+
+    /// Between runs.
+    void add(sim::EdgeListener& ear) {
+        ears_.push_back(&ear);
+        if (ears_.size() == 1) attach_(this);
+    }
+    void remove(sim::EdgeListener& ear) {
+        ears_.erase(std::remove(ears_.begin(), ears_.end(), &ear), ears_.end());
+        if (ears_.empty()) attach_(nullptr);
+    }
+    void edges(const sim::EdgeBatch& batch) override {
+        for (sim::EdgeListener* ear : ears_) ear->edges(batch);
+    }
+
+  private:
+    std::function<void(sim::EdgeListener*)> attach_;
+    std::vector<sim::EdgeListener*> ears_;
+};
+
+class WireFork final : public sim::Kernel::WireObserver {
+  public:
+    explicit WireFork(sim::Kernel& kernel) : kernel_(kernel) {}
+
+    /// Between runs.
+    void add(sim::Kernel::WireObserver& observer) {
+        observers_.push_back(&observer);
+        kernel_.observe_wires(this);
+    }
+    void remove(sim::Kernel::WireObserver& observer) {
+        observers_.erase(std::remove(observers_.begin(), observers_.end(), &observer), observers_.end());
+        if (observers_.empty()) kernel_.observe_wires(nullptr);
+    }
+    void wire_changed(sim::WireId wire, int level, Instant now) override {
+        for (sim::Kernel::WireObserver* observer : observers_) observer->wire_changed(wire, level, now);
+    }
+
+  private:
+    sim::Kernel& kernel_;
+    std::vector<sim::Kernel::WireObserver*> observers_;
+};
+
+}  // namespace motionrack::rack

@@ -1,0 +1,126 @@
+// Lines go in while there is room, and the stream drives.
+#include <fmt/format.h>
+
+#include <motionrack/control/geometry.hpp>
+#include <motionrack/rack/live_drive.hpp>
+#include <utility>
+
+namespace motionrack::rack {
+
+namespace {
+
+constexpr Duration look = milliseconds(1);  // of a host that has nothing to do
+
+}  // namespace
+
+Result<void> PathWatch::begin() {
+    pull();
+    first_ = blocks_;
+    return axes_.begin();
+}
+
+Result<void> PathWatch::follow(const control::PlannedMove& move) {
+    on_block_(blocks_++, move);
+    return axes_.follow(move);
+}
+
+void PathWatch::pull() {
+    for (control::BlockStart start : axes_.take_starts()) {
+        starts_.push_back(start);
+        if (start.block >= 0) start.block += first_;
+        heard_.push_back(start);
+    }
+}
+
+std::vector<control::BlockStart> PathWatch::take_starts() {
+    pull();
+    return std::exchange(starts_, {});
+}
+
+std::vector<control::BlockStart> PathWatch::heard() {
+    pull();
+    return std::exchange(heard_, {});
+}
+
+namespace {
+
+/// Lines of a program as far as the stream takes them.
+class Feeder {
+  public:
+    Feeder(std::string_view text, const std::string& file, control::ProgramRun& run) : lines_(text), file_(file), run_(run) {}
+
+    void feed(control::Stream& stream) {
+        std::string_view text;
+        while (more_ && stream.has_room()) {
+            more_ = lines_.next(text);
+            if (!more_) return;
+            run_.lines = lines_.number();
+            if (auto read = stream.line(text, lines_.number()); !read) {
+                problem_ = read.error();
+                problem_->file = file_;
+                more_ = false;
+                return;
+            }
+            if (end_.at(stream.interpreter().block())) {
+                more_ = false;
+                run_.ended = true;
+            }
+        }
+    }
+    bool more() const { return more_; }
+    Result<void> outcome() const { return problem_ ? Result<void>(tl::unexpected<Error>(*problem_)) : Result<void>(); }
+
+  private:
+    control::gcode::Lines lines_;
+    control::gcode::ProgramEnd end_;
+    const std::string& file_;
+    control::ProgramRun& run_;
+    bool more_ = true;
+    std::optional<Error> problem_;
+};
+
+Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& orders, Feeder& feeder, const std::string& file) {
+    using control::StreamState;
+    while (true) {
+        if (!orders.stopped()) feeder.feed(stream);
+        MOTIONRACK_TRY(const StreamState state, stream.drive(feeder.more()));
+        switch (state) {
+            case StreamState::waiting: host.pass(look); break;
+            case StreamState::held:
+                if (!orders.holds())
+                    stream.resume();
+                else if (!orders.pending())
+                    return fail(Trouble::stopped, fmt::format("The job was held in line {}, and nobody resumed it.", stream.line_driven()), {stream.line_driven(), 0}, file);
+                else
+                    host.pass(look);
+                break;
+            case StreamState::paused: stream.resume(); break;  // M0: nobody waits in simulated time
+            case StreamState::driving: break;
+            case StreamState::rest:
+                if (orders.stopped())
+                    return fail(Trouble::stopped, fmt::format("Stopped on request in line {}; the axes came to rest along the path.", stream.line_driven()), {stream.line_driven(), 0}, file);
+                if (!feeder.more()) return feeder.outcome();
+                break;
+        }
+    }
+}
+
+}  // namespace
+
+Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text, const std::string& file, control::ProgramRun& run) {
+    // What is left of a move after a hold is planned again: what was programmed counts.
+    double path_mm = 0;
+    stream.on_move([&](const control::Move& move, const control::Point& start) {
+        ++run.moves;
+        const bool linear = start[0] != move.end[0] || start[1] != move.end[1] || start[2] != move.end[2] || move.kind == control::MoveKind::arc;
+        if (linear) path_mm += control::geometry_of(move, start).length;
+    });
+    Feeder feeder(text, file, run);
+    const Result<void> ended = drive(stream, host, orders, feeder, file);
+    stream.on_move({});
+    run.plan.moves = run.moves;
+    run.plan.path_mm = path_mm;
+    return ended;
+}
+
+}  // namespace motionrack::rack

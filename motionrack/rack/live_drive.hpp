@@ -1,0 +1,49 @@
+// Drives a part program so that orders can come while it runs: hold, resume, overrides, stop.
+//
+//   text ──Lines──► Stream ──► PathWatch ──► card's axes          OrderPlan ──between runs──► Stream
+//                                 │
+//                                 └──► who hears of planned moves, and of their starts
+#pragma once
+
+#include <functional>
+#include <motionrack/control/controller.hpp>
+#include <motionrack/control/stream.hpp>
+#include <motionrack/rack/order_plan.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::rack {
+
+/// Passes a path on to the axes. Blocks count from 0 over the whole job, not over each path between two holds.
+class PathWatch final : public control::PathAxes {
+  public:
+    using OnBlock = std::function<void(std::int64_t block, const control::PlannedMove& move)>;
+    PathWatch(control::PathAxes& axes, OnBlock on_block) : axes_(axes), on_block_(std::move(on_block)) {}
+
+    Result<void> begin() override;
+    const control::DriveRule* drive_rule() const override { return axes_.drive_rule(); }
+    Result<void> follow(const control::PlannedMove& move) override;
+    Result<void> finish() override { return axes_.finish(); }
+    void stop(bool immediate) override { axes_.stop(immediate); }
+    control::Point commanded_position() override { return axes_.commanded_position(); }
+    std::vector<control::PathNote> take_notes() override { return axes_.take_notes(); }
+    std::vector<control::BlockStart> take_starts() override;
+
+    /// For those who hear: starts since the last call, by the job's numbers.
+    std::vector<control::BlockStart> heard();
+
+  private:
+    void pull();
+
+    control::PathAxes& axes_;
+    OnBlock on_block_;
+    std::int64_t blocks_ = 0, first_ = 0;  ///< of the job; of the present path
+    std::vector<control::BlockStart> starts_, heard_;
+};
+
+/// Drives a program that was checked, or a problem of it ends the job where it stands. Errors: as Controller::run. The stream's stop flag
+/// must be the axes', and `orders` be attached to it.
+Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text, const std::string& file, control::ProgramRun& run);
+
+}  // namespace motionrack::rack

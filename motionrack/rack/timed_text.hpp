@@ -1,0 +1,25 @@
+// "WHAT@TIME" as users plan what happens on the way of a run.
+#pragma once
+
+#include <motionrack/base/time.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace motionrack::rack {
+
+struct TimedText {
+    Instant at{};        ///< since the rack was started
+    std::string action;  ///< what stands before the '@'
+    std::string text;    ///< all of it, as its user wrote it
+};
+
+inline constexpr double most_planned_seconds = 1e6;
+
+/// TIME is a number with s, ms or us, 0 .. most_planned_seconds. Nothing: it has no such time.
+std::optional<TimedText> read_timed_text(std::string_view text);
+
+/// The whole text as a number, or NaN.
+double whole_number(std::string_view text);
+
+}  // namespace motionrack::rack

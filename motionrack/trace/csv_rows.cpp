@@ -1,0 +1,79 @@
+// Taking rows apart.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <limits>
+#include <motionrack/trace/csv_rows.hpp>
+
+namespace motionrack::trace {
+
+namespace {
+
+constexpr std::size_t most_field = 1 << 20, most_fields = 4096;
+
+}  // namespace
+
+double number_of(std::string_view text) {
+    double value = 0;
+    const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return bad == std::errc() && end == text.data() + text.size() ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+Result<CsvRows> CsvRows::open(const std::string& path) {
+    CsvRows out;
+    MOTIONRACK_TRY(out.bytes_, FileBytes::open(path));
+    MOTIONRACK_TRY(const bool any, out.read(out.head_));
+    if (!any) return fail(Trouble::bad_input, "The file is empty.", {}, path);
+    return out;
+}
+
+tl::unexpected<Error> CsvRows::refuse(const std::string& message) const { return fail(Trouble::bad_input, message, {line_, 0}, bytes_.path()); }
+
+Result<bool> CsvRows::next(std::vector<std::string>& fields) {
+    MOTIONRACK_TRY(const bool any, read(fields));
+    if (any && fields.size() != head_.size()) {
+        if (!cut_) return refuse(fmt::format("The row has {} fields, the head {}.", fields.size(), head_.size()));
+        return false;
+    }
+    return any;
+}
+
+Result<bool> CsvRows::read(std::vector<std::string>& fields) {
+    line_ = next_line_;
+    fields.clear();
+    if (bytes_.peek() < 0) {
+        MOTIONRACK_CHECK(bytes_.check());
+        return false;
+    }
+    fields.emplace_back();
+    bool quoted = false;
+    while (true) {
+        const int c = bytes_.get();
+        if (c < 0) {
+            cut_ = true;
+            MOTIONRACK_CHECK(bytes_.check());
+            return true;
+        }
+        next_line_ += c == '\n';
+        if (quoted) {
+            if (c != '"')
+                fields.back() += static_cast<char>(c);
+            else if (bytes_.peek() == '"')
+                fields.back() += static_cast<char>(bytes_.get());
+            else
+                quoted = false;
+        } else if (c == '"') {
+            quoted = true;
+        } else if (c == ',') {
+            fields.emplace_back();
+        } else if (c == '\n') {
+            if (!fields.back().empty() && fields.back().back() == '\r') fields.back().pop_back();
+            return true;
+        } else {
+            fields.back() += static_cast<char>(c);
+        }
+        if (fields.back().size() > most_field || fields.size() > most_fields) return refuse("The row is longer than a row of a recording can be; is this a CSV file?");
+    }
+}
+
+}  // namespace motionrack::trace

@@ -1,0 +1,234 @@
+// The library's C interface, with its handles closed and its errors told as sentences.
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <motionrack/trace/hdf5.hpp>
+#include <motionrack/trace/hdf5_parts.hpp>
+#include <system_error>
+
+namespace motionrack::trace::hdf5 {
+
+namespace {
+
+constexpr unsigned deflate_level = 2;  // of 9; higher ones take twice the time for a tenth less
+
+/// The library prints its errors by itself unless it is told not to, for each thread.
+void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+herr_t keep_deepest(unsigned n, const H5E_error2_t* error, void* out) {
+    if (n == 0 && error->desc != nullptr) *static_cast<std::string*>(out) = error->desc;
+    return 0;
+}
+
+/// What the library says of the last failure.
+std::string why() {
+    std::string text;
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_deepest, &text);
+    return text.empty() ? "the HDF5 library does not say why" : text;
+}
+
+/// The format of HDF5 1.10, which alone can be read while it is written and has checksums.
+Handle access_settings() {
+    Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_libver_bounds(access.get(), H5F_LIBVER_V110, H5F_LIBVER_V110);
+    H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);
+    return access;
+}
+
+Handle link_settings() {
+    Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    H5Pset_create_intermediate_group(links.get(), 1);
+    return links;
+}
+
+Handle column_settings(std::size_t chunk) {
+    Handle settings(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const hsize_t size = chunk;
+    H5Pset_chunk(settings.get(), 1, &size);
+    H5Pset_shuffle(settings.get());
+    H5Pset_deflate(settings.get(), deflate_level);
+    H5Pset_fletcher32(settings.get());
+    return settings;
+}
+
+}  // namespace
+
+Handle text_type(std::size_t bytes) {
+    Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type.get(), std::max<std::size_t>(bytes, 1));
+    // UTF-8 inside, but not called so: Octave reads no text that says it is UTF-8.
+    H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+    return type;
+}
+
+std::int64_t number_type(Type type) {
+    switch (type) {
+        case Type::int8: return H5T_NATIVE_INT8;
+        case Type::int32: return H5T_NATIVE_INT32;
+        case Type::int64: return H5T_NATIVE_INT64;
+        case Type::float32: return H5T_NATIVE_FLOAT;
+        case Type::float64: return H5T_NATIVE_DOUBLE;
+        case Type::text: break;
+    }
+    return H5T_C_S1;
+}
+
+// ---- columns that grow ------------------------------------------------------------------------------------------------
+
+bool Writer::append(const void* data, std::size_t count) {
+    if (!set_) return false;
+    if (count == 0) return true;
+    const hsize_t from = size_, added = count, size = size_ + count;
+    if (H5Dset_extent(set_.get(), &size) < 0) return false;
+    const Handle space(H5Dget_space(set_.get()), H5Sclose), memory(H5Screate_simple(1, &added, nullptr), H5Sclose);
+    if (!space || !memory || H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, &from, nullptr, &added, nullptr) < 0) return false;
+    Handle text;
+    if (type_ == Type::text) text = text_type(text_bytes_);
+    const hid_t type = type_ == Type::text ? text.get() : number_type(type_);
+    if (H5Dwrite(set_.get(), type, memory.get(), space.get(), H5P_DEFAULT, data) < 0) return false;
+    size_ = size;
+    return true;
+}
+
+Writer File::make_column(const std::string& path, const ColumnSettings& settings) {
+    Writer out;
+    out.type_ = settings.type;
+    out.text_bytes_ = settings.text_bytes;
+    Handle text;
+    if (settings.type == Type::text) text = text_type(settings.text_bytes);
+    const hid_t type = settings.type == Type::text ? text.get() : number_type(settings.type);
+    const hsize_t none = 0, endless = H5S_UNLIMITED;
+    const Handle space(H5Screate_simple(1, &none, &endless), H5Sclose), links = link_settings(), create = column_settings(settings.chunk);
+    const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+    H5Pset_chunk_cache(access.get(), 3, 2 * settings.chunk * std::max<std::size_t>(H5Tget_size(type), 1), 1.0);
+    out.set_ = Handle(H5Dcreate2(file_.get(), path.c_str(), type, space.get(), links.get(), create.get(), access.get()), H5Dclose);
+    if (!good(out.set_.get(), "make a column")) return out;
+    if (settings.unit.empty()) return out;
+    set(path, "unit", settings.unit);
+    set(path, "scale", settings.scale);
+    return out;
+}
+
+// ---- the file ---------------------------------------------------------------------------------------------------------
+
+bool File::good(std::int64_t code, const char* what) {
+    if (code >= 0) return true;
+    if (trouble_.empty()) trouble_ = fmt::format("could not {}: {}", what, why());
+    return false;
+}
+
+Result<File> File::create(const std::string& path) {
+    be_quiet();
+    // The library says less than the system about a place where nothing can be made.
+    std::FILE* made = std::fopen(path.c_str(), "wb");
+    if (made == nullptr)
+        return fail(Trouble::io, fmt::format("The recording could not be made: {}. Choose another place.", std::generic_category().message(errno)), {}, path);
+    std::fclose(made);
+    File out;
+    out.path_ = path;
+    const Handle access = access_settings();
+    out.file_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
+    if (!out.file_) return fail(Trouble::io, fmt::format("The recording could not be made: {}. Choose another place.", why()), {}, path);
+    return out;
+}
+
+Result<File> File::reopen(const std::string& path) {
+    be_quiet();
+    File out;
+    out.path_ = path;
+    const Handle access = access_settings();
+    out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
+    if (!out.file_) return fail(Trouble::io, fmt::format("The recording could not be ended: {}. What was written is kept.", why()), {}, path);
+    return out;
+}
+
+void File::make_group(const std::string& path) {
+    const Handle links = link_settings();
+    const Handle group(H5Gcreate2(file_.get(), path.c_str(), links.get(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+    good(group.get(), "make a group");
+}
+
+void File::write_text(const std::string& path, std::string_view text) {
+    const Handle type = text_type(text.size());
+    const hsize_t one = 1;
+    const Handle space(H5Screate_simple(1, &one, nullptr), H5Sclose), links = link_settings(), create = column_settings(1);
+    const Handle set(H5Dcreate2(file_.get(), path.c_str(), type.get(), space.get(), links.get(), create.get(), H5P_DEFAULT), H5Dclose);
+    if (!good(set.get(), "make a text")) return;
+    good(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.empty() ? "" : text.data()), "write a text");
+}
+
+void File::put_attribute(const std::string& object, const char* name, std::int64_t type, const void* value) {
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    const Handle made(H5Acreate_by_name(file_.get(), object.c_str(), name, type, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    if (good(made.get(), "make an attribute")) good(H5Awrite(made.get(), type, value), "write an attribute");
+}
+
+void File::set(const std::string& object, const char* name, std::string_view text) {
+    const Handle type = text_type(text.size());
+    put_attribute(object, name, type.get(), text.empty() ? "" : text.data());
+}
+
+void File::set(const std::string& object, const char* name, double value) { put_attribute(object, name, H5T_NATIVE_DOUBLE, &value); }
+void File::set(const std::string& object, const char* name, std::int64_t value) { put_attribute(object, name, H5T_NATIVE_INT64, &value); }
+
+void File::begin_streaming() { good(H5Fstart_swmr_write(file_.get()), "begin the recording"); }
+void File::flush() { good(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "write"); }
+
+Result<void> File::close() {
+    if (!file_.close() && trouble_.empty()) trouble_ = "could not be closed: " + why();
+    if (trouble_.empty()) return {};
+    return fail(Trouble::io,
+                fmt::format("The recording {}. What was written is kept but ends too early; make room or choose another place, and run again.", trouble_),
+                {}, path_);
+}
+
+// ---- opening to read --------------------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1A, '\n'};
+
+/// Whether the file begins as ours do. Errors: io, bad_input.
+Result<void> check_signature(const std::string& path) {
+    std::FILE* file = std::fopen(path.c_str(), "rb");
+    if (file == nullptr)
+        return fail(Trouble::io, fmt::format("The file cannot be read: {}. Check the name and the rights.", std::generic_category().message(errno)), {}, path);
+    unsigned char begin[sizeof signature];
+    errno = 0;
+    const std::size_t got = std::fread(begin, 1, sizeof begin, file);
+    const int trouble = std::ferror(file) ? errno : 0;
+    std::fclose(file);
+    if (trouble != 0) return fail(Trouble::io, fmt::format("The file cannot be read: {}.", std::generic_category().message(trouble)), {}, path);
+    if (got == sizeof begin && std::memcmp(begin, signature, sizeof begin) == 0) return {};
+    return fail(Trouble::bad_input, got == 0 ? "The file is empty." : "The file is no recording: it does not begin as an HDF5 file does.", {}, path);
+}
+
+}  // namespace
+
+Result<File> File::open(const std::string& path) {
+    be_quiet();
+    MOTIONRACK_CHECK(check_signature(path));
+    File out;
+    out.path_ = path;
+    const Handle access = access_settings();
+    out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
+    if (out.file_) return out;
+    const std::string first = why();
+    out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get()), H5Fclose);
+    out.unfinished_ = true;
+    if (out.file_) return out;
+    return fail(Trouble::bad_input, fmt::format("The recording is damaged, or was cut off before anything was in it: {}.", first), {}, path);
+}
+
+bool File::has(const std::string& path) const {
+    // H5Lexists asks for every group on the way.
+    for (std::size_t slash = path.find('/'); slash != std::string::npos; slash = path.find('/', slash + 1))
+        if (H5Lexists(file_.get(), path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+    return H5Lexists(file_.get(), path.c_str(), H5P_DEFAULT) > 0;
+}
+
+}  // namespace motionrack::trace::hdf5

@@ -1,0 +1,246 @@
+// Reading a recording, whole or cut off.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/trace/recording.hpp>
+#include <motionrack/trace/recording_parts.hpp>
+#include <motionrack/trace/report_json.hpp>
+#include <motionrack/trace/sample_keeper.hpp>
+
+namespace motionrack::trace {
+
+namespace {
+
+constexpr std::size_t block = 1 << 14;
+constexpr std::uint64_t most_inputs = 1'000'000;
+/// The outcome's facts, in the order in which they are told.
+constexpr const char* fact_names[] = {"ended", "message", "line", "seconds", "path_mm", "moves", "lines", "chip_segments", "trace_hash", "position_trusted",
+                                      "worst_deviation_mm", "pulse_positions", "counts_read", "real_ends"};
+
+}  // namespace
+
+Result<RecordingReader> RecordingReader::open(const std::string& path) {
+    RecordingReader out;
+    MOTIONRACK_TRY(out.file_, hdf5::File::open(path));
+    const hdf5::File& file = out.file_;
+    if (file.attribute_text("format") != "motionrack recording")
+        return fail(Trouble::bad_input, "The file is an HDF5 file, but no recording of motionrack.", {}, path);
+    const std::int64_t version = file.attribute_number("format_version");
+    if (version < 1 || version > recording_format)
+        return fail(Trouble::bad_input, fmt::format("The recording has format {}, this program reads up to {}; take the program that wrote it, or a later one.", version, recording_format), {}, path);
+    const auto named = [&](Result<void> done) -> Result<void> {
+        if (!done && done.error().file.empty()) done.error().file = path;
+        return done;
+    };
+    MOTIONRACK_CHECK(named(out.read_head()));
+    MOTIONRACK_CHECK(named(out.read_end()));
+    MOTIONRACK_CHECK(named(out.read_inputs()));
+    return out;
+}
+
+Result<void> RecordingReader::read_head() {
+    MOTIONRACK_TRY(const std::string json, file_.text("run/head"));
+    MOTIONRACK_TRY(head_, head_from_json(json));
+    MOTIONRACK_TRY(head_.program, file_.text("run/program"));
+    MOTIONRACK_TRY(head_.rack, file_.text("run/rack"));
+    began_ = Instant{file_.attribute_number("began_ticks")};
+    for (const RecordedSignal& signal : head_.signals) {
+        const char* value = signal.kind == SignalKind::steps ? "/direction" : signal.kind == SignalKind::counts ? "/count" : "/value";
+        series_.push_back({signal.name, signal.unit, true, signal.path + "/time", signal.path + value});
+    }
+    const auto sampled = [&](const std::string& name, const std::string& unit, const std::string& path) {
+        series_.push_back({name, unit, false, "samples/time", "samples/" + path});
+    };
+    for (const RecordedAxis& axis : head_.axes) {
+        const std::string folder = axis_folder(axis.name);
+        sampled(axis.name + ".position", axis.unit, folder + "/position");
+        sampled(axis.name + ".commanded", axis.unit, folder + "/commanded");
+        sampled(axis.name + ".speed", axis.unit + "/s", folder + "/speed");
+        sampled(axis.name + ".acceleration", axis.unit + "/s2", folder + "/acceleration");
+        if (axis.servo) sampled(axis.name + ".drive", "V", folder + "/drive");
+    }
+    sampled("deviation", "mm", "deviation");
+    return {};
+}
+
+Result<void> RecordingReader::read_end() {
+    const std::int64_t ended = file_.attribute_number("ended_ticks");
+    whole_ = !file_.unfinished() && ended > 0 && file_.has("run/report");
+    if (whole_) {
+        known_to_ = Instant{ended};
+        most_samples_ = static_cast<std::size_t>(std::clamp<std::int64_t>(file_.attribute_number("most_samples"), 16, 10'000'000));
+        MOTIONRACK_TRY(report_, file_.text("run/report"));
+        for (const char* name : fact_names)
+            if (const std::string text = file_.attribute_text(name, "outcome"); !text.empty()) outcome_.push_back({name, text});
+        return {};
+    }
+    MOTIONRACK_TRY(const hdf5::Reader flushed, file_.column("run/flushed"));
+    std::int64_t last = began_.count();
+    if (flushed.size() > 0) MOTIONRACK_CHECK(flushed.read(flushed.size() - 1, 1, &last));
+    known_to_ = Instant{last};
+    return {};
+}
+
+Result<void> RecordingReader::read_inputs() {
+    MOTIONRACK_TRY(const hdf5::Reader times, file_.column("inputs/time"));
+    MOTIONRACK_TRY(const hdf5::Reader texts, file_.column("inputs/text"));
+    const std::uint64_t size = std::min({times.size(), texts.size(), most_inputs});
+    for (std::uint64_t i = 0; i < size; ++i) {
+        std::int64_t at = 0;
+        MOTIONRACK_CHECK(times.read(i, 1, &at));
+        MOTIONRACK_TRY(std::string text, texts.text(i));
+        inputs_.push_back({Instant{at}, std::move(text)});
+    }
+    return {};
+}
+
+std::string RecordingReader::cut_sentence() const {
+    return fmt::format("{} was cut off, or is still being written: all before {:.6f} s is there, what came after it and how the run ended is not.", path(),
+                       to_seconds(known_to_ - began_));
+}
+
+const RecordedSeries* RecordingReader::find(std::string_view name) const {
+    const auto found = std::find_if(series_.begin(), series_.end(), [&](const RecordedSeries& one) { return one.name == name; });
+    return found == series_.end() ? nullptr : &*found;
+}
+
+Result<RecordingReader::Columns> RecordingReader::columns(const RecordedSeries& series) const {
+    Columns out;
+    MOTIONRACK_TRY(out.time, file_.column(series.time));
+    MOTIONRACK_TRY(out.value, file_.column(series.value));
+    out.size = std::min(out.time.size(), out.value.size());
+    if (whole_ && out.time.size() != out.value.size())
+        return fail(Trouble::bad_input, fmt::format("The recording is damaged: {} has {} times, but {} values.", series.name, out.time.size(), out.value.size()), {}, path());
+    if (whole_) return out;
+    // Times rise: the last one that is known is found by halving.
+    std::uint64_t low = 0, high = out.size;
+    while (low < high) {
+        const std::uint64_t middle = low + (high - low) / 2;
+        std::int64_t at = 0;
+        MOTIONRACK_CHECK(out.time.read(middle, 1, &at));
+        if (at < known_to_.count())
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    out.size = low;
+    return out;
+}
+
+// ---- the report -------------------------------------------------------------------------------------------------------
+
+namespace {
+
+struct Kept {
+    std::int64_t at = 0;
+    std::array<AxisSample, 6> axes = {};
+};
+
+/// The columns of one axis, and a block of each.
+struct AxisBlock {
+    hdf5::Reader position, speed, accel, volts;
+    bool servo = false;
+    std::array<double, block> positions, speeds;
+    std::array<float, block> accels, voltages;
+
+    Result<void> read(std::uint64_t from, std::size_t count) {
+        MOTIONRACK_CHECK(position.read(from, count, positions.data()));
+        MOTIONRACK_CHECK(speed.read(from, count, speeds.data()));
+        MOTIONRACK_CHECK(accel.read(from, count, accels.data()));
+        return servo ? volts.read(from, count, voltages.data()) : Result<void>();
+    }
+};
+
+/// The path goes along X, Y, Z; -1: no such axis.
+int path_axis(const std::string& name) { return name.size() == 1 && name[0] >= 'X' && name[0] <= 'Z' ? name[0] - 'X' : -1; }
+
+/// What the kept samples are in a report.
+void put(ReportData& data, const SampleKeeper<Kept>& keeper, const std::vector<RecordedAxis>& axes) {
+    const std::vector<Kept>& kept = keeper.samples();
+    for (const Kept& sample : kept) {
+        data.seconds.push_back(to_seconds(Duration{sample.at - kept.front().at}));
+        Xyz place{};
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            ReportAxis& axis = data.axes[i];
+            axis.position.push_back(static_cast<float>(sample.axes[i].position));
+            axis.speed.push_back(static_cast<float>(sample.axes[i].speed));
+            axis.accel.push_back(sample.axes[i].accel);
+            if (axes[i].servo) axis.volts.push_back(sample.axes[i].volts);
+            if (const int along = path_axis(axes[i].name); along >= 0) place[static_cast<std::size_t>(along)] = sample.axes[i].position;
+        }
+        data.driven.push_back(place);
+    }
+    for (const double off : keeper.deviations()) data.deviation_mm.push_back(static_cast<float>(off));
+}
+
+}  // namespace
+
+Result<void> RecordingReader::read_samples(ReportData& data) const {
+    MOTIONRACK_TRY(const Columns first, columns(*find("deviation")));
+    std::vector<std::unique_ptr<AxisBlock>> axes;
+    std::uint64_t size = first.size;
+    for (const RecordedAxis& axis : head_.axes) {
+        const std::string folder = "samples/" + axis_folder(axis.name);
+        auto one = std::make_unique<AxisBlock>();
+        one->servo = axis.servo;
+        MOTIONRACK_TRY(one->position, file_.column(folder + "/position"));
+        MOTIONRACK_TRY(one->speed, file_.column(folder + "/speed"));
+        MOTIONRACK_TRY(one->accel, file_.column(folder + "/acceleration"));
+        if (axis.servo) {
+            MOTIONRACK_TRY(one->volts, file_.column(folder + "/drive"));
+        }
+        size = std::min({size, one->position.size(), one->speed.size(), one->accel.size()});
+        if (axis.servo) size = std::min(size, one->volts.size());
+        axes.push_back(std::move(one));
+    }
+    SampleKeeper<Kept> keeper(most_samples_);
+    std::vector<std::int64_t> times(block);
+    std::vector<double> deviations(block);
+    for (std::uint64_t from = 0; from < size; from += block) {
+        const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block, size - from));
+        MOTIONRACK_CHECK(first.time.read(from, count, times.data()));
+        MOTIONRACK_CHECK(first.value.read(from, count, deviations.data()));
+        for (const auto& axis : axes) MOTIONRACK_CHECK(axis->read(from, count));
+        for (std::size_t i = 0; i < count; ++i) {
+            Kept one{times[i], {}};
+            for (std::size_t k = 0; k < axes.size(); ++k)
+                one.axes[k] = {axes[k]->positions[i], 0, axes[k]->speeds[i], axes[k]->accels[i], axes[k]->servo ? axes[k]->voltages[i] : 0};
+            keeper.add(one, deviations[i]);
+        }
+    }
+    put(data, keeper, head_.axes);
+    return {};
+}
+
+ReportData RecordingReader::report_of_cut() const {
+    ReportData data;
+    data.title = data.program_name = head_.program_name;
+    data.rack_name = head_.rack_name;
+    data.verdict = {false, cut_sentence()};
+    for (const RecordedAxis& axis : head_.axes) {
+        ReportAxis one;
+        one.name = axis.name;
+        one.unit = axis.unit;
+        one.servo = axis.servo;
+        one.min_position = axis.min_position;
+        one.max_position = axis.max_position;
+        one.max_speed = axis.max_speed;
+        one.max_accel = axis.max_accel;
+        data.axes.push_back(std::move(one));
+    }
+    data.notes = {"Pulses, counts, blocks and the greatest values are counted when a run ends, so a recording that was cut off has none of them."};
+    return data;
+}
+
+Result<ReportData> RecordingReader::report() const {
+    ReportData data = report_of_cut();
+    if (whole_) {
+        MOTIONRACK_TRY(data, report_from_json(report_));
+        if (data.axes.size() != head_.axes.size()) return fail(Trouble::bad_input, "The recording is damaged: its report has other axes than its run.", {}, path());
+    }
+    MOTIONRACK_CHECK(read_samples(data));
+    return data;
+}
+
+}  // namespace motionrack::trace

@@ -1,0 +1,213 @@
+// Writing a recording: buffers for each column, handed to the file when they are full or at a flush.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <motionrack/trace/recording.hpp>
+#include <motionrack/trace/recording_parts.hpp>
+#include <motionrack/trace/report_json.hpp>
+
+namespace motionrack::trace {
+
+namespace {
+
+constexpr double tick_s = 1e-10;
+// A chunk that was flushed before it was full is written again in another place: the smaller, the less is lost by that.
+constexpr std::size_t edge_chunk = 1 << 12, level_chunk = 1 << 9, sample_chunk = 1 << 10;
+constexpr std::size_t edge_buffer = 1 << 12, level_buffer = 1 << 7, sample_buffer = 1 << 9;
+
+/// Elements that wait to be written.
+template <class T>
+class Buffered {
+  public:
+    Buffered() = default;
+    Buffered(hdf5::File& file, const std::string& path, std::size_t chunk, std::size_t most, const std::string& unit, double scale = 1)
+        : writer_(file.make_column(path, {hdf5::type_of<T>, 0, chunk, unit, scale})), most_(most) {}
+
+    bool add(T value) {
+        waiting_.push_back(value);
+        return waiting_.size() < most_ || write();
+    }
+    bool write() {
+        const bool good = writer_.append(waiting_.data(), waiting_.size());
+        waiting_.clear();
+        return good;
+    }
+
+  private:
+    hdf5::Writer writer_;
+    std::vector<T> waiting_;
+    std::size_t most_ = 1;
+};
+
+}  // namespace
+
+struct RecordingWriter::Signal {
+    SignalKind kind = SignalKind::levels;
+    std::int64_t last = 0;
+    Buffered<std::int64_t> times;
+    Buffered<std::int8_t> directions;  // of steps
+    Buffered<std::int64_t> values;     // of the others
+
+    bool write() { return times.write() && (kind == SignalKind::steps ? directions.write() : values.write()); }
+};
+
+struct RecordingWriter::Samples {
+    struct Axis {
+        bool servo = false;
+        Buffered<double> position, commanded, speed;
+        Buffered<float> accel, volts;
+    };
+    Buffered<std::int64_t> times;
+    Buffered<double> deviation;
+    std::vector<Axis> axes;
+
+    bool write() {
+        bool good = times.write() && deviation.write();
+        for (Axis& axis : axes)
+            good = good && axis.position.write() && axis.commanded.write() && axis.speed.write() && axis.accel.write() && (!axis.servo || axis.volts.write());
+        return good;
+    }
+};
+
+RecordingWriter::RecordingWriter() = default;
+RecordingWriter::RecordingWriter(RecordingWriter&&) noexcept = default;
+RecordingWriter& RecordingWriter::operator=(RecordingWriter&&) noexcept = default;
+RecordingWriter::~RecordingWriter() = default;
+
+Result<RecordingWriter> RecordingWriter::create(const std::string& path, const RecordingHead& head, Instant began) {
+    RecordingWriter out;
+    MOTIONRACK_TRY(out.file_, hdf5::File::create(path));
+    hdf5::File& file = out.file_;
+    file.set("/", "format", "motionrack recording");
+    file.set("/", "format_version", recording_format);
+    file.set("/", "written_by", "motionrack " + head.version);
+    file.set("/", "program", head.program_name);
+    file.set("/", "rack", head.rack_name);
+    file.set("/", "tick_s", tick_s);
+    file.set("/", "began_ticks", began.count());
+    file.write_text("run/program", head.program);
+    file.write_text("run/rack", head.rack);
+    file.write_text("run/head", head_json(head));
+    std::size_t longest = 64;
+    for (const RecordedInput& input : head.inputs) longest = std::max(longest, input.text.size());
+    out.input_times_ = file.make_column("inputs/time", {hdf5::Type::int64, 0, 256, "s", tick_s});
+    out.input_texts_ = file.make_column("inputs/text", {hdf5::Type::text, longest, 64, "", 1});
+    out.flushed_ = file.make_column("run/flushed", {hdf5::Type::int64, 0, 64, "s", tick_s});
+    out.tell_axes(head);
+    out.make_signals(head);
+    out.make_samples(head);
+    file.begin_streaming();
+    for (const RecordedInput& input : head.inputs) out.input(input);
+    out.flush(began);
+    if (file.trouble().empty()) return out;
+    return tl::unexpected<Error>(Error{Trouble::io, fmt::format("The recording {}. Choose another place or make room; nothing was moved.", file.trouble()), path});
+}
+
+void RecordingWriter::tell_axes(const RecordingHead& head) {
+    for (const RecordedAxis& axis : head.axes) {
+        const std::string group = "axes/" + axis_folder(axis.name);
+        file_.make_group(group);
+        file_.set(group, "unit", axis.unit);
+        file_.set(group, "pulses_per_unit", axis.pulses_per_unit);
+        file_.set(group, "counts_per_unit", axis.counts_per_unit);
+        file_.set(group, "origin", axis.origin);
+        file_.set(group, "min_position", axis.min_position);
+        file_.set(group, "max_position", axis.max_position);
+        file_.set(group, "max_speed", axis.max_speed);
+        file_.set(group, "max_acceleration", axis.max_accel);
+    }
+}
+
+void RecordingWriter::make_signals(const RecordingHead& head) {
+    signals_.reserve(head.signals.size());
+    for (const RecordedSignal& signal : head.signals) {
+        const bool edges = signal.kind != SignalKind::levels;
+        const std::size_t chunk = edges ? edge_chunk : level_chunk, most = edges ? edge_buffer : level_buffer;
+        Signal one;
+        one.kind = signal.kind;
+        one.last = signal.initial;
+        one.times = {file_, signal.path + "/time", chunk, most, "s", tick_s};
+        if (signal.kind == SignalKind::steps)
+            one.directions = {file_, signal.path + "/direction", chunk, most, signal.unit};
+        else
+            one.values = {file_, signal.path + (edges ? "/count" : "/value"), chunk, most, signal.unit};
+        file_.set(signal.path, "initial", signal.initial);
+        signals_.push_back(std::move(one));
+    }
+}
+
+void RecordingWriter::make_samples(const RecordingHead& head) {
+    samples_ = std::make_unique<Samples>();
+    const auto column = [&](auto& buffered, const std::string& path, const std::string& unit, double scale = 1) {
+        buffered = {file_, "samples/" + path, sample_chunk, sample_buffer, unit, scale};
+    };
+    column(samples_->times, "time", "s", tick_s);
+    column(samples_->deviation, "deviation", "mm");
+    for (const RecordedAxis& axis : head.axes) {
+        const std::string name = axis_folder(axis.name);
+        Samples::Axis one;
+        one.servo = axis.servo;
+        column(one.position, name + "/position", axis.unit);
+        column(one.commanded, name + "/commanded", axis.unit);
+        column(one.speed, name + "/speed", axis.unit + "/s");
+        column(one.accel, name + "/acceleration", axis.unit + "/s2");
+        if (axis.servo) column(one.volts, name + "/drive", "V");
+        samples_->axes.push_back(std::move(one));
+    }
+}
+
+void RecordingWriter::event(std::size_t signal, Instant at, std::int64_t value) {
+    Signal& one = signals_[signal];
+    if (one.kind == SignalKind::levels && one.last == value) return;
+    one.last = value;
+    ++events_;
+    const bool times = one.times.add(at.count());
+    const bool values = one.kind == SignalKind::steps ? one.directions.add(static_cast<std::int8_t>(value)) : one.values.add(value);
+    good_ = good_ && times && values;
+}
+
+void RecordingWriter::sample(Instant at, double deviation_mm, std::span<const AxisSample> axes) {
+    MOTIONRACK_ASSERT(axes.size() == samples_->axes.size());
+    bool good = samples_->times.add(at.count()) & samples_->deviation.add(deviation_mm);
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        Samples::Axis& axis = samples_->axes[i];
+        good &= axis.position.add(axes[i].position) & axis.commanded.add(axes[i].commanded) & axis.speed.add(axes[i].speed) & axis.accel.add(axes[i].accel);
+        if (axis.servo) good &= axis.volts.add(axes[i].volts);
+    }
+    good_ = good_ && good;
+}
+
+void RecordingWriter::input(const RecordedInput& input) {
+    const std::int64_t at = input.at.count();
+    std::string text = input.text;
+    text.resize(std::max<std::size_t>(text.size(), input_texts_.text_bytes()));
+    good_ = input_times_.append(&at, 1) && input_texts_.append(text.data(), 1) && good_;
+}
+
+void RecordingWriter::flush(Instant now) {
+    for (Signal& signal : signals_) good_ = signal.write() && good_;
+    good_ = samples_->write() && good_;
+    file_.flush();
+    const std::int64_t at = now.count();
+    good_ = flushed_.append(&at, 1) && good_;
+    file_.flush();
+}
+
+Result<void> RecordingWriter::close(const RecordingEnd& end) {
+    flush(end.at);
+    signals_.clear();
+    samples_.reset();
+    for (hdf5::Writer* writer : {&input_times_, &input_texts_, &flushed_}) *writer = hdf5::Writer();
+    const std::string path = file_.path();
+    if (!good_) file_.set_trouble("could not be written, perhaps for want of room on the disk");
+    MOTIONRACK_CHECK(file_.close());
+    MOTIONRACK_TRY(file_, hdf5::File::reopen(path));
+    file_.make_group("outcome");
+    for (const Fact& fact : end.outcome) file_.set("outcome", fact.name.c_str(), fact.text);
+    file_.write_text("run/report", report_json(end.report));
+    file_.set("/", "most_samples", static_cast<std::int64_t>(end.most_samples));
+    file_.set("/", "ended_ticks", end.at.count());  // last: who finds it finds everything
+    return file_.close();
+}
+
+}  // namespace motionrack::trace

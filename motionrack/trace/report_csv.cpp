@@ -1,0 +1,105 @@
+// Columns found by their names, and read into the series of a report.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <motionrack/trace/csv_rows.hpp>
+#include <motionrack/trace/report_csv.hpp>
+
+namespace motionrack::trace {
+
+namespace {
+
+constexpr std::size_t most_rows = 20'000'000;
+
+using Put = std::function<void(ReportData& data, double value)>;
+
+ReportAxis& axis_of(ReportData& data, char letter, const std::string& unit) {
+    const std::string name(1, static_cast<char>(letter - 'a' + 'A'));
+    for (ReportAxis& axis : data.axes)
+        if (axis.name == name) return axis;
+    ReportAxis& made = data.axes.emplace_back();
+    made.name = name;
+    made.unit = unit;
+    return made;
+}
+
+/// "x_speed_mm_s": what is done with its values; empty: nothing.
+Put reader_of(ReportData& data, const std::string& column) {
+    if (column == "deviation_mm") return [](ReportData& to, double value) { to.deviation_mm.push_back(static_cast<float>(value)); };
+    if (column.size() == 11 && column.compare(0, 7, "driven_") == 0 && column.compare(8, 3, "_mm") == 0 && column[7] >= 'x' && column[7] <= 'z')
+        return [place = static_cast<std::size_t>(column[7] - 'x')](ReportData& to, double value) { to.driven.back()[place] = value; };
+    const char letter = column.empty() ? '\0' : column[0];
+    if (std::string_view("xyzabc").find(letter) == std::string_view::npos || column.size() < 3 || column[1] != '_') return {};
+    const std::string unit = letter >= 'x' ? "mm" : "deg", what = column.substr(2);
+    std::vector<float> ReportAxis::*series = nullptr;
+    if (what == "position_" + unit) series = &ReportAxis::position;
+    if (what == "speed_" + unit + "_s") series = &ReportAxis::speed;
+    if (what == "acceleration_" + unit + "_s2") series = &ReportAxis::accel;
+    if (what == "drive_v") series = &ReportAxis::volts;
+    if (series == nullptr) return {};
+    if (series == &ReportAxis::volts) axis_of(data, letter, unit).servo = true;
+    axis_of(data, letter, unit);
+    return [letter, unit, series](ReportData& to, double value) { (axis_of(to, letter, unit).*series).push_back(static_cast<float>(value)); };
+}
+
+struct Columns {
+    std::size_t time = 0;
+    std::vector<std::pair<std::size_t, Put>> others;
+    bool driven = false;
+};
+
+Result<Columns> columns_of(const CsvRows& rows, ReportData& data, const std::string& path) {
+    Columns out;
+    bool timed = false;
+    for (std::size_t i = 0; i < rows.head().size(); ++i) {
+        const std::string& name = rows.head()[i];
+        if (name == "time_s") {
+            out.time = i;
+            timed = true;
+        } else if (Put put = reader_of(data, name)) {
+            out.others.emplace_back(i, std::move(put));
+            out.driven = out.driven || name.compare(0, 7, "driven_") == 0;
+        }
+    }
+    if (timed && !out.others.empty()) return out;
+    return fail(Trouble::bad_input, "The file has no samples to show: a column time_s is needed, and some like x_position_mm, x_speed_mm_s or deviation_mm.", {1, 0}, path);
+}
+
+/// What the samples themselves tell of an axis.
+void add_tops(ReportAxis& axis) {
+    for (const float speed : axis.speed)
+        if (std::isfinite(speed)) axis.top_speed = std::max(axis.top_speed, std::fabs(static_cast<double>(speed)));
+    for (const float accel : axis.accel)
+        if (std::isfinite(accel)) axis.top_accel = std::max(axis.top_accel, std::fabs(static_cast<double>(accel)));
+    if (!axis.position.empty()) axis.planned_end = axis.real_end = axis.position.back();
+}
+
+}  // namespace
+
+Result<ReportData> report_from_csv(const std::string& path) {
+    MOTIONRACK_TRY(CsvRows rows, CsvRows::open(path));
+    ReportData data;
+    MOTIONRACK_TRY(const Columns columns, columns_of(rows, data, path));
+    std::vector<std::string> row;
+    while (data.seconds.size() < most_rows) {
+        MOTIONRACK_TRY(const bool more, rows.next(row));
+        if (!more) break;
+        const double seconds = number_of(row[columns.time]);
+        if (!std::isfinite(seconds) || (!data.seconds.empty() && seconds < data.seconds.back()))
+            return fail(Trouble::bad_input, "The time is no number, or lies before that of the row above.", {rows.line(), 0}, path);
+        data.seconds.push_back(seconds);
+        if (columns.driven) data.driven.push_back({});
+        for (const auto& [column, put] : columns.others) put(data, number_of(row[column]));
+    }
+    data.title = data.program_name = path;
+    data.program_kind = "Samples";
+    data.verdict = {true, fmt::format("{} samples; how the run ended does not stand in a CSV file.", data.seconds.size())};
+    for (ReportAxis& axis : data.axes) add_tops(axis);
+    data.notes = {"The page was made of samples alone: limits, pulses, counts, blocks and the programmed path are not in the file, and the greatest values are those of the samples."};
+    if (rows.cut()) data.notes.push_back("The file does not end with a whole row: it was cut off.");
+    return data;
+}
+
+}  // namespace motionrack::trace

@@ -1,0 +1,142 @@
+// One list of fields for each struct, read and written by it.
+#include <limits>
+#include <motionrack/trace/report_json.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+namespace motionrack::trace {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// Puts fields into an object, or takes them out of one.
+class Fields {
+  public:
+    Fields(Json& json, bool reading) : json_(json), reading_(reading) {}
+
+    template <class T>
+    Fields& operator()(const char* name, T& value) {
+        if (!reading_) {
+            json_[name] = to(value);
+        } else if (const auto found = json_.find(name); found != json_.end()) {
+            from(*found, value);
+        }
+        return *this;
+    }
+
+  private:
+    // What JSON has no number for is null.
+    Json to(double& value) const { return value - value == 0 ? Json(value) : Json(); }
+    Json to(float& value) const { return value - value == 0 ? Json(static_cast<double>(value)) : Json(); }
+    Json to(std::string& value) const { return value; }
+    Json to(bool& value) const { return value; }
+    Json to(int& value) const { return value; }
+    Json to(std::int64_t& value) const { return value; }
+    template <class T>
+    Json to(std::optional<T>& value) const {
+        return value ? to(*value) : Json();
+    }
+    template <class T, std::size_t n>
+    Json to(std::array<T, n>& values) const {
+        Json out = Json::array();
+        for (T& value : values) out.push_back(to(value));
+        return out;
+    }
+    template <class T>
+    Json to(std::vector<T>& values) const {
+        Json out = Json::array();
+        for (T& value : values) out.push_back(to(value));
+        return out;
+    }
+    template <class T>
+    Json to(T& value) const {
+        Json out = Json::object();
+        Fields fields(out, false);
+        fields_of(value, fields);
+        return out;
+    }
+
+    void from(Json& json, double& value) const { value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>(); }
+    void from(Json& json, float& value) const { value = json.is_null() ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(json.get<double>()); }
+    void from(Json& json, std::string& value) const { value = json.get<std::string>(); }
+    void from(Json& json, bool& value) const { value = json.get<bool>(); }
+    void from(Json& json, int& value) const { value = json.get<int>(); }
+    void from(Json& json, std::int64_t& value) const { value = json.get<std::int64_t>(); }
+    template <class T>
+    void from(Json& json, std::optional<T>& value) const {
+        value.reset();
+        if (!json.is_null()) from(json, value.emplace());
+    }
+    template <class T, std::size_t n>
+    void from(Json& json, std::array<T, n>& values) const {
+        for (std::size_t i = 0; i < n; ++i) from(json.at(i), values[i]);
+    }
+    template <class T>
+    void from(Json& json, std::vector<T>& values) const {
+        if (!json.is_array()) throw std::runtime_error("a list was expected");
+        values.clear();
+        values.reserve(json.size());
+        for (Json& each : json) from(each, values.emplace_back());
+    }
+    template <class T>
+    void from(Json& json, T& value) const {
+        Fields fields(json, true);
+        fields_of(value, fields);
+    }
+
+    Json& json_;
+    bool reading_;
+};
+
+void fields_of(ReportVerdict& v, Fields& f) { f("ok", v.ok)("text", v.text); }
+void fields_of(ReportNumber& v, Fields& f) { f("label", v.label)("value", v.value)("unit", v.unit); }
+void fields_of(ReportAxis& v, Fields& f) {
+    f("name", v.name)("unit", v.unit)("servo", v.servo)("min_position", v.min_position)("max_position", v.max_position);
+    f("max_speed", v.max_speed)("max_accel", v.max_accel)("pulses_sent", v.pulses_sent)("pulses_net", v.pulses_net);
+    f("pulse_counter", v.pulse_counter)("counts_read", v.counts_read)("counts_expected", v.counts_expected)("lost_steps", v.lost_steps);
+    f("top_speed", v.top_speed)("top_accel", v.top_accel)("top_jump", v.top_jump)("planned_end", v.planned_end)("real_end", v.real_end);
+}
+void fields_of(ReportSegment& v, Fields& f) { f("points", v.points)("traverse", v.traverse)("line", v.line); }
+void fields_of(ReportWorst& v, Fields& f) { f("mm", v.mm)("seconds", v.seconds)("line", v.line)("at", v.at); }
+void fields_of(ReportStop& v, Fields& f) { f("seconds", v.seconds)("line", v.line)("at", v.at)("text", v.text); }
+void fields_of(ReportBlock& v, Fields& f) {
+    f("line", v.line)("text", v.text)("kind", v.kind)("length", v.length)("unit", v.unit)("start", v.start)("duration", v.duration);
+    f("entry_speed", v.entry_speed)("top_speed", v.top_speed)("exit_speed", v.exit_speed)("deviation_mm", v.deviation_mm);
+}
+void fields_of(ReportWarning& v, Fields& f) { f("seconds", v.seconds)("line", v.line)("text", v.text); }
+void fields_of(ReportPicture& v, Fields& f) { f("title", v.title)("words", v.words)("svg", v.svg)("wide", v.wide); }
+void fields_of(ReportTable& v, Fields& f) { f("title", v.title)("caption", v.caption)("heads", v.heads)("rows", v.rows); }
+void fields_of(ReportSeries& v, Fields& f) { f("title", v.title)("look", v.look)("values", v.values)("limits_name", v.limits_name)("limits", v.limits); }
+void fields_of(ReportSource& v, Fields& f) { f("title", v.title)("text", v.text); }
+void fields_of(ReportData& v, Fields& f) {
+    f("title", v.title)("program_kind", v.program_kind)("program_name", v.program_name)("rack_name", v.rack_name)("verdict", v.verdict);
+    f("numbers", v.numbers)("axes", v.axes)("tolerance_mm", v.tolerance_mm)("planned", v.planned)("worst", v.worst)("stop", v.stop);
+    f("blocks", v.blocks)("warnings", v.warnings)("pictures", v.pictures)("pictures_hint", v.pictures_hint)("tables", v.tables);
+    f("series", v.series)("source", v.source)("notes", v.notes);
+}
+
+}  // namespace
+
+std::string report_json(const ReportData& data) {
+    Json json = Json::object();
+    Fields fields(json, false);
+    fields_of(const_cast<ReportData&>(data), fields);  // the same list reads and writes; nothing is changed here
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Result<ReportData> report_from_json(std::string_view text) {
+    ReportData data;
+    try {
+        Json json = Json::parse(text);
+        Fields fields(json, true);
+        fields_of(data, fields);
+    } catch (const std::exception&) {
+        return fail(Trouble::bad_input, "The recording is damaged: what its report says cannot be read.");
+    }
+    return data;
+}
+
+}  // namespace motionrack::trace

@@ -1,0 +1,48 @@
+// Samples of any number, kept in bounded memory: whenever there are too many, every second one goes.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace motionrack::trace {
+
+/// A sample is kept with the deviation that belongs to it; of two that become one the greater deviation stays.
+template <class Sample>
+class SampleKeeper {
+  public:
+    /// `most`: 16 or more are kept.
+    explicit SampleKeeper(std::size_t most) : most_(std::max<std::size_t>(most, 16)) {}
+
+    /// Keeps it, or leaves it out.
+    void add(const Sample& sample, double deviation) {
+        if (++skipped_ < keep_every_) return;
+        skipped_ = 0;
+        samples_.push_back(sample);
+        deviations_.push_back(deviation);
+        if (samples_.size() > most_) thin_out();
+    }
+
+    const std::vector<Sample>& samples() const { return samples_; }
+    const std::vector<double>& deviations() const { return deviations_; }
+
+  private:
+    void thin_out() {
+        std::size_t out = 0;
+        for (std::size_t i = 0; i < samples_.size(); i += 2, ++out) {
+            samples_[out] = samples_[i];
+            deviations_[out] = std::max(deviations_[i], i + 1 < deviations_.size() ? deviations_[i + 1] : 0.0);
+        }
+        samples_.resize(out);
+        deviations_.resize(out);
+        keep_every_ *= 2;
+    }
+
+    std::size_t most_;
+    std::vector<Sample> samples_;
+    std::vector<double> deviations_;
+    std::size_t keep_every_ = 1, skipped_ = 0;
+};
+
+}  // namespace motionrack::trace

@@ -1,0 +1,52 @@
+// libFuzzer: any bytes as a recording of any kind; it is refused with a sentence, or what it says fits together.
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <motionrack/trace/diff.hpp>
+#include <motionrack/trace/report_csv.hpp>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace motionrack;
+
+void require(bool holds) {
+    if (!holds) std::abort();
+}
+
+void read_whole(const std::string& path) {
+    const auto reader = trace::RecordingReader::open(path);
+    if (!reader) return require(!reader.error().message.empty());
+    for (const trace::RecordedSeries& series : reader->series()) {
+        const auto columns = reader->columns(series);
+        if (!columns) continue;
+        std::vector<std::int64_t> values(1 << 14);
+        for (std::uint64_t from = 0; from < columns->size && from < (1u << 20); from += values.size()) {
+            const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(values.size(), columns->size - from));
+            if (!columns->time.read(from, count, values.data()) || !columns->value.read(from, count, values.data())) break;
+        }
+    }
+    const auto data = reader->report();
+    require(data || !data.error().message.empty());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const std::string path = "/tmp/motionrack_recording_fuzz_" + std::to_string(::getpid());
+    std::FILE* file = std::fopen(path.c_str(), "wb");
+    require(file != nullptr && std::fwrite(data, 1, size, file) == size && std::fclose(file) == 0);
+    const auto kind = trace::kind_of_file(path);
+    if (kind && *kind == trace::FileKind::hdf5) read_whole(path);
+    const auto diff = trace::diff_files(path, path);
+    if (diff)
+        require(diff->same() && !trace::diff_text(*diff, "a", "b").empty() && !trace::diff_json(*diff, "a", "b").empty());
+    else
+        require(!diff.error().message.empty());
+    if (kind && *kind == trace::FileKind::csv) (void)trace::report_from_csv(path);
+    std::remove(path.c_str());
+    return 0;
+}
