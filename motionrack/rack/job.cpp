@@ -44,6 +44,12 @@ Job::Job(Rack& rack, JobSettings settings) : rack_(rack), settings_(std::move(se
 
 Job::~Job() = default;
 
+void Job::give(std::string_view program, std::string name, bool block_delete) {
+    settings_.program = program;
+    settings_.program_name = std::move(name);
+    settings_.block_delete = block_delete;
+}
+
 JobOutcome Job::run() {
     JobOutcome out;
     const Result<control::PathAxes*> axes = rack_.path_axes();
