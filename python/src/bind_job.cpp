@@ -156,10 +156,11 @@ void attend_progress(World& world, const py::object& progress) {
 }
 
 std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const std::string& program, const std::string& name, bool block_delete,
-                         std::int64_t sample_ticks, const py::object& progress) {
+                         std::int64_t sample_ticks, const std::optional<std::string>& profile, const py::object& progress) {
     {
         const Turn turn(*world, Turn::For::moving);
         value_of(world->set_sample_period(ticks(sample_ticks)));
+        if (profile) value_of(world->set_profile(*profile));
         attend_progress(*world, progress);
     }
     struct Unheard {
@@ -192,7 +193,8 @@ void bind_job(py::module_& m) {
         .def("write_report", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_report); }, py::arg("path"))
         .def("write_csv", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_csv); }, py::arg("path"))
         .def("write_events", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_events_csv); }, py::arg("path"));
-    m.def("run", &run, py::arg("world"), py::arg("program"), py::arg("name"), py::arg("block_delete"), py::arg("sample_ticks"), py::arg("progress"));
+    m.def("run", &run, py::arg("world"), py::arg("program"), py::arg("name"), py::arg("block_delete"), py::arg("sample_ticks"),
+          py::arg("profile"), py::arg("progress"));
 }
 
 }  // namespace motionrack::python

@@ -14,7 +14,11 @@ constexpr Duration slice = milliseconds(50);
 constexpr std::size_t most_problems = 20;
 }
 
-World::World(const rack::RackConfig& config) : config_(config), rack_(std::make_unique<rack::Rack>(config)) {
+World::World(const rack::RackConfig& config) : config_(config) { build(); }
+
+void World::build() {
+    desk_.reset();
+    rack_ = std::make_unique<rack::Rack>(config_);
     desk_ = std::make_unique<rack::WireDesk>(*rack_);
 }
 
@@ -63,6 +67,17 @@ Result<void> World::set_sample_period(Duration period) {
     if (period < microseconds(1) || period > whole_seconds(3600))
         return fail(Trouble::refused, fmt::format("The samples' period is {} s; it is 1e-6 to 3600 s. Nothing was run.", to_seconds(period)));
     sample_period_ = period;
+    return {};
+}
+
+Result<void> World::set_profile(const std::string& profile) {
+    if (profile == config_.controller.profile) return {};
+    if (profile != "trapezoid" && profile != "jerk_limited")
+        return fail(Trouble::refused, fmt::format("The profile is {}; it is trapezoid or jerk_limited. Nothing was run.", rack::in_quotes(profile)));
+    if (rack().started())
+        return fail(Trouble::refused, fmt::format("The profile was {} when the rack's time began; it cannot become {}. Nothing was run.", config_.controller.profile, profile));
+    config_.controller.profile = profile;
+    build();
     return {};
 }
 

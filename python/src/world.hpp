@@ -46,6 +46,9 @@ class World {
     /// Of the samples that a job keeps, > 0. Errors: refused in a started rack.
     Result<void> set_sample_period(Duration period);
 
+    /// "trapezoid" or "jerk_limited", instead of the rack file's. Errors: refused in a started rack.
+    Result<void> set_profile(const std::string& profile);
+
     // ---- time ----
     /// Errors: refused (beyond latest), stopped (Ctrl-C).
     Result<void> advance(Duration time);
@@ -91,6 +94,7 @@ class World {
     std::atomic<std::thread::id> owner{};
 
   private:
+    void build();
     void start();
     Result<void> run_to(Instant until, const std::function<bool()>& enough = {});
     rack::JobSettings job_settings();
