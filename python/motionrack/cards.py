@@ -11,13 +11,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, Union
+from typing import Any
 
 from . import _core
 from ._time import ticks_of
 from .errors import BadInput, Refused, Timeout
-
-Driver = Union[_core.Mcx314, _core.Databoard4002, _core.Ioflex02, _core.GratingCard, _core.Rtc5]
 
 
 def _field(reg: Mapping[str, Any], name: str) -> tuple[str, int, str]:
@@ -148,7 +146,9 @@ class Register:
     __index__ = __int__
 
     def __eq__(self, other: object) -> bool:
-        return int(self) == other if isinstance(other, int) else NotImplemented
+        if not isinstance(other, int):
+            return NotImplemented
+        return int(self) == other
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -171,7 +171,7 @@ class Channel:
         self._card = card
         self._name = name
 
-    def __getattr__(self, name: str) -> Register | int:
+    def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
         reg = self._card._registers.get(name.lower())
@@ -204,7 +204,7 @@ class Card:
     _name: str
     _about: dict[str, Any]
     _registers: dict[str, Any]
-    _driver: Driver | None
+    _driver: Any
 
     # ---- what it is ----
 
@@ -235,8 +235,9 @@ class Card:
 
     @property
     def channels(self) -> dict[str, Channel]:
-        """Its channels by their names."""
-        return {name: Channel(self, name) for name in self._about["channels"]}
+        """Its channels by their names: ``card.channels["x"]`` is ``card.x``; of cards that number them ``card.channels["0"].POSITION``."""
+        names = [*self._about["channels"], *(value.partition(".")[0] for value in self._about["values"] if "." in value)]
+        return {name: Channel(self, name) for name in dict.fromkeys(names)}
 
     @property
     def values(self) -> list[str]:
@@ -271,30 +272,33 @@ class Card:
         if not _core.wait_interrupt(self._world, self._name, ticks_of(timeout)):
             raise Timeout(f"Card {self._name} asked for no interrupt within {timeout:g} s.")
 
+    def refused_frames(self) -> int:
+        """Of a motion card on a grating bus: frames that it did not publish since the start. Refused for other cards."""
+        return _core.refused_frames(self._world, self._name)
+
     # ---- its function library ----
 
     @property
-    def driver(self) -> Driver:
-        """Its function library; one object a card, with the settings of :meth:`open`."""
+    def driver(self) -> Any:
+        """Its function library, an object of its type (Mcx314, Databoard4002, Ioflex02, GratingCard, Rtc5); made at first use, or by :meth:`open`."""
         if self._driver is None:
             self.open()
-        assert self._driver is not None
         return self._driver
 
-    def open(self, **settings: Any) -> Driver:
+    def open(self, **settings: Any) -> Any:
         """A function library with settings of its own: of a databoard4002 ``counts_per_mm`` (> 0) and ``select`` (0 to 255)."""
         kinds: dict[str, Any] = {"mcx314": _core.Mcx314, "databoard4002": _core.Databoard4002, "ioflex02": _core.Ioflex02,
                                  "grating_bus": _core.GratingCard, "rtc5": _core.Rtc5}
         kind = kinds.get(self.type)
         if kind is None:
             raise Refused(f"Card {self._name} is a {self.type}, which has no function library. Nothing was done.")
-        driver: Driver = kind(self._world, self._name, **settings)
+        driver = kind(self._world, self._name, **settings)
         object.__setattr__(self, "_driver", driver)
         return driver
 
     # ---- names as attributes ----
 
-    def __getattr__(self, name: str) -> Register | Channel | int:
+    def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
         reg = self._registers.get(name.lower())

@@ -151,7 +151,7 @@ class Outcome:
         return f"<pre>{self.summary()}</pre>{self.svg()}"
 
     def __str__(self) -> str:
-        return self.summary()
+        return self.summary().rstrip("\n")
 
 
 def outcome_of(world: _core.World, ran: _core.Ran, title: str) -> Outcome:
@@ -161,7 +161,7 @@ def outcome_of(world: _core.World, ran: _core.Ran, title: str) -> Outcome:
     error = ran.error()
     ticks, signals = ran.samples()
     trace = Trace(ticks, signals, job_units(signals, axes), data["trace_hash"], title)
-    worst = Worst(data.pop("worst_mm"), seconds_of(data.pop("worst_ticks")), data.pop("worst_line"), tuple(data.pop("worst_place")))
+    worst = Worst(data.pop("worst_mm"), seconds_of(data.pop("worst_ticks")), data.pop("worst_line"), data.pop("worst_place"))
     return Outcome(
         ok=error is None and data["position_trusted"], error=error, seconds=seconds_of(data["ticks"]), axes=axes, worst=worst,
         warnings=[Warning(seconds_of(at), line, text) for at, line, text in data.pop("warnings")],
@@ -208,15 +208,14 @@ class Homing:
         return self._json
 
     def __str__(self) -> str:
-        return self._text
+        return self._text.rstrip("\n")
 
     def _repr_html_(self) -> str:
         return f"<pre>{self._text}</pre>{''.join(self.pictures.values())}"
 
 
-def homing_of(told: tuple[Error | None, str, str, dict[str, str]]) -> Homing:
+def homing_of(error: Error | None, text: str, as_json: str, pictures: dict[str, str]) -> Homing:
     """A homing as C++ tells it."""
-    error, text, as_json, pictures = told
     data = json.loads(as_json)
     return Homing(ok=bool(data["homed"]), error=error, seconds=float(data["seconds"]), axes={axis["axis"]: axis for axis in data["axes"]},
                   pictures=pictures, _text=text, _json=as_json)

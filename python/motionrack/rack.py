@@ -53,6 +53,15 @@ class Rack:
         """Another rack of the same file, at time 0."""
         return Rack(self._world.fresh(), self.warnings)
 
+    def change_card(self, name: str, **settings: float) -> None:
+        """Gives a card other numbers before the rack's time begins, in the units of their keys in a rack file: ``change_card("host", period_us=250)``.
+
+        Each is held to its own range, and the card alone must be sound. Whether it fits the other cards is not looked at, as it is in a rack file:
+        for experiments with what a rack file refuses. BadInput, Refused.
+        """
+        for key, value in settings.items():
+            self._world.set_card(name, key, float(value))
+
     def close(self) -> None:
         """Ends the rack and frees it; a recording that runs is ended. Everything of it is Refused afterwards."""
         if not self._world.closed():
@@ -138,6 +147,14 @@ class Rack:
         """What happened to the machine and cards so far (a lost step, a command ignored): s, and a sentence."""
         return [(seconds_of(ticks), text) for ticks, text in self._world.conditions()]
 
+    def bus_conflicts(self) -> int:
+        """How often two cards drove a line of the grating bus against each other so far. Refused without a grating bus."""
+        return _core.bus_conflicts(self._world)
+
+    def frame_picture(self, frame: int = 1) -> str:
+        """Frame number 1 .. of the grating bus as waves (SVG); a rack of its own is run for it. Refused without one."""
+        return _core.frame_picture(self._world, frame)
+
     def trace_hash(self) -> str:
         """The hash of the history so far, 16 digits: every change of a wire and every condition at its tick. See :meth:`Trace.hash`."""
         return self._world.trace_hash()
@@ -201,7 +218,7 @@ class Rack:
     def home(self, axes: str = "", *, type: int | None = None, timeout: float = 3600.0) -> Homing:
         """Lets axes find their home switches: ``"XY"``; ``""``: every axis that has one. ``type`` 1 to 4 instead of the rack file's; ``timeout`` in s
         of each group. What failed is the outcome's ``error``."""
-        return homing_of(_core.home(self._world, axes, type, ticks_of(timeout)))
+        return homing_of(*_core.home(self._world, axes, type, ticks_of(timeout)))
 
     # ---- recordings ----
 

@@ -104,7 +104,7 @@ class Trace(Mapping[str, Values]):
         ``path`` then ends in ``.svg``.
         """
         try:
-            from matplotlib.figure import Figure
+            from matplotlib.figure import Figure  # type: ignore[import]
         except ImportError:
             if path is not None:
                 self.save_svg(path, *names)

@@ -20,28 +20,28 @@ using Wide = std::int64_t;
 db::Waiting waiting(bool interrupt) { return interrupt ? db::Waiting::interrupt : db::Waiting::polling; }
 
 void bind_commands(BoardClass& c) {
-    c.def("connect", call(&Driver::connect), "Looks for the card, clears the mark of its reset, gives its version. MachineFault if none answers.");
-    c.def("reset", call(&Driver::reset), "C3: hardware reset; position, rate and table are gone.");
+    c.def("connect", call<Driver>(&Driver::connect), "Looks for the card, clears the mark of its reset, gives its version. MachineFault if none answers.");
+    c.def("reset", call<Driver>(&Driver::reset), "C3: hardware reset; position, rate and table are gone.");
     c.def("status", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().word; }); }, "STAT as a word; its bits: card.STAT.");
     c.def("stops", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().stops(); }); }, "\"the right end stop is active\"; \"\" if no stop is.");
     c.def("emergency", [](Board& self) { return alone(*self.world, [&] { return self.driver->status().emergency(); }); }, "Whether the emergency stop is active.");
-    c.def("athome", call(&Driver::athome), "A: the position becomes 0.");
-    c.def("set_deviation", call(&Driver::set_deviation), py::arg("counts"), "D: what lock may let it deviate by, 0 to 8,388,607 counts.");
-    c.def("deviation", call(&Driver::deviation), "D: present minus requested, counts.");
-    c.def("go", call(&Driver::go), "G: begins a positioning.");
-    c.def("initialise", call(&Driver::initialise), "I.");
-    c.def("lock", call(&Driver::lock), "L: holds the position.");
-    c.def("manual", call(&Driver::manual), "M: lets the position go.");
-    c.def("set_number", call(&Driver::set_number), py::arg("counts"), "N, -8,388,608 to 8,388,607 counts.");
-    c.def("on_regulation", call(&Driver::on_regulation), "O.");
-    c.def("set_target", call(&Driver::set_target), py::arg("counts"), "P, -8,388,608 to 8,388,607 counts.");
-    c.def("position", call(&Driver::position), "P: where it is, counts.");
-    c.def("quit", call(&Driver::quit), "Q: ends a positioning.");
-    c.def("set_rate", call(&Driver::set_rate), py::arg("rate"), "R, 0 to 16383; 0 switches the relay off.");
-    c.def("rate", call(&Driver::rate), "R: negative backwards, 0 while standing.");
-    c.def("set_slope", call(&Driver::set_slope), py::arg("table"), "S: the 48 intervals of acceleration and deceleration.");
-    c.def("version", call(&Driver::version), "V.");
-    c.def("clear_watch_out", call(&Driver::clear_watch_out), "W.");
+    c.def("athome", call<Driver>(&Driver::athome), "A: the position becomes 0.");
+    c.def("set_deviation", call<Driver>(&Driver::set_deviation), py::arg("counts"), "D: what lock may let it deviate by, 0 to 8,388,607 counts.");
+    c.def("deviation", call<Driver>(&Driver::deviation), "D: present minus requested, counts.");
+    c.def("go", call<Driver>(&Driver::go), "G: begins a positioning.");
+    c.def("initialise", call<Driver>(&Driver::initialise), "I.");
+    c.def("lock", call<Driver>(&Driver::lock), "L: holds the position.");
+    c.def("manual", call<Driver>(&Driver::manual), "M: lets the position go.");
+    c.def("set_number", call<Driver>(&Driver::set_number), py::arg("counts"), "N, -8,388,608 to 8,388,607 counts.");
+    c.def("on_regulation", call<Driver>(&Driver::on_regulation), "O.");
+    c.def("set_target", call<Driver>(&Driver::set_target), py::arg("counts"), "P, -8,388,608 to 8,388,607 counts.");
+    c.def("position", call<Driver>(&Driver::position), "P: where it is, counts.");
+    c.def("quit", call<Driver>(&Driver::quit), "Q: ends a positioning.");
+    c.def("set_rate", call<Driver>(&Driver::set_rate), py::arg("rate"), "R, 0 to 16383; 0 switches the relay off.");
+    c.def("rate", call<Driver>(&Driver::rate), "R: negative backwards, 0 while standing.");
+    c.def("set_slope", call<Driver>(&Driver::set_slope), py::arg("table"), "S: the 48 intervals of acceleration and deceleration.");
+    c.def("version", call<Driver>(&Driver::version), "V.");
+    c.def("clear_watch_out", call<Driver>(&Driver::clear_watch_out), "W.");
 }
 
 void bind_events(BoardClass& c) {
@@ -71,7 +71,7 @@ void bind_events(BoardClass& c) {
         const Duration time = duration(timeout);
         alone(*self.world, [&] { return self.driver->move_to_mm(mm, time, waiting(interrupt)); }, time);
     }, py::arg("mm"), py::arg("timeout") = 60.0, py::arg("interrupt") = false, "Goes there, mm by counts_per_mm; see move_to.");
-    c.def("position_mm", call(&Driver::position_mm), "Where it is, mm by counts_per_mm.");
+    c.def("position_mm", call<Driver>(&Driver::position_mm), "Where it is, mm by counts_per_mm.");
     c.def("find_zero", [](Board& self, std::uint8_t marks, Wide far, int rate, double timeout, bool interrupt) {
         const Duration time = duration(timeout);
         alone(*self.world, [&] { return self.driver->find_zero(marks, far, rate, time, waiting(interrupt)); }, time);

@@ -16,9 +16,9 @@ namespace gb = grating_bus;
 using Grating = Driven<gb::GratingCard>;
 
 /// (sequence, ticks of the rack, counts)
-py::tuple told(const gb::Reading& reading) {
+std::tuple<std::uint32_t, std::int64_t, py::array_t<std::int64_t>> told(const gb::Reading& reading) {
     const auto counts = reading.counts();
-    return py::make_tuple(reading.frame.sequence, reading.frame.time, py::array_t<std::int64_t>(static_cast<py::ssize_t>(counts.size()), counts.data()));
+    return {reading.frame.sequence, reading.frame.time, py::array_t<std::int64_t>(static_cast<py::ssize_t>(counts.size()), counts.data())};
 }
 
 py::dict told(const gb::CardInfo& info) {
@@ -71,10 +71,10 @@ void bind_grating_bus(py::module_& m) {
                 throw;
             }
         }, py::arg("timeout"), "Waits for a frame that was not read yet, and reads it; Timeout after timeout s.")
-        .def("stale", call(&gb::GratingCard::stale), "Whether the frame published last is two periods old.")
+        .def("stale", call<gb::GratingCard>(&gb::GratingCard::stale), "Whether the frame published last is two periods old.")
         .def("errors", [](Grating& self) { return told(alone(*self.world, [&] { return self.driver->errors(); })); },
              "What went wrong on the bus since the last clear_errors, each at most 65,535.")
-        .def("clear_errors", call(&gb::GratingCard::clear_errors), "Clears those counters.")
+        .def("clear_errors", call<gb::GratingCard>(&gb::GratingCard::clear_errors), "Clears those counters.")
         .def("set_position", [](Grating& self, int scale, std::int64_t count) {
             if (scale < 0 || scale >= static_cast<int>(gb::most_scales)) refuse("There is no such scale; they are 0 to 254. Nothing was done.");
             self.driver->set_position(scale, count);

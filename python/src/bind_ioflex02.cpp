@@ -33,47 +33,47 @@ void bind_source(FlexClass& c) {
     }, py::arg("Addr"), "Sets the base address, looks whether one card answers there, and loads the array; takes seconds of the rack's time. 0 if all is well, else see why.");
     c.def_property_readonly("Result", [](const Flex& self) { return self.driver->Result; }, "0 ok, 1 configuration failed, 2 no card or two, 3 another project.");
     c.def_property_readonly("why", [](const Flex& self) { return self.driver->why(); }, "The sentence to Result; \"\" if it is 0.");
-    c.def("GetIdent", call(&Flex2Pos::GetIdent), "Version of the project in the array.");
-    c.def("ReadTime", call(&Flex2Pos::ReadTime), "Time in ticks of 1.2 us, 0 to 16,777,215.");
-    c.def("ReadTimeClr", call(&Flex2Pos::ReadTimeClr), "The same, and the counter is cleared in the same access.");
+    c.def("GetIdent", call<Flex2Pos>(&Flex2Pos::GetIdent), "Version of the project in the array.");
+    c.def("ReadTime", call<Flex2Pos>(&Flex2Pos::ReadTime), "Time in ticks of 1.2 us, 0 to 16,777,215.");
+    c.def("ReadTimeClr", call<Flex2Pos>(&Flex2Pos::ReadTimeClr), "The same, and the counter is cleared in the same access.");
     using Read = std::int32_t (Flex2Pos::*)();
-    int axis = 0;
+    int number = 0;
     for (const Read read : {Read{&Flex2Pos::ReadPosition0}, Read{&Flex2Pos::ReadPosition1}, Read{&Flex2Pos::ReadPosition2}, Read{&Flex2Pos::ReadPosition3}})
-        c.def(fmt::format("ReadPosition{}", axis++).c_str(), call(read), "Position in counts since the calibration, -8,388,608 to 8,388,607.");
+        c.def(fmt::format("ReadPosition{}", number++).c_str(), call<Flex2Pos>(read), "Position in counts since the calibration, -8,388,608 to 8,388,607.");
     c.def("ReadTimeClrPosition", [](Flex& self) {
         std::int32_t time = 0;
         std::array<std::int32_t, 4> at{};
         alone(*self.world, [&] { self.driver->ReadTimeClrPosition(time, at[0], at[1], at[2], at[3]); });
-        return py::make_tuple(time, at[0], at[1], at[2], at[3]);
+        return std::tuple(time, at[0], at[1], at[2], at[3]);
     }, "Time (1.2 us, cleared) and the four positions (counts) of one instant.");
     c.def("WriteCmd", [](Flex& self, int a, int b, int d, int e) {
         const std::array<io::tIOFlexCmd, 4> all = {command_of(a), command_of(b), command_of(d), command_of(e)};
         alone(*self.world, [&] { self.driver->WriteCmd(all[0], all[1], all[2], all[3]); });
     }, py::arg("Cmd0"), py::arg("Cmd1"), py::arg("Cmd2"), py::arg("Cmd3"), "A calibration command for each axis: 0 cNop, 1 cRes, 2 cResNm, 3 cResNmSig.");
     c.def("ReadSts", [](Flex& self) {
-        std::vector<bool> out;
-        for (const io::tIOFlexSts status : alone(*self.world, [&] { return self.driver->statuses(); })) out.push_back(status == io::sCal);
-        return py::tuple(py::cast(out));
+        const auto all = alone(*self.world, [&] { return self.driver->statuses(); });
+        const auto calibrated = [&](std::size_t axis) { return all[axis] == io::sCal; };
+        return std::tuple(calibrated(0), calibrated(1), calibrated(2), calibrated(3));
     }, "Whether each axis is calibrated (sCal).");
-    c.def("WriteOutL", call(&Flex2Pos::WriteOutL), py::arg("Data"), "Low 8 outputs of X5.");
-    c.def("WriteOutH", call(&Flex2Pos::WriteOutH), py::arg("Data"), "High 8 outputs of X5.");
-    c.def("ReadInL", call(&Flex2Pos::ReadInL), "Low 8 inputs.");
-    c.def("ReadInH", call(&Flex2Pos::ReadInH), "High 8 inputs.");
+    c.def("WriteOutL", call<Flex2Pos>(&Flex2Pos::WriteOutL), py::arg("Data"), "Low 8 outputs of X5.");
+    c.def("WriteOutH", call<Flex2Pos>(&Flex2Pos::WriteOutH), py::arg("Data"), "High 8 outputs of X5.");
+    c.def("ReadInL", call<Flex2Pos>(&Flex2Pos::ReadInL), "Low 8 inputs.");
+    c.def("ReadInH", call<Flex2Pos>(&Flex2Pos::ReadInH), "High 8 inputs.");
 }
 
 void bind_layer(FlexClass& c) {
     c.def("read", [](Flex& self) {
         const io::Reading reading = alone(*self.world, [&] { return self.driver->read(); });
-        py::list axes;
+        std::vector<py::dict> axes;
         for (const io::AxisReading& axis : reading.axes) {
             py::dict one;
             one["position"] = axis.position;
             one["raw"] = axis.raw;
             one["age"] = axis.age;
             one["down"] = axis.down;
-            axes.append(one);
+            axes.push_back(one);
         }
-        return py::make_tuple(reading.ticks, axes);
+        return std::pair(reading.ticks, axes);
     }, "Everything of one instant: time since Init (ticks of 1.2 us, carried on), and of each axis position, raw (counts), age of the last count (1.2 us), down.");
     c.def("set_mode", [](Flex& self, int axis, bool reversed, int edges, bool index_low, int filter) {
         alone(*self.world, [&] { return self.driver->set_mode(axis_in_range(axis), {reversed, edges, index_low, filter}); });
@@ -83,13 +83,13 @@ void bind_layer(FlexClass& c) {
         const Duration time = duration(timeout);
         alone(*self.world, [&] { return self.driver->wait_calibrated(axis_in_range(axis), time); }, time);
     }, py::arg("axis"), py::arg("timeout") = 60.0, "Waits until the axis is calibrated; Timeout after timeout s.");
-    c.def("clear_errors", call(&Flex2Pos::clear_errors), "Clears the counters of errors.");
-    c.def("reset", call(&Flex2Pos::reset), "Positions and the card's time begin at 0.");
+    c.def("clear_errors", call<Flex2Pos>(&Flex2Pos::clear_errors), "Clears the counters of errors.");
+    c.def("reset", call<Flex2Pos>(&Flex2Pos::reset), "Positions and the card's time begin at 0.");
 }
 
-py::object estimate(const io::SpeedEstimate& it) {
-    if (!it.known) return py::none();
-    return py::make_tuple(it.counts_s, it.error);
+std::optional<std::pair<double, double>> estimate(const io::SpeedEstimate& it) {
+    if (!it.known) return {};
+    return std::pair(it.counts_s, it.error);
 }
 
 void bind_speed(py::module_& m) {

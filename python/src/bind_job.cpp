@@ -124,7 +124,7 @@ py::dict dict_of(const Ran& ran) {
     out["worst_mm"] = outcome.worst.mm;
     out["worst_ticks"] = outcome.worst.at.count();
     out["worst_line"] = outcome.worst.line;
-    out["worst_place"] = outcome.worst.place;
+    out["worst_place"] = py::make_tuple(outcome.worst.place[0], outcome.worst.place[1], outcome.worst.place[2]);
     out["tolerance_mm"] = outcome.tolerance_mm;
     for (const rack::JobWarning& warning : outcome.warnings) warnings.append(py::make_tuple(warning.at.count(), warning.line, warning.text));
     out["warnings"] = warnings;

@@ -27,15 +27,15 @@ int channel(int axis, const char* who) {
 
 void bind_parameters(Mcx314Class& c) {
     const auto number = [&](const char* name, Result<void> (Driver::*function)(unsigned, Wide), const char* doc) {
-        c.def(name, call(function), py::arg("axes"), py::arg("value"), doc);
+        c.def(name, call<Driver>(function), py::arg("axes"), py::arg("value"), doc);
     };
-    c.def("RESET", call(&Driver::RESET), "Software reset of the chip; waits its 875 ns.");
-    c.def("initialise", call(&Driver::initialise), "RESET, then every mode register, AO, LP and EP written 0.");
-    c.def("SetPulseMode", call(&Driver::SetPulseMode), py::arg("axes"), py::arg("mode"), "Pulse output: mode 0 two pulse trains, 1 pulse and direction.");
+    c.def("RESET", call<Driver>(&Driver::RESET), "Software reset of the chip; waits its 875 ns.");
+    c.def("initialise", call<Driver>(&Driver::initialise), "RESET, then every mode register, AO, LP and EP written 0.");
+    c.def("SetPulseMode", call<Driver>(&Driver::SetPulseMode), py::arg("axes"), py::arg("mode"), "Pulse output: mode 0 two pulse trains, 1 pulse and direction.");
     number("SetMultiple", &Driver::SetMultiple, "The multiple M, 1 to 500: pulses a second = V * M. Writes R = 8,000,000 / M. Not while driving.");
-    c.def("SetRange", call(static_cast<Result<void> (Driver::*)(unsigned, Wide)>(&Driver::SetRange)), py::arg("axes"), py::arg("value"),
+    c.def("SetRange", call<Driver>(static_cast<Result<void> (Driver::*)(unsigned, Wide)>(&Driver::SetRange)), py::arg("axes"), py::arg("value"),
           "R, 16,000 to 8,000,000: pulses a second = V * 8,000,000 / R. Not while driving.");
-    c.def("SetMaxSpeed", call(static_cast<Result<void> (Driver::*)(unsigned, Wide)>(&Driver::SetMaxSpeed)), py::arg("axes"), py::arg("value"),
+    c.def("SetMaxSpeed", call<Driver>(static_cast<Result<void> (Driver::*)(unsigned, Wide)>(&Driver::SetMaxSpeed)), py::arg("axes"), py::arg("value"),
           "The smallest whole multiple with which V <= 8,000 reaches so many pulses a second, 1 to 4,000,000.");
     number("SetSV", &Driver::SetSV, "Initial speed, 1 to 8,000 units of the multiple.");
     number("SetV", &Driver::SetV, "Drive speed, 1 to 8,000 units of the multiple; also while driving.");
@@ -44,9 +44,9 @@ void bind_parameters(Mcx314Class& c) {
     number("SetAA", &Driver::SetAA, "K, 1 to 65,535: the jerk is 62.5e6 / K * M pulses/s3.");
     number("SetAO", &Driver::SetAO, "Pulses kept for the end at SV, 0 to 65,535.");
     number("Pulse", &Driver::Pulse, "Output pulses of a fixed drive, -268,435,455 to 268,435,455.");
-    c.def("AutoDec", call(&Driver::AutoDec), py::arg("axes") = mcx314::xyzu, "The chip finds the deceleration point itself. Arcs cannot.");
+    c.def("AutoDec", call<Driver>(&Driver::AutoDec), py::arg("axes") = mcx314::xyzu, "The chip finds the deceleration point itself. Arcs cannot.");
     number("ManualDec", &Driver::ManualDec, "Fixed drives decelerate after so many pulses, 0 to 268,435,455.");
-    c.def("SetAsymmetric", call(&Driver::SetAsymmetric), py::arg("axes"), py::arg("on"), "Decelerations take D instead of A.");
+    c.def("SetAsymmetric", call<Driver>(&Driver::SetAsymmetric), py::arg("axes"), py::arg("on"), "Decelerations take D instead of A.");
     number("LPS", &Driver::LPS, "Sets the logical position, pulses, 32 bits with sign.");
     number("EPS", &Driver::EPS, "Sets the real (encoder) position, counts, 32 bits with sign.");
     number("SetCompP", &Driver::SetCompP, "COMP+, pulses or counts, 32 bits with sign.");
@@ -54,19 +54,19 @@ void bind_parameters(Mcx314Class& c) {
 }
 
 void bind_drives(Mcx314Class& c) {
-    c.def("TCurve_F", call(&Driver::TCurve_F), py::arg("axes"), py::arg("sv"), py::arg("v"), py::arg("a"), py::arg("pulses"),
+    c.def("TCurve_F", call<Driver>(&Driver::TCurve_F), py::arg("axes"), py::arg("sv"), py::arg("v"), py::arg("a"), py::arg("pulses"),
           "Fixed drive with a T-curve: SV, V 1 to 8,000 units of the multiple, A 1 to 8,000 units of 125 * M; pulses -268,435,455 to 268,435,455, the sign is the direction.");
-    c.def("TCurve_C", call(&Driver::TCurve_C), py::arg("axes"), py::arg("sv"), py::arg("v"), py::arg("a"), py::arg("negative") = false,
+    c.def("TCurve_C", call<Driver>(&Driver::TCurve_C), py::arg("axes"), py::arg("sv"), py::arg("v"), py::arg("a"), py::arg("negative") = false,
           "Continuous drive with a T-curve, until it is stopped; units as of TCurve_F.");
-    c.def("SCurve_F", call(&Driver::SCurve_F), py::arg("axes"), py::arg("sv"), py::arg("v"), py::arg("a"), py::arg("k"), py::arg("pulses"),
+    c.def("SCurve_F", call<Driver>(&Driver::SCurve_F), py::arg("axes"), py::arg("sv"), py::arg("v"), py::arg("a"), py::arg("k"), py::arg("pulses"),
           "Fixed drive with an S-curve: as TCurve_F, and K 1 to 65,535 (jerk 62.5e6 / K * M pulses/s3).");
-    c.def("SCurve_C", call(&Driver::SCurve_C), py::arg("axes"), py::arg("sv"), py::arg("v"), py::arg("a"), py::arg("k"), py::arg("negative") = false,
+    c.def("SCurve_C", call<Driver>(&Driver::SCurve_C), py::arg("axes"), py::arg("sv"), py::arg("v"), py::arg("a"), py::arg("k"), py::arg("negative") = false,
           "Continuous drive with an S-curve, until it is stopped; units as of SCurve_F.");
-    c.def("DriveFixed", call(&Driver::DriveFixed), py::arg("axes"), "Starts what Pulse set, each axis in its direction, all at the same tick.");
+    c.def("DriveFixed", call<Driver>(&Driver::DriveFixed), py::arg("axes"), "Starts what Pulse set, each axis in its direction, all at the same tick.");
     c.def("stop", [](Mcx314& self, unsigned axes, bool quick) {
         alone(*self.world, [&] { return self.driver->stop(axes, quick ? mcx314::StopKind::quick : mcx314::StopKind::slow); });
     }, py::arg("axes"), py::arg("quick") = false, "Stops the axes, with everything that is interpolated with them: decelerating to SV, or at once.");
-    c.def("change_speed", call(&Driver::change_speed), py::arg("axes"), py::arg("v"), "Another V, 1 to 8,000, while driving. Refused where it would have no effect.");
+    c.def("change_speed", call<Driver>(&Driver::change_speed), py::arg("axes"), py::arg("v"), "Another V, 1 to 8,000, while driving. Refused where it would have no effect.");
     c.def("change_pulses", [](Mcx314& self, int axis, Wide pulses, double margin) {
         const Duration time = duration(margin);
         alone(*self.world, [&] { return self.driver->change_pulses(channel(axis, "change_pulses"), pulses, time); });
@@ -129,8 +129,8 @@ void bind_mcx314_status(Mcx314Class& c) {
           py::arg("axes") = mcx314::xyzu, "Whether one of the axes drives.");
     c.def("report", [](Mcx314& self, int axis) { return alone(*self.world, [&] { return self.driver->report(channel(axis, "report")).text(); }); },
           py::arg("axis"), "Where a channel stands and why, as a sentence.");
-    c.def("error_text", call(&Driver::error_text), py::arg("axes") = mcx314::xyzu, "The reports of the axes that have an error or were stopped by an input; \"\" if none.");
-    c.def("axis_speeds", call(&Driver::axis_speeds), "Speed of every axis, pulses a second, signed, also in interpolations.");
+    c.def("error_text", call<Driver>(&Driver::error_text), py::arg("axes") = mcx314::xyzu, "The reports of the axes that have an error or were stopped by an input; \"\" if none.");
+    c.def("axis_speeds", call<Driver>(&Driver::axis_speeds), "Speed of every axis, pulses a second, signed, also in interpolations.");
     c.def("multiple", [](const Mcx314& self, int axis) { return self.driver->multiple(channel(axis, "multiple")); }, py::arg("axis"),
           "Pulses a second of one V unit of a channel; 0 before R was written.");
     c.def_static("plan", [](std::optional<Wide> pulses, Wide r, Wide sv, Wide v, Wide a, std::optional<Wide> d, std::optional<Wide> k, Wide ao) {

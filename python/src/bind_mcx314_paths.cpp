@@ -36,7 +36,7 @@ void bind_interpolation(Mcx314Class& c) {
     circle("CircleCCW_C", &Driver::CircleCCW_C, "An arc counter-clockwise at constant speed; see CircleCW_C.");
     circle("CircleCW_T", &Driver::CircleCW_T, "An arc clockwise with trapezoid: SV, V, A (D: 0 as A) 1 to 8,000.");
     circle("CircleCCW_T", &Driver::CircleCCW_T, "An arc counter-clockwise with trapezoid; see CircleCW_T.");
-    c.def("SetVectorSpeed", call(&Driver::SetVectorSpeed), py::arg("axes_count"), "Keeps the speed along the path: 1 off, 2 two axes, 3 three axes.");
+    c.def("SetVectorSpeed", call<Driver>(&Driver::SetVectorSpeed), py::arg("axes_count"), "Keeps the speed along the path: 1 off, 2 two axes, 3 three axes.");
 }
 
 void bind_chain(Mcx314Class& c) {
@@ -54,7 +54,7 @@ void bind_chain(Mcx314Class& c) {
     c.def("ContEnd", [](Mcx314& self, double timeout) {
         const Duration time = duration(timeout);
         const mcx314::ContOutcome out = alone(*self.world, [&] { return self.driver->ContEnd(time); }, time);
-        return py::make_tuple(out.segments, out.end_speed);
+        return std::pair(out.segments, out.end_speed);
     }, py::arg("timeout") = 60.0, "Gives the last segment and waits for the end, timeout in s: (segments, V units at the last pulse as planned).");
     const auto pattern = [&](const char* name, Result<void> (Driver::*function)(const mcx314::BPDATA&, unsigned), const char* doc) {
         c.def(name, [function](Mcx314& self, unsigned axes, Wide v, Wide sv, Wide a, Wide dec_point) {
@@ -67,7 +67,7 @@ void bind_chain(Mcx314Class& c) {
         const Duration time = duration(timeout);
         alone(*self.world, [&] { return self.driver->BPStack({plus, minus}, time); }, time);
     }, py::arg("plus"), py::arg("minus"), py::arg("timeout") = 60.0, "Sixteen steps, the lowest bit first, of each axis; in both at once: the drive ends there. timeout in s.");
-    c.def("BPStart", call(&Driver::BPStart), "Starts the pattern.");
+    c.def("BPStart", call<Driver>(&Driver::BPStart), "Starts the pattern.");
     c.def("BPEnd", [](Mcx314& self, double timeout) {
         const Duration time = duration(timeout);
         alone(*self.world, [&] { return self.driver->BPEnd(time); }, time);
@@ -83,7 +83,7 @@ void bind_mcx314_moves(Mcx314Class& c) {
 
 void bind_mcx314_signals(Mcx314Class& c) {
     const auto turn = [&](const char* name, Result<void> (Driver::*function)(int, unsigned), const char* doc) {
-        c.def(name, call(function), py::arg("n"), py::arg("axes") = mcx314::xyzu, doc);
+        c.def(name, call<Driver>(function), py::arg("n"), py::arg("axes") = mcx314::xyzu, doc);
     };
     turn("HLMTP", &Driver::HLMTP, "The + limit switch acts at: 0 Low, 1 High.");
     turn("HLMTM", &Driver::HLMTM, "The - limit switch acts at: 0 Low, 1 High.");
@@ -97,9 +97,9 @@ void bind_mcx314_signals(Mcx314Class& c) {
     turn("EnableInPos", &Driver::EnableInPos, "In-position input: 0 off, 1 on.");
     turn("ALMSig", &Driver::ALMSig, "The alarm acts at: 0 Low, 1 High.");
     turn("InPosSig", &Driver::InPosSig, "In-position acts at: 0 Low, 1 High.");
-    c.def("SetOutput", call(&Driver::SetOutput), py::arg("axes"), py::arg("output"), py::arg("high"), "nOUT0 to nOUT7: 4 to 7 while they are not used for the drive's status.");
-    c.def("EnableInterrupt", call(&Driver::EnableInterrupt), py::arg("axes"), py::arg("causes"), "Enables causes of interrupts, bits as in RR3: 1 to 255.");
-    c.def("DisableInterrupt", call(&Driver::DisableInterrupt), py::arg("axes"), py::arg("causes") = mcx314::cause::all, "Disables causes of interrupts.");
+    c.def("SetOutput", call<Driver>(&Driver::SetOutput), py::arg("axes"), py::arg("output"), py::arg("high"), "nOUT0 to nOUT7: 4 to 7 while they are not used for the drive's status.");
+    c.def("EnableInterrupt", call<Driver>(&Driver::EnableInterrupt), py::arg("axes"), py::arg("causes"), "Enables causes of interrupts, bits as in RR3: 1 to 255.");
+    c.def("DisableInterrupt", call<Driver>(&Driver::DisableInterrupt), py::arg("axes"), py::arg("causes") = mcx314::cause::all, "Disables causes of interrupts.");
     c.def("read_interrupts", [](Mcx314& self, int axis) {
         return alone(*self.world, [&]() -> Result<std::uint16_t> {
             MOTIONRACK_CHECK(Driver::check_channel(axis, "read_interrupts"));

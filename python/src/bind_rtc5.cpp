@@ -71,10 +71,10 @@ void bind_lists(Rtc5Class& c) {
     }
     c.def("set_start_list", [](Rtc5& self, std::uint32_t list, std::int64_t position) {
         order(self, [&](Engine& engine) { return engine.set_start_list(list, position); });
-    }, py::arg("list"), py::arg("position") = 0, "List commands go to list 1 or 2 from here on, from that position.");
+    }, py::arg("ListNo"), py::arg("Pos") = 0, "List commands go to list 1 or 2 from here on, from that position.");
     c.def("load_list", [](Rtc5& self, std::uint32_t list, std::int64_t position) {
         return ask(self, [&](Engine& engine) { return engine.load_list(list, position); });
-    }, py::arg("list"), py::arg("position") = 0, "The same for a list that is not running: 1, 2, 0 (the free one) or 3 (free and run to its end); the list opened, or 0.");
+    }, py::arg("ListNo"), py::arg("Pos") = 0, "The same for a list that is not running: 1, 2, 0 (the free one) or 3 (free and run to its end); the list opened, or 0.");
     c.def("load_sub", [](Rtc5& self, std::uint32_t index) { order(self, [&](Engine& engine) { return engine.load_sub(index); }); }, py::arg("index"),
           "What is put up to list_return becomes subroutine 0 to 1023.");
     c.def("config_list", [](Rtc5& self, std::int64_t list1, std::int64_t list2) {
@@ -82,7 +82,7 @@ void bind_lists(Rtc5Class& c) {
     }, py::arg("list1"), py::arg("list2"), "Positions of list 1 and list 2; -1: the rest.");
     c.def("execute_list", [](Rtc5& self, std::uint32_t list, std::int64_t position) {
         order(self, [&](Engine& engine) { return engine.execute_list(list, position); });
-    }, py::arg("list"), py::arg("position") = 0, "Starts list 1 or 2.");
+    }, py::arg("ListNo"), py::arg("Pos") = 0, "Starts list 1 or 2.");
     const auto plain = [&](const char* name, void (Engine::*function)(), const char* doc) {
         c.def(name, [function](Rtc5& self) { order(self, [&](Engine& engine) { (engine.*function)(); }); }, doc);
     };
@@ -136,10 +136,9 @@ void bind_settings(Rtc5Class& c) {
 void bind_answers(Rtc5Class& c) {
     c.def("read_status", [](Rtc5& self) { return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.list_status(); }); }, "Status of the lists, as read_status.");
     c.def("get_status", [](Rtc5& self) {
-        const auto [status, position] = ask(self, [](Engine& engine) -> Result<std::pair<std::uint32_t, std::int64_t>> {
+        return ask(self, [](Engine& engine) -> Result<std::pair<std::uint32_t, std::int64_t>> {
             return std::pair(engine.status(), engine.list_position());
         });
-        return py::make_tuple(status, position);
     }, "(status, position in the list).");
     c.def("get_marking_info", [](Rtc5& self) { return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.get_marking_info(); }); },
           "What went wrong in marking, bits; reading clears them. See marking_info_text.");
@@ -149,18 +148,14 @@ void bind_answers(Rtc5Class& c) {
     c.def("get_value", [](Rtc5& self, std::uint32_t signal) { return ask(self, [&](Engine& engine) { return engine.get_value(signal); }); }, py::arg("signal"),
           "A signal by its number.");
     c.def("get_encoder", [](Rtc5& self) {
-        const auto [a, b] = ask(self, [](Engine& engine) -> Result<std::pair<int, int>> { return std::pair(engine.encoder(0), engine.encoder(1)); });
-        return py::make_tuple(a, b);
+        return ask(self, [](Engine& engine) -> Result<std::pair<int, int>> { return std::pair(engine.encoder(0), engine.encoder(1)); });
     }, "(encoder 0, encoder 1), counts.");
     c.def("list_space", [](Rtc5& self) {
         return order(self, [](Engine& engine) { return engine.state().lists.input_end - engine.input_pointer(); });
     }, "Free positions of the list that is being put into.");
     c.def("busy", [](Rtc5& self) { return order(self, [](Engine& engine) { return engine.busy(); }); }, "Whether a list runs; takes no time.");
     c.def("output", [](Rtc5& self) {
-        const auto [x, y, laser] = order(self, [](Engine& engine) {
-            return std::tuple(engine.output().a[0], engine.output().a[1], engine.state().laser.on != 0);
-        });
-        return py::make_tuple(x, y, laser);
+        return order(self, [](Engine& engine) { return std::tuple(engine.output().a[0], engine.output().a[1], engine.state().laser.on != 0); });
     }, "Where head A is (bits) and whether its laser is on; takes no time.");
     c.def("wait", [](Rtc5& self, double timeout) {
         const Duration time = duration(timeout);

@@ -158,6 +158,10 @@ void bind_moving(py::class_<World, Shared>& world) {
             const Turn turn(w, Turn::For::moving);
             value_of(w.plan_fault(text));
         }, py::arg("text"))
+        .def("set_card", [](World& w, const std::string& card, const std::string& key, double value) {
+            const Turn turn(w, Turn::For::moving);
+            value_of(w.set_card(card, key, value));
+        }, py::arg("card"), py::arg("key"), py::arg("value"))
         .def("begin_samples", [](World& w, const std::vector<std::string>& names, std::int64_t period, std::size_t most) {
             alone(w, [&] { return w.begin_samples(names, ticks(period), most); });
         }, py::arg("names"), py::arg("period"), py::arg("most"))

@@ -97,16 +97,10 @@ struct Driven {
 /// The card of that name, which must be of this type. Throws a refusal where it is another.
 rack::Card& card_of_type(World& world, const std::string& name, std::string_view type);
 
-/// A member function of a driver as a function for Python, run by alone().
-template <class Driver, class Value, class... Parameters>
-auto call(Value (Driver::*function)(Parameters...)) {
+/// A member function of `Driver` (or of what it is derived from) as a function for Python, run by alone().
+template <class Driver, class Base, class Value, class... Parameters>
+auto call(Value (Base::*function)(Parameters...)) {
     return [function](Driven<Driver>& self, std::decay_t<Parameters>... parameters) {
-        return alone(*self.world, [&] { return (self.driver.get()->*function)(parameters...); });
-    };
-}
-template <class Driver, class Value, class... Parameters>
-auto call(Value (Driver::*function)(Parameters...) const) {
-    return [function](const Driven<Driver>& self, std::decay_t<Parameters>... parameters) {
         return alone(*self.world, [&] { return (self.driver.get()->*function)(parameters...); });
     };
 }

@@ -49,38 +49,6 @@ rack::Rack& World::running() {
 
 // ---- starting -----------------------------------------------------------------------------------------------------------
 
-Result<void> World::plan_fault(const std::string& text) {
-    if (rack().started())
-        return fail(Trouble::refused, "Faults are planned before the rack's time begins, and it has begun; nothing was planned. Advance to the "
-                                      "instant and break it then (Rack.fault, Rack.wires), or plan it for Rack.fresh().");
-    rack::Rack other(config_);
-    MOTIONRACK_CHECK(rack::FaultPlan::create(other, {text}));
-    fault_texts_.push_back(text);
-    return {};
-}
-
-Result<void> World::set_sample_period(Duration period) {
-    if (period == sample_period_) return {};
-    if (rack().started())
-        return fail(Trouble::refused, fmt::format("The samples' period was {} s when the rack's time began; it cannot become {} s. Nothing was run.",
-                                                  to_seconds(sample_period_), to_seconds(period)));
-    if (period < microseconds(1) || period > whole_seconds(3600))
-        return fail(Trouble::refused, fmt::format("The samples' period is {} s; it is 1e-6 to 3600 s. Nothing was run.", to_seconds(period)));
-    sample_period_ = period;
-    return {};
-}
-
-Result<void> World::set_profile(const std::string& profile) {
-    if (profile == config_.controller.profile) return {};
-    if (profile != "trapezoid" && profile != "jerk_limited")
-        return fail(Trouble::refused, fmt::format("The profile is {}; it is trapezoid or jerk_limited. Nothing was run.", rack::in_quotes(profile)));
-    if (rack().started())
-        return fail(Trouble::refused, fmt::format("The profile was {} when the rack's time began; it cannot become {}. Nothing was run.", config_.controller.profile, profile));
-    config_.controller.profile = profile;
-    build();
-    return {};
-}
-
 rack::JobSettings World::job_settings() {
     rack::JobSettings settings;
     settings.sample_period = sample_period_;

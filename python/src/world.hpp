@@ -49,6 +49,10 @@ class World {
     /// "trapezoid" or "jerk_limited", instead of the rack file's. Errors: refused in a started rack.
     Result<void> set_profile(const std::string& profile);
 
+    /// A setting of a card that is a number, in the unit of its key: within its own range, and the card alone must be sound; whether it
+    /// fits the other cards, as a rack file must, is not looked at. Errors: refused, bad_input; nothing is changed.
+    Result<void> set_card(const std::string& card, const std::string& key, double value);
+
     // ---- time ----
     /// Errors: refused (beyond latest), stopped (Ctrl-C).
     Result<void> advance(Duration time);
