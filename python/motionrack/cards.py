@@ -15,7 +15,7 @@ from typing import Any
 
 from . import _core
 from ._time import ticks_of
-from .errors import BadInput, Refused, Timeout
+from .errors import BadInput, NoSuchName, Refused, Timeout
 
 
 def _field(reg: Mapping[str, Any], name: str) -> tuple[str, int, str]:
@@ -344,7 +344,7 @@ class Cards(Mapping[str, Card]):
 
     def __getitem__(self, name: str) -> Card:
         if name not in self._names:
-            raise BadInput(f"There is no card {name!r} in this rack; its cards are: {', '.join(self._names) or 'none'}. Nothing was done.")
+            raise NoSuchName(f"There is no card {name!r} in this rack; its cards are: {', '.join(self._names) or 'none'}. Nothing was done.")
         if name not in self._cards:
             self._cards[name] = Card(self._world, name)
         return self._cards[name]

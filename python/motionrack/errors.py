@@ -38,6 +38,13 @@ class BadInput(Error):
     """A rack file, a part program or a name is wrong; nothing was done."""
 
 
+class NoSuchName(BadInput, KeyError):
+    """A mapping (cards, parts, wires, signals of a trace) has nothing of that name; the sentence has the names that there are."""
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
 class Refused(Error):
     """Well formed, but outside a limit or at the wrong time; nothing was done."""
 

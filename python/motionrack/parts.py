@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, MutableMapping
 
 from . import _core
-from .errors import BadInput
+from .errors import BadInput, NoSuchName
 
 
 class Wires(MutableMapping[str, float]):
@@ -19,7 +19,10 @@ class Wires(MutableMapping[str, float]):
         self._world = world
 
     def __getitem__(self, name: str) -> float:
-        return self._world.wire(name)
+        try:
+            return self._world.wire(name)
+        except BadInput as error:
+            raise NoSuchName(error.message) from None
 
     def __setitem__(self, name: str, value: float | None) -> None:
         if value is None:
@@ -96,7 +99,7 @@ class Parts(Mapping[str, Part]):
 
     def __getitem__(self, name: str) -> Part:
         if name not in self._parts:
-            raise BadInput(f"There is no part {name!r} in this rack; its parts are: {', '.join(self._parts) or 'none'}. Nothing was done.")
+            raise NoSuchName(f"There is no part {name!r} in this rack; its parts are: {', '.join(self._parts) or 'none'}. Nothing was done.")
         return self._parts[name]
 
     def __contains__(self, name: object) -> bool:

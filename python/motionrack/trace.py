@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._time import TICKS_PER_SECOND
-from .errors import BadInput, FileTrouble
+from .errors import BadInput, FileTrouble, NoSuchName
 
 Values = npt.NDArray[np.int64] | npt.NDArray[np.float64]
 _LOOKS = "xyzabcd"
@@ -51,7 +51,7 @@ class Trace(Mapping[str, Values]):
             return name
         found = [signal for signal in self._signals if signal.lower() == name.lower()]
         if len(found) != 1:
-            raise BadInput(f"The trace has no signal {name!r}; it has: {', '.join(self._signals) or 'none'}.")
+            raise NoSuchName(f"The trace has no signal {name!r}; it has: {', '.join(self._signals) or 'none'}.")
         return found[0]
 
     def __getitem__(self, name: str) -> Values:

@@ -138,7 +138,7 @@ void bind_looking(py::class_<World, Shared>& world) {
 
 void bind_moving(py::class_<World, Shared>& world) {
     world.def("close", [](World& w) { const Turn turn(w, Turn::For::moving); w.close(); })
-        .def("start", [](World& w) { alone(w, [] {}); })
+        .def("start", [](World& w) { alone(w, [&] { w.running(); }); })
         .def("advance", [](World& w, std::int64_t time) { alone(w, [&] { return w.advance(ticks(time)); }); }, py::arg("ticks"))
         .def("wait_wire", [](World& w, const std::string& name, int level, std::int64_t timeout) {
             return alone(w, [&] { return w.wait_wire(name, level, ticks(timeout)); });

@@ -64,7 +64,7 @@ template <class Call>
 auto alone(World& world, Call call, Duration timeout) {
     using Value = decltype(call());
     const Turn turn(world, Turn::For::moving);
-    const Instant began = world.running().kernel().now();
+    const Instant began = world.now();
     if constexpr (std::is_void_v<Value>) {
         {
             const py::gil_scoped_release free;
