@@ -69,7 +69,7 @@ def view(world: World, card: str, clearing: bool) -> str: ...
 def svg_timeline(title: str, seconds: npt.ArrayLike, charts: Sequence[tuple[str, Sequence[tuple[str, str, npt.ArrayLike]]]], spans: Sequence[tuple[str, float, float]], width: int, height: int) -> str: ...
 
 class Mcx314:
-    """The MCX314's function library, under its source's names and in its register units. Axis masks: X 1, Y 2, Z 4, U 8."""
+    """The MCX314's function library, under its source's names and in its register units. `axes` is a mask: X 1, Y 2, Z 4, U 8 and their sums; `axis` is a channel: 0 X, 1 Y, 2 Z, 3 U."""
     def __init__(self, world: World, card: str) -> None: ...
     def RESET(self) -> None:
         """Software reset of the chip; waits its 875 ns."""
@@ -616,7 +616,7 @@ class Rtc5:
     def get_startstop_info(self) -> int:
         """What the start and stop lines did, bits."""
     def get_value(self, signal: int) -> int:
-        """A signal by its number."""
+        """A signal by its number, 0 to 255."""
     def get_encoder(self) -> tuple[int, int]:
         """(encoder 0, encoder 1), counts."""
     def list_space(self) -> int:

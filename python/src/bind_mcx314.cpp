@@ -142,7 +142,7 @@ void bind_mcx314_status(Mcx314Class& c) {
 }
 
 void bind_mcx314(py::module_& m) {
-    Mcx314Class c(m, "Mcx314", "The MCX314's function library, under its source's names and in its register units. Axis masks: X 1, Y 2, Z 4, U 8.");
+    Mcx314Class c(m, "Mcx314", "The MCX314's function library, under its source's names and in its register units. `axes` is a mask: X 1, Y 2, Z 4, U 8 and their sums; `axis` is a channel: 0 X, 1 Y, 2 Z, 3 U.");
     c.def(py::init([](const std::shared_ptr<World>& world, const std::string& card) {
         const Turn turn(*world, Turn::For::moving);
         sim::VirtualPort& port = *card_of_type(*world, card, "mcx314").port();

@@ -146,7 +146,7 @@ void bind_answers(Rtc5Class& c) {
     c.def("get_startstop_info", [](Rtc5& self) { return ask(self, [](Engine& engine) -> Result<std::uint32_t> { return engine.get_startstop_info(); }); },
           "What the start and stop lines did, bits.");
     c.def("get_value", [](Rtc5& self, std::uint32_t signal) { return ask(self, [&](Engine& engine) { return engine.get_value(signal); }); }, py::arg("signal"),
-          "A signal by its number.");
+          "A signal by its number, 0 to 255.");
     c.def("get_encoder", [](Rtc5& self) {
         return ask(self, [](Engine& engine) -> Result<std::pair<int, int>> { return std::pair(engine.encoder(0), engine.encoder(1)); });
     }, "(encoder 0, encoder 1), counts.");
