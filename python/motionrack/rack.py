@@ -185,7 +185,7 @@ class Rack:
         if at is not None:
             shown = "" if value is None else f"={value if isinstance(value, str) else format(value, '.17g')}"
             text = f"{text}{shown}@{at!r}s"
-        self._world.plan_fault(text)
+        self._world.plan_faults([text])
 
     # ---- the controller ----
 
@@ -200,20 +200,13 @@ class Rack:
         BadInput with all ``problems``, each with line and column, if anything in the program is wrong: nothing moved. Refused on a rack that has
         no axes or is not at time 0. What the machine did wrong is the outcome's ``error``.
         """
-        if (program is None) == (path is None):
-            raise BadInput("A program is given as text or by its path, one of the two. Nothing was moved.")
-        if path is not None:
-            try:
-                with open(path, encoding="utf-8", errors="surrogateescape", newline="") as file:
-                    program = file.read()
-            except OSError as error:
-                raise FileTrouble(f"{os.fspath(path)} cannot be read: {error.strerror}. Nothing was moved.") from None
-            name = os.fspath(path) if name is None else name
-        assert program is not None
-        for fault in faults:
-            self.plan_fault(fault)
-        ran = _core.run(self._world, program, name or "", block_delete, ticks_of(sample_period), profile, progress)
+        text, name = _program(program, path, name)
+        ran = _core.run(self._world, text, name, block_delete, ticks_of(sample_period), profile, list(faults), progress)
         return outcome_of(self._world, ran, name or self.name)
+
+    def check(self, program: str | None = None, *, path: str | os.PathLike[str] | None = None, block_delete: bool = False, name: str | None = None) -> None:
+        """Raises what is wrong with a part program on this rack, with all ``problems``; moves nothing and takes no time. See :meth:`run`."""
+        _core.check(self._world, *_program(program, path, name), block_delete)
 
     def home(self, axes: str = "", *, type: int | None = None, timeout: float = 3600.0) -> Homing:
         """Lets axes find their home switches: ``"XY"``; ``""``: every axis that has one. ``type`` 1 to 4 instead of the rack file's; ``timeout`` in s
@@ -255,6 +248,20 @@ class Rack:
         if snapshot._world.config() != self._world.config():
             raise Refused("The snapshot is of a rack of another kind; nothing was done.")
         self._world.copy_from(snapshot._world)
+
+
+def _program(program: str | None, path: str | os.PathLike[str] | None, name: str | None) -> tuple[str, str]:
+    """A program's text and its name in messages."""
+    if (program is None) == (path is None):
+        raise BadInput("A program is given as text or by its path, one of the two. Nothing was moved.")
+    if program is not None:
+        return program, name or ""
+    assert path is not None
+    try:
+        with open(path, encoding="utf-8", errors="replace", newline="") as file:  # a comment may be in anything
+            return file.read(), os.fspath(path) if name is None else name
+    except OSError as error:
+        raise FileTrouble(f"{os.fspath(path)} cannot be read: {error.strerror}. Nothing was moved.") from None
 
 
 class Snapshot:

@@ -156,9 +156,11 @@ void attend_progress(World& world, const py::object& progress) {
 }
 
 std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const std::string& program, const std::string& name, bool block_delete,
-                         std::int64_t sample_ticks, const std::optional<std::string>& profile, const py::object& progress) {
+                         std::int64_t sample_ticks, const std::optional<std::string>& profile, const std::vector<std::string>& faults, const py::object& progress) {
     {
         const Turn turn(*world, Turn::For::moving);
+        world->check(program, name, block_delete);
+        value_of(world->plan_faults(faults));
         value_of(world->set_sample_period(ticks(sample_ticks)));
         if (profile) value_of(world->set_profile(*profile));
         attend_progress(*world, progress);
@@ -194,7 +196,10 @@ void bind_job(py::module_& m) {
         .def("write_csv", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_csv); }, py::arg("path"))
         .def("write_events", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_events_csv); }, py::arg("path"));
     m.def("run", &run, py::arg("world"), py::arg("program"), py::arg("name"), py::arg("block_delete"), py::arg("sample_ticks"),
-          py::arg("profile"), py::arg("progress"));
+          py::arg("profile"), py::arg("faults"), py::arg("progress"));
+    m.def("check", [](World& world, const std::string& program, const std::string& name, bool block_delete) {
+        looking(world, [&] { world.check(program, name, block_delete); });
+    }, py::arg("world"), py::arg("program"), py::arg("name"), py::arg("block_delete"));
 }
 
 }  // namespace motionrack::python

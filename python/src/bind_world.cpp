@@ -154,10 +154,10 @@ void bind_moving(py::class_<World, Shared>& world) {
         .def("fault", [](World& w, const std::string& fault, const std::string& target) {
             alone(w, [&] { return rack::inject_fault(w.running(), fault, target); });
         }, py::arg("fault"), py::arg("target"))
-        .def("plan_fault", [](World& w, const std::string& text) {
+        .def("plan_faults", [](World& w, const std::vector<std::string>& texts) {
             const Turn turn(w, Turn::For::moving);
-            value_of(w.plan_fault(text));
-        }, py::arg("text"))
+            value_of(w.plan_faults(texts));
+        }, py::arg("texts"))
         .def("set_card", [](World& w, const std::string& card, const std::string& key, double value) {
             const Turn turn(w, Turn::For::moving);
             value_of(w.set_card(card, key, value));

@@ -147,16 +147,20 @@ rack::HomingOutcome World::home(rack::HomingSettings settings) {
 
 // ---- a part program -----------------------------------------------------------------------------------------------------
 
+void World::check(const std::string& program, const std::string& name, bool block_delete) const {
+    if (config_.axes.empty()) refuse("The rack has no axes, so no program can run on it. Nothing was moved.");
+    const control::gcode::Settings reader = rack::reader_settings(config_, block_delete);
+    value_of(control::gcode::check_settings(reader));
+    if (auto check = control::gcode::check_program(program, reader, most_problems, name); !check.problems.empty())
+        throw Raised{check.problems.front(), false, {check.problems.begin(), check.problems.end()}};
+}
+
 Result<rack::JobOutcome> World::run(const std::string& program, const std::string& name, bool block_delete) {
-    if (rack().axes().empty()) return fail(Trouble::refused, "The rack has no axes, so no program can run on it. Nothing was moved.");
+    check(program, name, block_delete);
     if (ran_ || (started() && now() != Instant{}))
         return fail(Trouble::refused, fmt::format("A program begins where the rack file says that the machine stands, at time 0, and this rack is at "
                                                   "{:.6f} s. Nothing was moved; run it on Rack.fresh().",
                                                   to_seconds(now())));
-    const control::gcode::Settings reader = rack::reader_settings(config_, block_delete);
-    MOTIONRACK_CHECK(control::gcode::check_settings(reader));
-    if (auto check = control::gcode::check_program(program, reader, most_problems, name); !check.problems.empty())
-        throw Raised{check.problems.front(), false, {check.problems.begin(), check.problems.end()}};
     running();
     ran_ = true;
     program_ = program;

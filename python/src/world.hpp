@@ -40,8 +40,8 @@ class World {
     void close();
 
     // ---- before it is started ----
-    /// "X.limit_plus=0@0.5s": see FaultPlan. Errors: refused in a started rack, and those of the plan.
-    Result<void> plan_fault(const std::string& text);
+    /// "X.limit_plus=0@0.5s": see FaultPlan. Errors: refused in a started rack, and those of the plan; none is planned then.
+    Result<void> plan_faults(const std::vector<std::string>& texts);
     std::vector<std::string> not_done() const { return plan_ ? plan_->not_done() : std::vector<std::string>(); }
     /// Of the samples that a job keeps, > 0. Errors: refused in a started rack.
     Result<void> set_sample_period(Duration period);
@@ -64,6 +64,8 @@ class World {
     Result<void> set_wire(const std::string& name, double value);
 
     // ---- a part program, once, from time 0 ----
+    /// Throws every problem of a program, in the order of its lines; nothing moves.
+    void check(const std::string& program, const std::string& name, bool block_delete) const;
     Result<rack::JobOutcome> run(const std::string& program, const std::string& name, bool block_delete);
     /// See home_axes; `settings.stop` is this world's own.
     rack::HomingOutcome home(rack::HomingSettings settings);

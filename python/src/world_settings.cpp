@@ -8,13 +8,14 @@
 
 namespace motionrack::python {
 
-Result<void> World::plan_fault(const std::string& text) {
+Result<void> World::plan_faults(const std::vector<std::string>& texts) {
+    if (texts.empty()) return {};
     if (rack().started())
         return fail(Trouble::refused, "Faults are planned before the rack's time begins, and it has begun; nothing was planned. Advance to the "
                                       "instant and break it then (Rack.fault, Rack.wires), or plan it for Rack.fresh().");
     rack::Rack other(config_);
-    MOTIONRACK_CHECK(rack::FaultPlan::create(other, {text}));
-    fault_texts_.push_back(text);
+    MOTIONRACK_CHECK(rack::FaultPlan::create(other, texts));
+    fault_texts_.insert(fault_texts_.end(), texts.begin(), texts.end());
     return {};
 }
 

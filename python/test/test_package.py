@@ -76,7 +76,7 @@ class Docstrings(unittest.TestCase):
 
     def test_list_commands_of_the_rtc5_are_those_of_its_map(self) -> None:
         card = motionrack.Rack.from_file(ROOT / "examples" / "14_line" / "line.toml").cards["scan"]
-        listed = {name for name, value in public(_core.Rtc5).items() if "List command" in (inspect.getdoc(value) or "")}
+        listed = {name for name, value in public(_core.Rtc5).items() if "List command:" in (inspect.getdoc(value) or "")}
         self.assertLessEqual(listed, {command["name"] for command in card.map["commands"]})
         self.assertGreater(len(listed), 60)
 

@@ -108,6 +108,9 @@ class Mistakes(unittest.TestCase):
         told = referee("check", "-", text="G21 G90\nG1 X5 F100\nG1 X600\nG1 Q\n").stderr
         for problem in problems:
             self.assertIn(problem.message, told)
+        with self.assertRaises(motionrack.Error):
+            rack.check("G1 X600 F100\n")
+        rack.check(TEXT)
         self.assertFalse(rack._world.started())
         self.assertTrue(rack.run(TEXT).ok)
 
@@ -135,6 +138,11 @@ class Mistakes(unittest.TestCase):
         self.assertIsInstance(outcome.error, MachineFault)
         self.assertEqual(outcome.error.line, 2)
         self.assertEqual(len(outcome.faults_not_done), 1)
+        rack = Rack.template()
+        for text, faults in (("G1 X600 F100\n", ["X.limit_plus=0@500ms"]), (TEXT, ["X.limit_plus=0@500ms", "X.nothing@1s"])):
+            with self.assertRaises(motionrack.Error):
+                rack.run(text, faults=faults)
+        self.assertEqual(rack.run(TEXT).trace_hash, Rack.template().run(TEXT).trace_hash, "what was refused planned nothing")
         with self.assertRaises(MachineFault):
             outcome.check()
 
