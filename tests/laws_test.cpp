@@ -97,6 +97,8 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"flex2pos", {"base", "calls", "rack", "frontends", "flex2pos.h", "ioflex02/map", "ioflex02/driver"}},
     {"mcx314lib", {"base", "calls", "rack", "mcx314/map", "mcx314/driver"}},
     {"rtc5sim", {"base", "calls", "rack", "rtc5/map", "rtc5/model"}},
+    {"python", {"base", "sim", "control", "trace", "rack", "mcx314/driver", "databoard4002/driver", "ioflex02/driver", "grating_bus/model", "grating_bus/driver",
+                "rtc5/model"}},
 };
 
 TEST(Laws, RoomsIncludeOnlyTheRoomsTheyMay) {
@@ -112,10 +114,16 @@ TEST(Laws, RoomsIncludeOnlyTheRoomsTheyMay) {
             EXPECT_TRUE(other == own || may_include.at(own).count(other)) << path << " includes " << match[1];
         }
     }
+    for (const fs::path& path : sources("python/src"))
+        for (const std::string& line : lines_of(path)) {
+            std::smatch match;
+            if (std::regex_search(line, match, include))
+                EXPECT_TRUE(may_include.at("python").count(room_of(match[1]))) << path << " includes " << match[1];
+        }
 }
 
 TEST(Laws, FilesAreSmall) {
-    for (const char* folder : {"motionrack", "tests", "bench", "examples"})
+    for (const char* folder : {"motionrack", "python", "tests", "bench", "examples"})
         for (const fs::path& path : sources(folder)) EXPECT_LE(lines_of(path).size(), 400u) << path;
     for (const fs::path& path : page_sources()) EXPECT_LE(lines_of(path).size(), 400u) << path;
 }
@@ -131,7 +139,7 @@ TEST(Laws, DeterministicRoomsKnowNoWallClockAndNoLuck) {
 
 TEST(Laws, NothingIsLeftForLater) {
     const std::regex later(std::string("TO") + "DO|FIX" + "ME");
-    for (const char* folder : {"motionrack", "tests", "bench", "examples"})
+    for (const char* folder : {"motionrack", "python", "tests", "bench", "examples"})
         for (const fs::path& path : sources(folder))
             for (const std::string& line : lines_of(path)) EXPECT_FALSE(std::regex_search(line, later)) << path << ": " << line;
     for (const fs::path& path : page_sources())

@@ -51,7 +51,8 @@ class Carriage {
     Result<void> go_home() {
         port().pass(milliseconds(300));
         while (driver_.status().emergency()) port().pass(milliseconds(10));
-        fmt::print("  {}; back to A slowly\n", driver_.status().stops().empty() ? "every stop is released" : driver_.status().stops());
+        const std::string stops = driver_.status().stops();
+        fmt::print("  {}; back to A slowly\n", stops.empty() ? "every stop is released" : stops);
         return leg("to A", a, 100'000, scale_.rate_for(10'000));
     }
     const Record& record() const { return record_; }

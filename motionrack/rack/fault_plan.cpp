@@ -99,4 +99,9 @@ std::vector<std::string> FaultPlan::not_done() const {
     return out;
 }
 
+void FaultPlan::copy_from(const FaultPlan& other) {
+    faults_ = other.faults_;
+    desk_.copy_from(other.desk_);
+}
+
 }  // namespace motionrack::rack

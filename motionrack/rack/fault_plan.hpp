@@ -40,6 +40,8 @@ class FaultPlan final : public sim::Device {
     void apply_due();
     /// Sentences about what was not done: the run ended before it, or the part refused it; in the order of time.
     std::vector<std::string> not_done() const;
+    /// What was done is what `other` has done, a plan of the same texts whose rack's state was copied.
+    void copy_from(const FaultPlan& other);
 
     void act(Instant now) override;
 

@@ -108,6 +108,12 @@ Result<void> Job::drive_by_stream(control::PathAxes& axes, const control::Contro
     return ended;
 }
 
+void Job::give(std::string_view program, std::string name, bool block_delete) {
+    settings_.program = program;
+    settings_.program_name = std::move(name);
+    settings_.block_delete = block_delete;
+}
+
 JobOutcome Job::run() {
     JobOutcome out;
     const Result<control::PathAxes*> axes = rack_.path_axes();

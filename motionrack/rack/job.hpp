@@ -88,6 +88,9 @@ class Job {
     Job(Rack& rack, JobSettings settings);
     ~Job();
 
+    /// Another program than that of the settings, before run(). The text must outlive the job.
+    void give(std::string_view program, std::string name, bool block_delete);
+
     JobOutcome run();
     const Monitor& monitor() const { return *monitor_; }
     /// Every planned move as it was handed out, at most `most_planned`.

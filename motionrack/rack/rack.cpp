@@ -5,6 +5,7 @@
 #include <cmath>
 #include <motionrack/rack/config_parts.hpp>
 #include <motionrack/rack/grating_card.hpp>
+#include <motionrack/rack/history.hpp>
 #include <motionrack/rack/rack.hpp>
 
 namespace motionrack::rack {
@@ -19,7 +20,9 @@ Rack::Rack(const RackConfig& config) : config_(config) {
     build_scanners();
 }
 
-Rack::~Rack() = default;
+Rack::~Rack() {
+    if (started_) tell_history(kernel_);
+}
 
 Card* Rack::card(std::string_view name) {
     for (const auto& card : cards_)

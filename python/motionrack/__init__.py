@@ -1,0 +1,43 @@
+"""Racks of motion-control cards, in software.
+
+    import motionrack
+
+    rack = motionrack.Rack.template("router")
+    outcome = rack.run("G21 G90\\nG1 X10 Y5 F600\\nM2\\n")
+    outcome.axes["X"].real_end      # mm
+    outcome.trace.plot("x.speed")   # NumPy arrays inside
+
+Lengths are mm, angles degrees, times s of virtual time, unless a name or a docstring says otherwise. Everything that goes wrong is a
+:class:`motionrack.Error` with a sentence.
+"""
+
+from __future__ import annotations
+
+from . import _core
+from ._core import Databoard4002, GratingCard, Ioflex02, Mcx314, Rtc5, SlopeTable, SpeedMeter, SpeedScale
+from ._version import __version__
+from .cards import Card, Cards, Channel, Register, Word
+from .errors import BadInput, Error, FileTrouble, MachineFault, NoSuchName, Refused, Stopped, Timeout
+from .outcome import AxisOutcome, Block, Homing, Outcome, ProgramEvent, Warning, Worst
+from .parts import Part, Parts, Wires
+from .rack import Rack, Snapshot
+from .recording import Recording, Waves
+from .trace import Trace
+
+
+def templates() -> list[str]:
+    """Names of the racks that :meth:`Rack.template` can make; the first is the default."""
+    return _core.template_names()
+
+
+def template_text(name: str = "router") -> str:
+    """The rack file of a template: every key with its unit, range and default as a comment. BadInput."""
+    return _core.template_text(name)
+
+
+__all__ = [
+    "AxisOutcome", "BadInput", "Block", "Card", "Cards", "Channel", "Databoard4002", "Error", "FileTrouble", "GratingCard", "Homing",
+    "Ioflex02", "MachineFault", "Mcx314", "NoSuchName", "Outcome", "Part", "Parts", "ProgramEvent", "Rack", "Recording", "Refused", "Register", "Rtc5",
+    "SlopeTable", "Snapshot", "SpeedMeter", "SpeedScale", "Stopped", "Timeout", "Trace", "Warning", "Waves", "Wires", "Word", "Worst",
+    "__version__", "template_text", "templates",
+]

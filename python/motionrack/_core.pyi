@@ -1,0 +1,635 @@
+"""The C++ side of the package; made by python/tools/stubs.py."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+
+class World:
+    """A rack; motionrack.Rack is what people use."""
+    def config(self) -> dict[str, Any]: ...
+    def closed(self) -> bool: ...
+    def started(self) -> bool: ...
+    def ticks(self) -> int: ...
+    def events(self) -> int: ...
+    def trace_hash(self) -> str: ...
+    def state_hash(self) -> str: ...
+    def conditions(self) -> list[Any]: ...
+    def wire(self, name: str) -> float: ...
+    def wires(self) -> dict[str, Any]: ...
+    def quantity(self, name: str) -> float: ...
+    def quantities(self) -> dict[str, Any]: ...
+    def fault_targets(self) -> dict[str, Any]: ...
+    def not_done(self) -> list[str]: ...
+    def close(self) -> None: ...
+    def start(self) -> None: ...
+    def advance(self, ticks: int) -> None: ...
+    def wait_wire(self, name: str, level: int, ticks: int) -> bool: ...
+    def set_wire(self, name: str, value: float) -> None: ...
+    def release_wire(self, name: str) -> None: ...
+    def set_quantity(self, name: str, value: float) -> None: ...
+    def fault(self, fault: str, target: str) -> None: ...
+    def plan_faults(self, texts: Sequence[str]) -> None: ...
+    def set_card(self, card: str, key: str, value: float) -> None: ...
+    def begin_samples(self, names: Sequence[str], period: int, most: int) -> None: ...
+    def end_samples(self) -> tuple[Any, ...]: ...
+    def begin_waves(self, path: str, signals: Sequence[str]) -> None: ...
+    def end_waves(self) -> None: ...
+    def copy(self) -> World: ...
+    def fresh(self) -> World: ...
+    def copy_from(self, other: World) -> None: ...
+
+def open_file(path: str) -> tuple[Any, ...]: ...
+def open_text(text: str, name: str) -> tuple[Any, ...]: ...
+def template_text(name: str) -> str: ...
+def template_names() -> list[str]: ...
+
+class Ran:
+    """A program that was run; motionrack.Outcome is what people use."""
+    def error(self) -> Any: ...
+    def data(self) -> dict[str, Any]: ...
+    def samples(self) -> tuple[Any, ...]: ...
+    def summary(self) -> str: ...
+    def json(self) -> str: ...
+    def svg(self, perspective: bool) -> str: ...
+    def write_report(self, path: str) -> None: ...
+    def write_csv(self, path: str) -> None: ...
+    def write_events(self, path: str) -> None: ...
+
+def run(world: World, program: str, name: str, block_delete: bool, sample_ticks: int, profile: str | None, faults: Sequence[str], progress: Any) -> Ran: ...
+def check(world: World, program: str, name: str, block_delete: bool) -> None: ...
+def home(world: World, axes: str, type: int | None, ticks: int) -> tuple[Any, ...]: ...
+def describe_card(world: World, card: str) -> dict[str, Any]: ...
+def peek(world: World, card: str, name: str) -> int: ...
+def read(world: World, card: str, bits: int, address: int) -> int: ...
+def write(world: World, card: str, bits: int, address: int, value: int) -> None: ...
+def wait_interrupt(world: World, card: str, ticks: int) -> bool: ...
+def view(world: World, card: str, clearing: bool) -> str: ...
+def svg_timeline(title: str, seconds: npt.ArrayLike, charts: Sequence[tuple[str, Sequence[tuple[str, str, npt.ArrayLike]]]], spans: Sequence[tuple[str, float, float]], width: int, height: int) -> str: ...
+
+class Mcx314:
+    """The MCX314's function library, under its source's names and in its register units. `axes` is a mask: X 1, Y 2, Z 4, U 8 and their sums; `axis` is a channel: 0 X, 1 Y, 2 Z, 3 U."""
+    def __init__(self, world: World, card: str) -> None: ...
+    def RESET(self) -> None:
+        """Software reset of the chip; waits its 875 ns."""
+    def initialise(self) -> None:
+        """RESET, then every mode register, AO, LP and EP written 0."""
+    def SetPulseMode(self, axes: int, mode: int) -> None:
+        """Pulse output: mode 0 two pulse trains, 1 pulse and direction."""
+    def SetMultiple(self, axes: int, value: int) -> None:
+        """The multiple M, 1 to 500: pulses a second = V * M. Writes R = 8,000,000 / M. Not while driving."""
+    def SetRange(self, axes: int, value: int) -> None:
+        """R, 16,000 to 8,000,000: pulses a second = V * 8,000,000 / R. Not while driving."""
+    def SetMaxSpeed(self, axes: int, value: int) -> None:
+        """The smallest whole multiple with which V <= 8,000 reaches so many pulses a second, 1 to 4,000,000."""
+    def SetSV(self, axes: int, value: int) -> None:
+        """Initial speed, 1 to 8,000 units of the multiple."""
+    def SetV(self, axes: int, value: int) -> None:
+        """Drive speed, 1 to 8,000 units of the multiple; also while driving."""
+    def SetA(self, axes: int, value: int) -> None:
+        """Acceleration, 1 to 8,000 units of 125 * M pulses/s2."""
+    def SetD(self, axes: int, value: int) -> None:
+        """Deceleration, 1 to 8,000 units of 125 * M pulses/s2; used where SetAsymmetric is on."""
+    def SetAA(self, axes: int, value: int) -> None:
+        """K, 1 to 65,535: the jerk is 62.5e6 / K * M pulses/s3."""
+    def SetAO(self, axes: int, value: int) -> None:
+        """Pulses kept for the end at SV, 0 to 65,535."""
+    def Pulse(self, axes: int, value: int) -> None:
+        """Output pulses of a fixed drive, -268,435,455 to 268,435,455."""
+    def AutoDec(self, axes: int = 15) -> None:
+        """The chip finds the deceleration point itself. Arcs cannot."""
+    def ManualDec(self, axes: int, value: int) -> None:
+        """Fixed drives decelerate after so many pulses, 0 to 268,435,455."""
+    def SetAsymmetric(self, axes: int, on: bool) -> None:
+        """Decelerations take D instead of A."""
+    def LPS(self, axes: int, value: int) -> None:
+        """Sets the logical position, pulses, 32 bits with sign."""
+    def EPS(self, axes: int, value: int) -> None:
+        """Sets the real (encoder) position, counts, 32 bits with sign."""
+    def SetCompP(self, axes: int, value: int) -> None:
+        """COMP+, pulses or counts, 32 bits with sign."""
+    def SetCompM(self, axes: int, value: int) -> None:
+        """COMP-, pulses or counts, 32 bits with sign."""
+    def TCurve_F(self, axes: int, sv: int, v: int, a: int, pulses: int) -> None:
+        """Fixed drive with a T-curve: SV, V 1 to 8,000 units of the multiple, A 1 to 8,000 units of 125 * M; pulses -268,435,455 to 268,435,455, the sign is the direction."""
+    def TCurve_C(self, axes: int, sv: int, v: int, a: int, negative: bool = False) -> None:
+        """Continuous drive with a T-curve, until it is stopped; units as of TCurve_F."""
+    def SCurve_F(self, axes: int, sv: int, v: int, a: int, k: int, pulses: int) -> None:
+        """Fixed drive with an S-curve: as TCurve_F, and K 1 to 65,535 (jerk 62.5e6 / K * M pulses/s3)."""
+    def SCurve_C(self, axes: int, sv: int, v: int, a: int, k: int, negative: bool = False) -> None:
+        """Continuous drive with an S-curve, until it is stopped; units as of SCurve_F."""
+    def DriveFixed(self, axes: int) -> None:
+        """Starts what Pulse set, each axis in its direction, all at the same tick."""
+    def stop(self, axes: int, quick: bool = False) -> None:
+        """Stops the axes, with everything that is interpolated with them: decelerating to SV, or at once."""
+    def change_speed(self, axes: int, v: int) -> None:
+        """Another V, 1 to 8,000, while driving. Refused where it would have no effect."""
+    def change_pulses(self, axis: int, pulses: int, margin: float = 0.001) -> None:
+        """Another number of pulses for the fixed drive of an axis (0 X to 3 U), counted from its start; margin in s."""
+    def wait(self, axes: int = 15, timeout: float = 60.0) -> None:
+        """Waits until none of the axes drives. Raises Timeout after timeout s, MachineFault if one was stopped by a limit, an alarm or the emergency input."""
+    def HomeType1(self, axes: int, WR1Reg: int, SV: int, V: int, A: int) -> list[str]:
+        """Homes all axes of the mask at once, in - direction; WR1Reg: WR1 with the home input enabled at its level. A sentence for each axis."""
+    def HomeType2(self, axes: int, WR1Reg: int, SV: int, V: int, A: int) -> list[str]:
+        """Homes all axes of the mask at once, in - direction; WR1Reg: WR1 with the home input enabled at its level. A sentence for each axis."""
+    def HomeType3(self, axes: int, WR1Reg: int, SV: int, V: int, A: int) -> list[str]:
+        """Homes all axes of the mask at once, in - direction; WR1Reg: WR1 with the home input enabled at its level. A sentence for each axis."""
+    def HomeType4(self, axes: int, WR1Reg: int, SV: int, V: int, A: int) -> list[str]:
+        """Homes all axes of the mask at once, in - direction; WR1Reg: WR1 with the home input enabled at its level. A sentence for each axis."""
+    def Line2D_C(self, axes: int, P: Sequence[int], V: int, SV: int = 0, A: int = 0, D: int = 0, K: int = 0) -> None:
+        """A line of two axes at constant speed V. P: finish of X, Y, Z, U in pulses from the present place, -8,388,608 to 8,388,607."""
+    def Line2D_T(self, axes: int, P: Sequence[int], V: int, SV: int = 0, A: int = 0, D: int = 0, K: int = 0) -> None:
+        """A line of two axes with trapezoid: SV, V, A (D: 0 as A) 1 to 8,000."""
+    def Line2D_S(self, axes: int, P: Sequence[int], V: int, SV: int = 0, A: int = 0, D: int = 0, K: int = 0) -> None:
+        """A line of two axes with S-curve: and K 1 to 65,535."""
+    def Line3D_C(self, axes: int, P: Sequence[int], V: int, SV: int = 0, A: int = 0, D: int = 0, K: int = 0) -> None:
+        """A line of three axes at constant speed; see Line2D_C."""
+    def Line3D_T(self, axes: int, P: Sequence[int], V: int, SV: int = 0, A: int = 0, D: int = 0, K: int = 0) -> None:
+        """A line of three axes with trapezoid; see Line2D_T."""
+    def Line3D_S(self, axes: int, P: Sequence[int], V: int, SV: int = 0, A: int = 0, D: int = 0, K: int = 0) -> None:
+        """A line of three axes with S-curve; see Line2D_S."""
+    def CircleCW_C(self, axes: int, P: Sequence[int], C: Sequence[int], V: int, SV: int = 0, A: int = 0, D: int = 0) -> None:
+        """An arc clockwise at constant speed. P finish (0, 0: a full circle), C centre, in pulses from the start."""
+    def CircleCCW_C(self, axes: int, P: Sequence[int], C: Sequence[int], V: int, SV: int = 0, A: int = 0, D: int = 0) -> None:
+        """An arc counter-clockwise at constant speed; see CircleCW_C."""
+    def CircleCW_T(self, axes: int, P: Sequence[int], C: Sequence[int], V: int, SV: int = 0, A: int = 0, D: int = 0) -> None:
+        """An arc clockwise with trapezoid: SV, V, A (D: 0 as A) 1 to 8,000."""
+    def CircleCCW_T(self, axes: int, P: Sequence[int], C: Sequence[int], V: int, SV: int = 0, A: int = 0, D: int = 0) -> None:
+        """An arc counter-clockwise with trapezoid; see CircleCW_T."""
+    def SetVectorSpeed(self, axes_count: int) -> None:
+        """Keeps the speed along the path: 1 off, 2 two axes, 3 three axes."""
+    def ContStart(self, V: int, SV: int = 0, A: int = 0, D: int = 0) -> None:
+        """Begins a chain: V 1 to 8,000; A 0: constant speed."""
+    def ContLine(self, axes: int, P: Sequence[int], v: int = 0, timeout: float = 60.0) -> None:
+        """A line of the chain, P in pulses; v: speed from here on, 0: unchanged; timeout in s."""
+    def ContArc(self, axes: int, P: Sequence[int], C: Sequence[int], clockwise: bool, v: int = 0, timeout: float = 60.0) -> None:
+        """An arc of the chain; see ContLine."""
+    def ContEnd(self, timeout: float = 60.0) -> tuple[int, int]:
+        """Gives the last segment and waits for the end, timeout in s: (segments, V units at the last pulse as planned)."""
+    def BP2D(self, axes: int, V: int, SV: int = 0, A: int = 0, DecPoint: int = 0) -> None:
+        """Begins a bit pattern of two axes: V steps a second, times the multiple; A 0: constant speed."""
+    def BP3D(self, axes: int, V: int, SV: int = 0, A: int = 0, DecPoint: int = 0) -> None:
+        """Begins a bit pattern of three axes; see BP2D."""
+    def BPStack(self, plus: Sequence[int], minus: Sequence[int], timeout: float = 60.0) -> None:
+        """Sixteen steps, the lowest bit first, of each axis; in both at once: the drive ends there. timeout in s."""
+    def BPStart(self) -> None:
+        """Starts the pattern."""
+    def BPEnd(self, timeout: float = 60.0) -> None:
+        """Gives the registers back and waits for the end, timeout in s."""
+    def HLMTP(self, n: int, axes: int = 15) -> None:
+        """The + limit switch acts at: 0 Low, 1 High."""
+    def HLMTM(self, n: int, axes: int = 15) -> None:
+        """The - limit switch acts at: 0 Low, 1 High."""
+    def HLMTSig(self, n: int, axes: int = 15) -> None:
+        """Limit switches stop: 0 at once, 1 decelerating."""
+    def SLMTP(self, n: int, axes: int = 15) -> None:
+        """COMP+ as software limit: 0 off, 1 on."""
+    def SLMTM(self, n: int, axes: int = 15) -> None:
+        """COMP- as software limit: 0 off, 1 on."""
+    def SLMTSig(self, n: int, axes: int = 15) -> None:
+        """COMP+ and COMP- are compared with: 0 LP, 1 EP."""
+    def EncoderMode(self, n: int, axes: int = 15) -> None:
+        """Encoder input: 0 A/B quadrature, 1 up and down pulses."""
+    def EncoderCWCCW(self, n: int, axes: int = 15) -> None:
+        """A/B edges counted: 0 all, 1 every second, 2 every fourth."""
+    def EnableALM(self, n: int, axes: int = 15) -> None:
+        """Alarm input: 0 off, 1 on."""
+    def EnableInPos(self, n: int, axes: int = 15) -> None:
+        """In-position input: 0 off, 1 on."""
+    def ALMSig(self, n: int, axes: int = 15) -> None:
+        """The alarm acts at: 0 Low, 1 High."""
+    def InPosSig(self, n: int, axes: int = 15) -> None:
+        """In-position acts at: 0 Low, 1 High."""
+    def SetOutput(self, axes: int, output: int, high: bool) -> None:
+        """nOUT0 to nOUT7: 4 to 7 while they are not used for the drive's status."""
+    def EnableInterrupt(self, axes: int, causes: int) -> None:
+        """Enables causes of interrupts, bits as in RR3: 1 to 255."""
+    def DisableInterrupt(self, axes: int, causes: int = 255) -> None:
+        """Disables causes of interrupts."""
+    def read_interrupts(self, axis: int) -> int:
+        """Reads and clears what came since the last call, bits as in RR3."""
+    def ReadLPS(self, axis: int) -> int:
+        """Logical position of a channel (0 X to 3 U), pulses."""
+    def ReadEPS(self, axis: int) -> int:
+        """Real position of a channel (0 X to 3 U), encoder counts."""
+    def ReadCV(self, axis: int) -> int:
+        """Present speed of a channel, units of the multiple; 0 at rest."""
+    def ReadCA(self, axis: int) -> int:
+        """Present acceleration of a channel, units of 125 * M; at constant speed the last one."""
+    def moving(self, axes: int = 15) -> bool:
+        """Whether one of the axes drives."""
+    def report(self, axis: int) -> str:
+        """Where a channel stands and why, as a sentence."""
+    def error_text(self, axes: int = 15) -> str:
+        """The reports of the axes that have an error or were stopped by an input; "" if none."""
+    def axis_speeds(self) -> list[float]:
+        """Speed of every axis, pulses a second, signed, also in interpolations."""
+    def multiple(self, axis: int) -> float:
+        """Pulses a second of one V unit of a channel; 0 before R was written."""
+    @staticmethod
+    def plan(pulses: int | None, R: int, SV: int, V: int, A: int, D: int | None = None, K: int | None = None, AO: int = 0) -> dict[str, Any]:
+        """What a drive will do, without moving anything, exact to the tick: times in s, speeds in pulses/s. K: an S-curve; D: another deceleration."""
+
+
+class SpeedScale:
+    """How fast the machine goes at a rate: counts for a pulse of FOUT, or counts/s for a volt."""
+    def __init__(self, counts_per_pulse: float | None = None, counts_per_volt: float | None = None) -> None: ...
+    def speed(self, rate: int) -> float:
+        """Counts/s at a rate, 0 to 16383."""
+    def rate_for(self, counts_s: float) -> int:
+        """The greatest rate that is not faster than so many counts/s."""
+
+
+class SlopeTable:
+    """48 intervals (rate 0 to 16383, counts 0 to 16,777,215): deceleration 0 to 23, acceleration 24 to 47."""
+    def __init__(self, entries: Sequence[tuple[int, int]]) -> None: ...
+    @staticmethod
+    def design(top_speed: float, acceleration: float, deceleration: float, scale: SpeedScale, load: float = 0.0, creep_speed: float = 0.0, lag_s: float = 0.0) -> SlopeTable:
+        """A table for what a machine may do: counts/s, counts/s2; load in inertias of the empty machine; creep_speed 0: a 24th of the top speed."""
+    def entries(self) -> list[tuple[int, int]]:
+        """The 48 intervals: (rate, counts)."""
+    def motion(self, distance: int, rate: int, scale: SpeedScale) -> dict[str, Any]:
+        """What the card does with it for a move of so many counts with that rate, before anything moves: seconds, top_speed (counts/s), legs."""
+
+
+class Databoard4002:
+    """The DataBoard 4002's function library. After the 127 ms in which the card must be Ready: MachineFault."""
+    def __init__(self, world: World, card: str, counts_per_mm: float = 1000.0, select: int = 13) -> None: ...
+    def connect(self) -> int:
+        """Looks for the card, clears the mark of its reset, gives its version. MachineFault if none answers."""
+    def reset(self) -> None:
+        """C3: hardware reset; position, rate and table are gone."""
+    def status(self) -> int:
+        """STAT as a word; its bits: card.STAT."""
+    def stops(self) -> str:
+        """"the right end stop is active"; "" if no stop is."""
+    def emergency(self) -> bool:
+        """Whether the emergency stop is active."""
+    def athome(self) -> None:
+        """A: the position becomes 0."""
+    def set_deviation(self, counts: int) -> None:
+        """D: what lock may let it deviate by, 0 to 8,388,607 counts."""
+    def deviation(self) -> int:
+        """D: present minus requested, counts."""
+    def go(self) -> None:
+        """G: begins a positioning."""
+    def initialise(self) -> None:
+        """I."""
+    def lock(self) -> None:
+        """L: holds the position."""
+    def manual(self) -> None:
+        """M: lets the position go."""
+    def set_number(self, counts: int) -> None:
+        """N, -8,388,608 to 8,388,607 counts."""
+    def on_regulation(self) -> None:
+        """O."""
+    def set_target(self, counts: int) -> None:
+        """P, -8,388,608 to 8,388,607 counts."""
+    def position(self) -> int:
+        """P: where it is, counts."""
+    def quit(self) -> None:
+        """Q: ends a positioning."""
+    def set_rate(self, rate: int) -> None:
+        """R, 0 to 16383; 0 switches the relay off."""
+    def rate(self) -> int:
+        """R: negative backwards, 0 while standing."""
+    def set_slope(self, table: SlopeTable) -> None:
+        """S: the 48 intervals of acceleration and deceleration."""
+    def version(self) -> int:
+        """V."""
+    def clear_watch_out(self) -> None:
+        """W."""
+    def enable_events(self, enables: int) -> int:
+        """C4: enables events and gives the EVENT word that was freed by it."""
+    def wait_event(self, wanted: int, timeout: float, interrupt: bool = False) -> int:
+        """Waits until one of the events 01h position, 02h zero, 04h reference, 20h stop has happened; the word. Timeout after timeout s."""
+    def move_to(self, counts: int, timeout: float = 60.0, interrupt: bool = False) -> None:
+        """Goes there, counts, with the present rate, mode and table. MachineFault if a stop holds the move, Timeout after timeout s."""
+    def move_by(self, counts: int, timeout: float = 60.0, interrupt: bool = False) -> None:
+        """Goes so many counts further; see move_to."""
+    def move_to_mm(self, mm: float, timeout: float = 60.0, interrupt: bool = False) -> None:
+        """Goes there, mm by counts_per_mm; see move_to."""
+    def position_mm(self) -> float:
+        """Where it is, mm by counts_per_mm."""
+    def find_zero(self, marks: int, far: int, rate: int, timeout: float = 60.0, interrupt: bool = False) -> None:
+        """Slowly (rate) towards far counts until zero (02h), reference (04h) or both (06h) make the counter 0."""
+
+
+class SpeedMeter:
+    """Speed of an axis from readings of an Ioflex02, with the error that it cannot exceed."""
+    def __init__(self, edge_error: float = 0.0) -> None:
+        """edge_error: how far an edge of the encoder may be from its place, counts."""
+    def update(self, raw: int, age: int, ticks: int) -> tuple[float, float] | None:
+        """A reading (counts, and 1.2 us ticks); (counts/s, error) or None before the second one."""
+    def restart(self) -> None:
+        """Forgets what was."""
+
+
+class Ioflex02:
+    """The IOFLEX02's unit uFlex2Pos under its source's names, and one layer up. Before Init has succeeded every read gives 0."""
+    def __init__(self, world: World, card: str) -> None: ...
+    cVer: str
+    cNop: int
+    cRes: int
+    cResNm: int
+    cResNmSig: int
+    def Init(self, Addr: int) -> int:
+        """Sets the base address, looks whether one card answers there, and loads the array; takes seconds of the rack's time. 0 if all is well, else see why."""
+    @property
+    def Result(self) -> int:
+        """0 ok, 1 configuration failed, 2 no card or two, 3 another project."""
+    @property
+    def why(self) -> str:
+        """The sentence to Result; "" if it is 0."""
+    def GetIdent(self) -> int:
+        """Version of the project in the array."""
+    def ReadTime(self) -> int:
+        """Time in ticks of 1.2 us, 0 to 16,777,215."""
+    def ReadTimeClr(self) -> int:
+        """The same, and the counter is cleared in the same access."""
+    def ReadPosition0(self) -> int:
+        """Position in counts since the calibration, -8,388,608 to 8,388,607."""
+    def ReadPosition1(self) -> int:
+        """Position in counts since the calibration, -8,388,608 to 8,388,607."""
+    def ReadPosition2(self) -> int:
+        """Position in counts since the calibration, -8,388,608 to 8,388,607."""
+    def ReadPosition3(self) -> int:
+        """Position in counts since the calibration, -8,388,608 to 8,388,607."""
+    def ReadTimeClrPosition(self) -> tuple[int, int, int, int, int]:
+        """Time (1.2 us, cleared) and the four positions (counts) of one instant."""
+    def WriteCmd(self, Cmd0: int, Cmd1: int, Cmd2: int, Cmd3: int) -> None:
+        """A calibration command for each axis: 0 cNop, 1 cRes, 2 cResNm, 3 cResNmSig."""
+    def ReadSts(self) -> tuple[bool, bool, bool, bool]:
+        """Whether each axis is calibrated (sCal)."""
+    def WriteOutL(self, Data: int) -> None:
+        """Low 8 outputs of X5."""
+    def WriteOutH(self, Data: int) -> None:
+        """High 8 outputs of X5."""
+    def ReadInL(self) -> int:
+        """Low 8 inputs."""
+    def ReadInH(self) -> int:
+        """High 8 inputs."""
+    def read(self) -> tuple[int, list[dict[str, Any]]]:
+        """Everything of one instant: time since Init (ticks of 1.2 us, carried on), and of each axis position, raw (counts), age of the last count (1.2 us), down."""
+    def set_mode(self, axis: int, reversed: bool = False, edges: int = 4, index_low: bool = False, filter: int = 0) -> None:
+        """How an axis (0 to 3) counts: edges 4, 2 or 1 a line; filter 0 to 15: a level counts after filter + 1 samples of 100 ns."""
+    def wait_calibrated(self, axis: int, timeout: float = 60.0) -> None:
+        """Waits until the axis is calibrated; Timeout after timeout s."""
+    def clear_errors(self) -> None:
+        """Clears the counters of errors."""
+    def reset(self) -> None:
+        """Positions and the card's time begin at 0."""
+
+
+class GratingCard:
+    """The function library of a motion card on a grating bus: the positions of one instant."""
+    def __init__(self, world: World, card: str) -> None: ...
+    def open(self) -> dict[str, Any]:
+        """Looks whether such a card answers: how it is set; period in s."""
+    def read(self) -> tuple[int, int, npt.NDArray[np.int64]]:
+        """The frame published last: (sequence, ticks of 100 ps, counts of 64 bits). Refused if there is none, if it is stale, or its CRC is wrong."""
+    def wait(self, timeout: float) -> tuple[int, int, npt.NDArray[np.int64]]:
+        """Waits for a frame that was not read yet, and reads it; Timeout after timeout s."""
+    def stale(self) -> bool:
+        """Whether the frame published last is two periods old."""
+    def errors(self) -> dict[str, Any]:
+        """What went wrong on the bus since the last clear_errors, each at most 65,535."""
+    def clear_errors(self) -> None:
+        """Clears those counters."""
+    def set_position(self, scale: int, count: int) -> None:
+        """From now on scale 0 to 254 of the frame counts from there on, where the next reading's low 32 bits allow it."""
+
+def bus_conflicts(world: World) -> int:
+    """Conflicts on all lines of the grating bus so far."""
+def refused_frames(world: World, card: str) -> int:
+    """Frames that the card did not publish since the start."""
+def frame_picture(world: World, frame: int) -> str:
+    """One frame of the rack as waves (SVG); a rack of its own is run for it."""
+
+class Rtc5:
+    """The RTC5's commands under their documented names, in bits, bits/ms and 10 us. List commands go to the list that set_start_list has opened."""
+    def __init__(self, world: World, card: str) -> None: ...
+    def set_end_of_list(self, *parameters: float) -> None:
+        """List command: the list ends."""
+    def list_nop(self, *parameters: float) -> None:
+        """List command: one tick."""
+    def long_delay(self, *parameters: float) -> None:
+        """List command: holds the position. Delay 0 to 4294967295 times 10 us."""
+    def jump_abs(self, *parameters: float) -> None:
+        """List command: straight, laser off, at the jump speed. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
+    def jump_rel(self, *parameters: float) -> None:
+        """List command: as jump_abs, from the present position. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
+    def mark_abs(self, *parameters: float) -> None:
+        """List command: straight, laser on, at the mark speed. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
+    def mark_rel(self, *parameters: float) -> None:
+        """List command: as mark_abs, from the present position. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
+    def arc_abs(self, *parameters: float) -> None:
+        """List command: about the centre X, Y, laser on; positive is clockwise. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. Angle -3600 to 3600 degrees."""
+    def arc_rel(self, *parameters: float) -> None:
+        """List command: as arc_abs, the centre from the present position. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. Angle -3600 to 3600 degrees."""
+    def timed_jump_abs(self, *parameters: float) -> None:
+        """List command: as jump_abs, in T rounded down to 10 us. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. T 0 to 4294967295 us."""
+    def timed_jump_rel(self, *parameters: float) -> None:
+        """List command: as jump_rel, in T rounded down to 10 us. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. T 0 to 4294967295 us."""
+    def timed_mark_abs(self, *parameters: float) -> None:
+        """List command: as mark_abs, in T rounded down to 10 us. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. T 0 to 4294967295 us."""
+    def timed_mark_rel(self, *parameters: float) -> None:
+        """List command: as mark_rel, in T rounded down to 10 us. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. T 0 to 4294967295 us."""
+    def micro_vector_abs(self, *parameters: float) -> None:
+        """List command: one tick; the laser is switched at these instants of it, if they are 0 to 19. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. LasOn -2147483648 to 2147483647 times 0.5 us. LasOff -2147483648 to 2147483647 times 0.5 us."""
+    def micro_vector_rel(self, *parameters: float) -> None:
+        """List command: as micro_vector_abs, from the present position. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. LasOn -2147483648 to 2147483647 times 0.5 us. LasOff -2147483648 to 2147483647 times 0.5 us."""
+    def set_jump_speed(self, *parameters: float) -> None:
+        """List command: of jumps from here on. Speed 1.6 to 800000 bits/ms."""
+    def set_mark_speed(self, *parameters: float) -> None:
+        """List command: of marks and arcs from here on. Speed 1.6 to 800000 bits/ms."""
+    def set_scanner_delays(self, *parameters: float) -> None:
+        """List command: waits after jumps, polylines and corners. Jump 0 to 4294967295 times 10 us. Mark 0 to 4294967295 times 10 us. Polygon 0 to 4294967295 times 10 us."""
+    def set_laser_delays(self, *parameters: float) -> None:
+        """List command: from the path's begin and end to the laser's. LaserOnDelay -32768 to 65535 times 0.5 us. LaserOffDelay -32768 to 65535 times 0.5 us."""
+    def laser_on_list(self, *parameters: float) -> None:
+        """List command: laser on for the time, position held. Period 0 to 4294967295 times 10 us."""
+    def laser_signal_on_list(self, *parameters: float) -> None:
+        """List command: laser on."""
+    def laser_signal_off_list(self, *parameters: float) -> None:
+        """List command: laser off."""
+    def write_io_port_list(self, *parameters: float) -> None:
+        """List command: sets the 16 digital outputs. Value 0 to 65535."""
+    def set_fly_x(self, *parameters: float) -> None:
+        """List command: X moves with Encoder0, which becomes 0; 0 is off. ScaleX -1000000000 to 1000000000."""
+    def set_fly_y(self, *parameters: float) -> None:
+        """List command: Y moves with Encoder1, which becomes 0; 0 is off. ScaleY -1000000000 to 1000000000."""
+    def set_fly_z(self, *parameters: float) -> None:
+        """List command: Z moves with the encoder, which becomes 0; 0 is off. ScaleZ -1000000000 to 1000000000. EncoderNo 0 to 255."""
+    def set_fly_rot(self, *parameters: float) -> None:
+        """List command: turns with Encoder0, which becomes 0; counts a turn, positive is counter-clockwise, under 100 is off. Resolution -1000000000 to 1000000000."""
+    def set_fly_2d(self, *parameters: float) -> None:
+        """List command: X and Y move with both encoders and the compensation table. ScaleX -1000000000 to 1000000000. ScaleY -1000000000 to 1000000000."""
+    def set_fly_x_pos(self, *parameters: float) -> None:
+        """List command: X moves with the McBSP word; 0 is off. ScaleX -1000000000 to 1000000000."""
+    def set_fly_y_pos(self, *parameters: float) -> None:
+        """List command: Y moves with the McBSP word; 0 is off. ScaleY -1000000000 to 1000000000."""
+    def set_fly_rot_pos(self, *parameters: float) -> None:
+        """List command: turns with the McBSP word; under 100 is off. Resolution -1000000000 to 1000000000."""
+    def activate_fly_xy(self, *parameters: float) -> None:
+        """List command: as set_fly_x and set_fly_y; the encoders keep their counts. ScaleX -1000000000 to 1000000000. ScaleY -1000000000 to 1000000000."""
+    def activate_fly_2d(self, *parameters: float) -> None:
+        """List command: as set_fly_2d; the encoders keep their counts. ScaleX -1000000000 to 1000000000. ScaleY -1000000000 to 1000000000."""
+    def fly_return(self, *parameters: float) -> None:
+        """List command: every correction off, then a jump. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
+    def fly_return_z(self, *parameters: float) -> None:
+        """List command: as fly_return; Z is there at once. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits. Z -8388608 to 8388607 bits."""
+    def set_rot_center_list(self, *parameters: float) -> None:
+        """List command: what the rotary corrections turn about. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
+    def store_encoder(self, *parameters: float) -> None:
+        """List command: keeps both counts for read_encoder. Pos 0 to 255."""
+    def wait_for_encoder(self, *parameters: float) -> None:
+        """List command: as wait_for_encoder_mode with Mode 0. Value -2147483648 to 2147483647 counts. EncoderNo 0 to 255."""
+    def wait_for_encoder_mode(self, *parameters: float) -> None:
+        """List command: holds until the count is there. Value -2147483648 to 2147483647 counts. EncoderNo 0 to 255. Mode -2147483648 to 2147483647."""
+    def wait_for_encoder_in_range(self, *parameters: float) -> None:
+        """List command: holds until both counts are in range. EncXmin -2147483648 to 2147483647 counts. EncXmax -2147483648 to 2147483647 counts. EncYmin -2147483648 to 2147483647 counts. EncYmax -2147483648 to 2147483647 counts."""
+    def wait_for_mcbsp(self, *parameters: float) -> None:
+        """List command: holds until the McBSP value is there. Axis 0 to 255. Value -2147483648 to 2147483647 counts. Mode -2147483648 to 2147483647."""
+    def set_fly_limits(self, *parameters: float) -> None:
+        """List command: the area that bits 4 to 7 watch. Xmin -8388608 to 8388607 bits. Xmax -8388608 to 8388607 bits. Ymin -8388608 to 8388607 bits. Ymax -8388608 to 8388607 bits."""
+    def set_fly_limits_z(self, *parameters: float) -> None:
+        """List command: what bits 24 and 25 watch. Zmin -8388608 to 8388607 bits. Zmax -8388608 to 8388607 bits."""
+    def if_fly_x_overflow(self, *parameters: float) -> None:
+        """List command: the next command only if bit 4 or 5 is set; clears them. Mode -2147483648 to 2147483647."""
+    def if_fly_y_overflow(self, *parameters: float) -> None:
+        """List command: the same of bits 6 and 7. Mode -2147483648 to 2147483647."""
+    def if_fly_z_overflow(self, *parameters: float) -> None:
+        """List command: the same of bits 24 and 25. Mode -2147483648 to 2147483647."""
+    def if_not_fly_x_overflow(self, *parameters: float) -> None:
+        """List command: the next command only if they are not set; clears them. Mode -2147483648 to 2147483647."""
+    def if_not_fly_y_overflow(self, *parameters: float) -> None:
+        """List command: the same of bits 6 and 7. Mode -2147483648 to 2147483647."""
+    def if_not_fly_z_overflow(self, *parameters: float) -> None:
+        """List command: the same of bits 24 and 25. Mode -2147483648 to 2147483647."""
+    def clear_fly_overflow(self, *parameters: float) -> None:
+        """List command: clears bits 4, 5 (Mode bit 0), 6, 7 (bit 1), 24, 25 (bit 2); 0: all. Mode -2147483648 to 2147483647."""
+    def park_position(self, *parameters: float) -> None:
+        """List command: jumps away; with Mode 0 the correction pauses. Mode -2147483648 to 2147483647. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
+    def park_return(self, *parameters: float) -> None:
+        """List command: jumps back: Mode 0 to where it left, else to X, Y. Mode -2147483648 to 2147483647. X -8388608 to 8388607 bits. Y -8388608 to 8388607 bits."""
+    def set_ext_start_delay_list(self, *parameters: float) -> None:
+        """List command: track delay of external starts. Delay -2147483648 to 2147483647 counts. EncoderNo 0 to 255."""
+    def simulate_ext_start(self, *parameters: float) -> None:
+        """List command: an external start with this track delay. Delay -2147483648 to 2147483647 counts. EncoderNo 0 to 255."""
+    def set_control_mode_list(self, *parameters: float) -> None:
+        """List command: bits 0, 9, 10: external start, reset at start, equidistant. Mode 0 to 65535."""
+    def set_encoder_speed(self, *parameters: float) -> None:
+        """List command: target and smoothing of the encoder's speed. EncoderNo 0 to 255. Speed -1000000000 to 1000000000. Smooth -1000000000 to 1000000000."""
+    def set_mcbsp_in_list(self, *parameters: float) -> None:
+        """List command: X (1), Y (2) or both (3) move with the McBSP word; 0 is off. Mode -2147483648 to 2147483647. Scale -1000000000 to 1000000000."""
+    def set_multi_mcbsp_in_list(self, *parameters: float) -> None:
+        """List command: McBSP words carry their type: x, y, z, laser power and parameters. Ctrl 0 to 255. P 0 to 4294967295 times 10 us. Mode -2147483648 to 2147483647."""
+    def get_mcbsp_list(self, *parameters: float) -> None:
+        """List command: puts the present McBSP word to memory location 0."""
+    def set_mcbsp_x_list(self, *parameters: float) -> None:
+        """List command: online positioning of X; 0 is off. ScaleX -1000000000 to 1000000000."""
+    def set_mcbsp_y_list(self, *parameters: float) -> None:
+        """List command: online positioning of Y; 0 is off. ScaleY -1000000000 to 1000000000."""
+    def set_mcbsp_rot_list(self, *parameters: float) -> None:
+        """List command: online positioning of the angle; under 100 is off. Resolution -1000000000 to 1000000000."""
+    def set_mcbsp_matrix_list(self, *parameters: float) -> None:
+        """List command: online positioning of matrix coefficients."""
+    def apply_mcbsp_list(self, *parameters: float) -> None:
+        """List command: what came by online positioning, to a head. HeadNo 1 to 4. at_once 0 to 255."""
+    def set_matrix_list(self, *parameters: float) -> None:
+        """List command: one coefficient of the matrix. HeadNo 1 to 4. Ind1 0 to 255. Ind2 0 to 255. Mij -50 to 50. at_once 0 to 255."""
+    def set_offset_list(self, *parameters: float) -> None:
+        """List command: offset behind the matrix. HeadNo 1 to 4. XOffset -8388608 to 8388607 bits. YOffset -8388608 to 8388607 bits. at_once 0 to 255."""
+    def set_angle_list(self, *parameters: float) -> None:
+        """List command: rotation, counter-clockwise. HeadNo 1 to 4. Angle -3600 to 3600 degrees. at_once 0 to 255."""
+    def set_scale_list(self, *parameters: float) -> None:
+        """List command: scaling, -16 to 16. HeadNo 1 to 4. Scale -50 to 50. at_once 0 to 255."""
+    def set_trigger(self, *parameters: float) -> None:
+        """List command: records two signals from this tick on, one sample a period; 0 ends it. Period 0 to 4294967295 times 10 us. Signal1 0 to 255. Signal2 0 to 255."""
+    def set_trigger4(self, *parameters: float) -> None:
+        """List command: as set_trigger, four signals. Period 0 to 4294967295 times 10 us. Signal1 0 to 255. Signal2 0 to 255. Signal3 0 to 255. Signal4 0 to 255."""
+    def set_wobbel(self, *parameters: float) -> None:
+        """List command: marks are drawn by an ellipse across and along the motion; amplitudes of 0 or a frequency of 0 are off. Transversal 0 to 131071 bits. Longitudinal 0 to 131071 bits. Freq -6000 to 6000 Hz."""
+    def list_call(self, *parameters: float) -> None:
+        """List command: goes on at Pos, until list_return. Pos 0 to 1048575."""
+    def sub_call(self, *parameters: float) -> None:
+        """List command: the same with a subroutine of load_sub. Index 0 to 1023."""
+    def list_return(self, *parameters: float) -> None:
+        """List command: goes on behind the call."""
+    def set_start_list(self, ListNo: int, Pos: int = 0) -> None:
+        """List commands go to list 1 or 2 from here on, from that position."""
+    def load_list(self, ListNo: int, Pos: int = 0) -> int:
+        """The same for a list that is not running: 1, 2, 0 (the free one) or 3 (free and run to its end); the list opened, or 0."""
+    def load_sub(self, index: int) -> None:
+        """What is put up to list_return becomes subroutine 0 to 1023."""
+    def config_list(self, list1: int, list2: int) -> None:
+        """Positions of list 1 and list 2; -1: the rest."""
+    def execute_list(self, ListNo: int, Pos: int = 0) -> None:
+        """Starts list 1 or 2."""
+    def auto_change(self) -> None:
+        """The other list starts when this one ends."""
+    def start_loop(self) -> None:
+        """Lists 1 and 2 run in turn."""
+    def quit_loop(self) -> None:
+        """No longer in turn."""
+    def pause_list(self) -> None:
+        """Holds the list."""
+    def restart_list(self) -> None:
+        """Goes on after pause_list."""
+    def stop_execution(self) -> None:
+        """Ends the list at once."""
+    def external_start(self) -> None:
+        """As if the start line rose."""
+    def external_stop(self) -> None:
+        """As if the stop line rose."""
+    def enable_laser(self) -> None:
+        """Lets the laser's signals out."""
+    def disable_laser(self) -> None:
+        """Keeps them in."""
+    def goto_xy(self, x: float, y: float) -> None:
+        """Jumps there, bits, while no list runs."""
+    def set_jump_speed_ctrl(self, bits_ms: float) -> None:
+        """Jump speed, 1.6 to 800,000 bits/ms."""
+    def set_mark_speed_ctrl(self, bits_ms: float) -> None:
+        """Mark speed, 1.6 to 800,000 bits/ms."""
+    def set_control_mode(self, mode: int) -> None:
+        """Bit 0: the start line starts a list."""
+    def set_matrix(self, head: int, matrix: Sequence[float], at_once: int = 1) -> None:
+        """Matrix m11, m12, m21, m22 of a head, 1 to 4."""
+    def set_offset(self, head: int, x: float, y: float, at_once: int = 1) -> None:
+        """Offset of a head, bits."""
+    def set_angle(self, head: int, degrees: float, at_once: int = 1) -> None:
+        """Rotation of a head, degrees."""
+    def set_scale(self, head: int, scale: float, at_once: int = 1) -> None:
+        """Scale of a head."""
+    def read_status(self) -> int:
+        """Status of the lists, as read_status."""
+    def get_status(self) -> tuple[int, int]:
+        """(status, position in the list)."""
+    def get_marking_info(self) -> int:
+        """What went wrong in marking, bits; reading clears them. See marking_info_text."""
+    @staticmethod
+    def marking_info_text(bits: int) -> list[str]:
+        """A sentence for each bit."""
+    def get_startstop_info(self) -> int:
+        """What the start and stop lines did, bits."""
+    def get_value(self, signal: int) -> int:
+        """A signal by its number, 0 to 255."""
+    def get_encoder(self) -> tuple[int, int]:
+        """(encoder 0, encoder 1), counts."""
+    def list_space(self) -> int:
+        """Free positions of the list that is being put into."""
+    def busy(self) -> bool:
+        """Whether a list runs; takes no time."""
+    def output(self) -> tuple[int, int, bool]:
+        """Where head A is (bits) and whether its laser is on; takes no time."""
+    def wait(self, timeout: float = 60.0) -> None:
+        """Until the card rests; Timeout after timeout s."""
+    @property
+    def question_seconds(self) -> float:
+        """Time that a question takes, s, before the card answers; 10 us at first."""
+    @question_seconds.setter
+    def question_seconds(self, value: float) -> None: ...

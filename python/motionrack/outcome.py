@@ -1,0 +1,221 @@
+"""What came of a part program, and of homing."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from . import _core
+from ._time import seconds_of
+from .errors import Error
+from .trace import Trace, Values
+
+
+@dataclass(frozen=True)
+class AxisOutcome:
+    """What one axis did. Positions in ``unit`` (mm or deg), speeds per s, accelerations per s2."""
+
+    axis: str
+    unit: str
+    servo: bool  #: it follows a voltage: pulses are those of its encoder, none are sent
+    min_position: float
+    max_position: float
+    max_speed: float
+    max_accel: float
+    pulses_sent: int  #: of both directions
+    pulses_net: int  #: forward less backward
+    pulse_position: int  #: the card's counter LP at the end
+    pulse_start: int  #: and at the start
+    counts_read: int  #: the card's encoder counter EP at the end
+    counts_expected: int  #: what EP would be if every pulse had moved the motor
+    lost_pulses: int  #: pulses that the motor did not follow
+    planned_end: float
+    real_end: float  #: where the machine is
+    top_speed: float
+    top_accel: float  #: over 4 samples without a jump
+    top_jump: float  #: greatest change of speed at once
+
+
+@dataclass(frozen=True)
+class Block:
+    """A planned move as it was driven: length in mm (deg), speeds per s, start and end in s since the rack's start."""
+
+    block: int
+    line: int
+    kind: str  #: traverse, feed, arc or dwell
+    length: float
+    entry_speed: float
+    cruise_speed: float
+    exit_speed: float
+    start: float
+    end: float
+    deviation_mm: float  #: the worst in it
+
+
+@dataclass(frozen=True)
+class Warning:
+    """A sentence about something that happened, at an instant (s since the rack's start); line 0: none."""
+
+    seconds: float
+    line: int
+    text: str
+
+
+@dataclass(frozen=True)
+class Worst:
+    """Where the machine was farthest from the programmed path."""
+
+    mm: float
+    seconds: float  #: since the rack's start
+    line: int
+    place: tuple[float, float, float]  #: where the machine was, mm
+
+
+@dataclass(frozen=True)
+class ProgramEvent:
+    """A spindle, tool or message word, with the block that was handed out before it (-1: none)."""
+
+    line: int
+    after_block: int
+    text: str
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A part program that was run. ``ok``: it ended as programmed, and no step was lost; else ``error`` says why."""
+
+    ok: bool
+    error: Error | None
+    seconds: float  #: virtual time of the job
+    ticks: int  #: the same in ticks of 100 ps
+    planned_seconds: float
+    path_mm: float  #: planned path of X, Y, Z
+    moves: int  #: planned
+    dwells: int
+    stops: int  #: moves that end at rest
+    top_path_speed: float  #: mm/s, planned
+    lines: int  #: read
+    moves_read: int  #: of the program, without dwells
+    program_ended: bool  #: by M2 or M30
+    axes: Mapping[str, AxisOutcome]
+    worst: Worst
+    tolerance_mm: float  #: the greatest deviation that the program allows somewhere
+    warnings: list[Warning]
+    faults_not_done: list[str]  #: planned faults: the run ended before, or the part refused them
+    program_events: list[ProgramEvent]
+    program_events_left_out: int
+    blocks: list[Block]
+    blocks_left_out: int
+    chip_segments: int  #: commands that the card was given
+    events: int  #: of the kernel: what the run cost
+    trace_hash: str  #: of the history, 16 digits; see Trace.hash
+    rest_axis: str | None  #: of the servos the one that stands farthest from where it was sent
+    rest_off: float  #: and how far, mm or deg
+    position_trusted: bool  #: False once steps were lost
+    trace: Trace = field(repr=False)
+    _ran: Any = field(repr=False, compare=False)
+
+    def check(self) -> Outcome:
+        """Raises ``error`` if there is one; else the outcome itself."""
+        if self.error is not None:
+            raise self.error
+        return self
+
+    def summary(self) -> str:
+        """What ``motionrack run`` prints at the end."""
+        return str(self._ran.summary())
+
+    def json(self) -> str:
+        """What ``motionrack run --json`` prints."""
+        return str(self._ran.json())
+
+    def svg(self, perspective: bool = False) -> str:
+        """The programmed and the driven path from above or in perspective (SVG). Refused once the rack was closed."""
+        return str(self._ran.svg(perspective))
+
+    def write_report(self, path: str) -> None:
+        """The page that ``motionrack run`` writes: one HTML file. FileTrouble."""
+        self._ran.write_report(path)
+
+    def write_csv(self, path: str) -> None:
+        """Position, speed and deviation of every sample as CSV. FileTrouble."""
+        self._ran.write_csv(path)
+
+    def write_events(self, path: str) -> None:
+        """What happened (blocks, warnings, the stop) as CSV. FileTrouble."""
+        self._ran.write_events(path)
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{self.summary()}</pre>{self.svg()}"
+
+    def __str__(self) -> str:
+        return self.summary().rstrip("\n")
+
+
+def outcome_of(world: _core.World, ran: _core.Ran, title: str) -> Outcome:
+    """Everything that C++ has of a job, with names and units."""
+    data = dict(ran.data())
+    axes = {axis["axis"]: AxisOutcome(**axis) for axis in data.pop("axes")}
+    error = ran.error()
+    ticks, signals = ran.samples()
+    trace = Trace(ticks, signals, job_units(signals, axes), data["trace_hash"], title)
+    worst = Worst(data.pop("worst_mm"), seconds_of(data.pop("worst_ticks")), data.pop("worst_line"), data.pop("worst_place"))
+    return Outcome(
+        ok=error is None and data["position_trusted"], error=error, seconds=seconds_of(data["ticks"]), axes=axes, worst=worst,
+        warnings=[Warning(seconds_of(at), line, text) for at, line, text in data.pop("warnings")],
+        faults_not_done=world.not_done(),
+        program_events=[ProgramEvent(*event) for event in data.pop("program_events")],
+        blocks=[Block(**block) for block in data.pop("blocks")], trace=trace, _ran=ran, **data)
+
+
+def job_units(signals: Mapping[str, Values], axes: Mapping[str, AxisOutcome]) -> dict[str, str]:
+    """Units of the samples of a job."""
+    ends = {"position": "", "speed": "/s", "accel": "/s2"}
+    out = {"deviation": "mm"}
+    for name in signals:
+        axis, _, what = name.partition(".")
+        if what:
+            out[name] = "V" if what == "volts" else axes[axis].unit + ends[what]
+    return out
+
+
+@dataclass(frozen=True)
+class Homing:
+    """What homing found. ``axes`` has for each axis what ``motionrack home --json`` tells: states, edges, places (mm or deg), s."""
+
+    ok: bool
+    error: Error | None
+    seconds: float
+    axes: Mapping[str, dict[str, Any]]
+    pictures: Mapping[str, str] = field(repr=False)  #: position, speed and states over time, SVG, of each axis that was begun
+    _text: str = field(repr=False)
+    _json: str = field(repr=False)
+
+    def check(self) -> Homing:
+        """Raises ``error`` if there is one; else the outcome itself."""
+        if self.error is not None:
+            raise self.error
+        return self
+
+    def summary(self) -> str:
+        """What ``motionrack home`` prints."""
+        return self._text
+
+    def json(self) -> str:
+        """What ``motionrack home --json`` prints."""
+        return self._json
+
+    def __str__(self) -> str:
+        return self._text.rstrip("\n")
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{self._text}</pre>{''.join(self.pictures.values())}"
+
+
+def homing_of(error: Error | None, text: str, as_json: str, pictures: dict[str, str]) -> Homing:
+    """A homing as C++ tells it."""
+    data = json.loads(as_json)
+    return Homing(ok=bool(data["homed"]), error=error, seconds=float(data["seconds"]), axes={axis["axis"]: axis for axis in data["axes"]},
+                  pictures=pictures, _text=text, _json=as_json)

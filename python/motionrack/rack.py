@@ -1,0 +1,283 @@
+"""A rack: cards, wires and the machine at their ends, in virtual time."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from types import TracebackType
+
+from . import _core
+from ._time import seconds_of, ticks_of
+from .cards import Cards
+from .errors import BadInput, FileTrouble, Refused, Timeout
+from .outcome import Homing, Outcome, homing_of, outcome_of
+from .parts import Parts, Wires
+from .recording import Recording, Waves
+
+Progress = Callable[[float, int, int], None]
+
+
+class Rack:
+    """A rack of cards. Its time is virtual: it passes in the calls that say so and in accesses of a card's bus, nowhere else.
+
+    One thread at a time; the others are Refused. Python's other threads go on while a rack runs. The same calls give the same history, bit for
+    bit. As a context manager it is closed at the end of the block.
+    """
+
+    def __init__(self, world: _core.World, warnings: Iterable[str] = ()) -> None:
+        self._world = world
+        self.warnings = list(warnings)  #: of the rack file, a sentence each
+        self.cards = Cards(world)  #: by their names
+        self.parts = Parts(world)  #: axes, stages, belts, tables, scan heads by their names
+        self.wires = Wires(world)  #: by their names
+        self._name = str(world.config()["name"])
+
+    # ---- making one ----
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> Rack:
+        """The rack of a rack file. BadInput with ``problems``, each with its line and column; FileTrouble."""
+        return cls(*_core.open_file(os.fspath(path)))
+
+    @classmethod
+    def from_text(cls, text: str, name: str = "") -> Rack:
+        """The rack of a rack file's text; ``name`` stands in the errors. ``'card.c1 = "mcx314"'`` is a whole rack. BadInput."""
+        return cls(*_core.open_text(text, name))
+
+    @classmethod
+    def template(cls, name: str = "router") -> Rack:
+        """A rack to begin with: one of :func:`motionrack.templates`. BadInput."""
+        return cls(*_core.open_text(_core.template_text(name), ""))
+
+    def fresh(self) -> Rack:
+        """Another rack of the same file, at time 0."""
+        return Rack(self._world.fresh(), self.warnings)
+
+    def change_card(self, name: str, **settings: float) -> None:
+        """Gives a card other numbers before the rack's time begins, in the units of their keys in a rack file: ``change_card("host", period_us=250)``.
+
+        Each is held to its own range, and the card alone must be sound. Whether it fits the other cards is not looked at, as it is in a rack file:
+        for experiments with what a rack file refuses. BadInput, Refused.
+        """
+        for key, value in settings.items():
+            self._world.set_card(name, key, float(value))
+
+    def close(self) -> None:
+        """Ends the rack and frees it; a recording that runs is ended. Everything of it is Refused afterwards."""
+        if not self._world.closed():
+            self._world.close()
+
+    def __enter__(self) -> Rack:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    @property
+    def name(self) -> str:
+        """The rack's name in its file."""
+        return self._name
+
+    @property
+    def axes(self) -> dict[str, str]:
+        """Its axes with their units, ``{"X": "mm", "A": "deg"}``."""
+        return dict(self._world.config()["axes"])
+
+    def __repr__(self) -> str:
+        if self._world.closed():
+            return f"<rack {self.name!r}, closed>"
+        return f"<rack {self.name!r}: {', '.join(self.cards) or 'no cards'}; {self.time:.9g} s>"
+
+    # ---- time ----
+
+    @property
+    def time(self) -> float:
+        """Virtual time since the start, s."""
+        return seconds_of(self._world.ticks())
+
+    @property
+    def ticks(self) -> int:
+        """Virtual time since the start, whole ticks of 100 ps."""
+        return self._world.ticks()
+
+    def advance(self, seconds: float = 0.0, *, ms: float = 0, us: float = 0, ns: float = 0) -> None:
+        """Lets the world run for so long, 0 to 14 years in all; whole numbers are exact to the tick of 100 ps. Refused beyond that."""
+        self._world.advance(ticks_of(seconds, ms, us, ns))
+
+    def wait(self, condition: Callable[[], object], timeout: float, every: float = 1e-3) -> None:
+        """Runs until ``condition()`` is true, which is asked now and every ``every`` s (> 0); Timeout after ``timeout`` s."""
+        step, end = ticks_of(every), self.ticks + ticks_of(timeout)
+        if step <= 0:
+            raise Refused(f"The condition is to be asked every {every} s; that must be more than 0. Nothing was run.")
+        while not condition():
+            if self.ticks >= end:
+                raise Timeout(f"What was waited for did not come within {timeout:g} s; the rack is at {self.time:.9g} s.")
+            self._world.advance(min(step, end - self.ticks))
+
+    def wait_wire(self, name: str, level: int, timeout: float) -> None:
+        """Runs until a digital wire has that level, and stands at the very instant; Timeout after ``timeout`` s. BadInput.
+
+        A pin that a card drives on demand, as its pulse outputs, is driven while it is waited for, and is part of the history then.
+        """
+        if level not in (0, 1):
+            raise Refused(f"The level of a wire is 0 or 1, not {level}. Nothing was run.")
+        if not self._world.wait_wire(name, level, ticks_of(timeout)):
+            raise Timeout(f"{name} did not become {level} within {timeout:g} s; the rack is at {self.time:.9g} s.")
+
+    # ---- looking ----
+
+    def peek(self, name: str) -> int:
+        """A register or value of a card, ``"c1.x.LP"``, without any effect; takes no time. BadInput."""
+        card, _, value = name.partition(".")
+        return _core.peek(self._world, card, value)
+
+    def get(self, name: str) -> float:
+        """A quantity of a part or card, ``"X.position_mm"``, ``"c1.fout_hz"``; its unit is its name's end. BadInput."""
+        return self._world.quantity(name)
+
+    def set(self, name: str, value: float) -> None:
+        """Pushes a part there by hand: ``position_mm`` (``position_deg``), ``position_pulses``; of a belt or table ``speed_mm_s`` (``speed_deg_s``).
+
+        A motor in step goes to the nearest place of the same electrical phase, so read the quantity to see where it came to. BadInput, Refused.
+        """
+        self._world.set_quantity(name, float(value))
+
+    @property
+    def conditions(self) -> list[tuple[float, str]]:
+        """What happened to the machine and cards so far (a lost step, a command ignored): s, and a sentence."""
+        return [(seconds_of(ticks), text) for ticks, text in self._world.conditions()]
+
+    def bus_conflicts(self) -> int:
+        """How often two cards drove a line of the grating bus against each other so far. Refused without a grating bus."""
+        return _core.bus_conflicts(self._world)
+
+    def frame_picture(self, frame: int = 1) -> str:
+        """Frame number 1 .. of the grating bus as waves (SVG); a rack of its own is run for it. Refused without one."""
+        return _core.frame_picture(self._world, frame)
+
+    def trace_hash(self) -> str:
+        """The hash of the history so far, 16 digits: every change of a wire and every condition at its tick. See :meth:`Trace.hash`."""
+        return self._world.trace_hash()
+
+    def state_hash(self) -> str:
+        """Equal worlds, equal hash: 16 digits."""
+        return self._world.state_hash()
+
+    # ---- breaking things ----
+
+    @property
+    def faults(self) -> dict[str, list[str]]:
+        """Everything that can be broken, and how: the faults of each target."""
+        return dict(self._world.fault_targets())
+
+    def fault(self, target: str, fault: str, value: float | None = None) -> None:
+        """Breaks something at this instant, or mends it: ``fault("X", "encoder.broken_a")``, ``fault("X", "motor.lose_steps", 64)``.
+
+        Without a value it is 1; 0 mends what can be mended. BadInput (names), Refused (the part is missing, the value).
+        """
+        self._world.fault(fault if value is None else f"{fault}={value:.17g}", target)
+
+    def plan_fault(self, text: str, value: float | str | None = None, *, at: float | None = None) -> None:
+        """Plans a fault before the rack's time begins, as a command line does: ``"X.limit_plus=0@0.5s"``, ``"X.encoder.broken_a@1s"``.
+
+        Or in pieces: ``plan_fault("X.limit_plus", 0, at=0.5)`` with ``at`` in s (0 to 1e6). A wire takes 0, 1 or ``"release"``.
+        """
+        if at is not None:
+            shown = "" if value is None else f"={value if isinstance(value, str) else format(value, '.17g')}"
+            text = f"{text}{shown}@{at!r}s"
+        self._world.plan_faults([text])
+
+    # ---- the controller ----
+
+    def run(self, program: str | None = None, *, path: str | os.PathLike[str] | None = None, profile: str | None = None,
+            faults: Iterable[str] = (), block_delete: bool = False, sample_period: float = 1e-3, progress: Progress | None = None,
+            name: str | None = None) -> Outcome:
+        """Runs a part program from time 0 to standstill: its text, or the file at ``path``.
+
+        ``profile``: ``"trapezoid"`` or ``"jerk_limited"`` instead of the rack file's. ``faults``: see :meth:`plan_fault`. ``sample_period``: of
+        the outcome's trace, s (1e-6 to 3600). ``progress(seconds, line, lines)`` is called about every 50 ms of virtual time and may look, not move.
+
+        BadInput with all ``problems``, each with line and column, if anything in the program is wrong: nothing moved. Refused on a rack that has
+        no axes or is not at time 0. What the machine did wrong is the outcome's ``error``.
+        """
+        text, name = _program(program, path, name)
+        ran = _core.run(self._world, text, name, block_delete, ticks_of(sample_period), profile, list(faults), progress)
+        return outcome_of(self._world, ran, name or self.name)
+
+    def check(self, program: str | None = None, *, path: str | os.PathLike[str] | None = None, block_delete: bool = False, name: str | None = None) -> None:
+        """Raises what is wrong with a part program on this rack, with all ``problems``; moves nothing and takes no time. See :meth:`run`."""
+        _core.check(self._world, *_program(program, path, name), block_delete)
+
+    def home(self, axes: str = "", *, type: int | None = None, timeout: float = 3600.0) -> Homing:
+        """Lets axes find their home switches: ``"XY"``; ``""``: every axis that has one. ``type`` 1 to 4 instead of the rack file's; ``timeout`` in s
+        of each group. What failed is the outcome's ``error``."""
+        return homing_of(*_core.home(self._world, axes, type, ticks_of(timeout)))
+
+    # ---- recordings ----
+
+    def record(self, *signals: str, every: float = 1e-3, most: int = 1_000_000) -> Recording:
+        """Begins to look at wires (``"c1.xdrive"``), values of cards (``"c1.x.LP"``) and quantities (``"X.position_mm"``) every ``every`` s (1e-6 to 3600).
+
+            with rack.record("X.position_mm", "c1.x.LP") as recording:
+                rack.advance(1)
+            recording.trace.plot()
+
+        Of more than ``most`` instants every second one is left out, and the period doubled. One recording at a time. BadInput, Refused.
+        """
+        return Recording(self._world, signals, ticks_of(every), most, self.name)
+
+    def waves(self, path: str | os.PathLike[str], *signals: str) -> Waves:
+        """Begins to write waves of wires, pulses and counters to a file that ends in ``.vcd`` or ``.csv``, until :meth:`Waves.stop` or the end of the block.
+
+        ``signals``: patterns with * and ?; none: all but the pins that cards drive on demand. Refused, BadInput, FileTrouble.
+        """
+        return Waves(self._world, os.fspath(path), signals)
+
+    # ---- the whole world ----
+
+    def copy(self) -> Rack:
+        """A rack of its own in the same state: the same calls from here on do the same in both. Recordings stay with this one."""
+        return Rack(self._world.copy(), self.warnings)
+
+    def snapshot(self) -> Snapshot:
+        """The state of the whole world, for :meth:`restore`. Function libraries are programs of the host: what they remember is not in it."""
+        return Snapshot(self._world.copy())
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Puts the world back into a state of this rack or of one of the same file, time included. Refused while a recording runs."""
+        if snapshot._world.config() != self._world.config():
+            raise Refused("The snapshot is of a rack of another kind; nothing was done.")
+        self._world.copy_from(snapshot._world)
+
+
+def _program(program: str | None, path: str | os.PathLike[str] | None, name: str | None) -> tuple[str, str]:
+    """A program's text and its name in messages."""
+    if (program is None) == (path is None):
+        raise BadInput("A program is given as text or by its path, one of the two. Nothing was moved.")
+    if program is not None:
+        return program, name or ""
+    assert path is not None
+    try:
+        with open(path, encoding="utf-8", errors="replace", newline="") as file:  # a comment may be in anything
+            return file.read(), os.fspath(path) if name is None else name
+    except OSError as error:
+        raise FileTrouble(f"{os.fspath(path)} cannot be read: {error.strerror}. Nothing was moved.") from None
+
+
+class Snapshot:
+    """The state of a whole rack at an instant."""
+
+    def __init__(self, world: _core.World) -> None:
+        self._world = world
+
+    @property
+    def time(self) -> float:
+        """The instant, s since the rack's start."""
+        return seconds_of(self._world.ticks())
+
+    def hash(self) -> str:
+        """Equal worlds, equal hash: 16 digits."""
+        return self._world.state_hash()
+
+    def __repr__(self) -> str:
+        return f"<snapshot at {self.time:.9g} s>"

@@ -1,0 +1,79 @@
+"""Recordings while a rack runs: samples for NumPy, waves for a file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from types import TracebackType
+
+from . import _core
+from .errors import Refused
+from .trace import Trace
+
+_ENDS = (("_mm_s", "mm/s"), ("_deg_s", "deg/s"), ("_mm", "mm"), ("_deg", "deg"), ("_nm", "nm"), ("_v", "V"), ("_hz", "Hz"), ("_j", "J"),
+         ("_counts", "counts"), ("_pulses", "pulses"))
+
+
+def unit_of(signal: str) -> str:
+    """The unit that the end of a quantity's name says; ``""``: none."""
+    return next((unit for end, unit in _ENDS if signal.endswith(end)), "")
+
+
+class _Open:
+    """Something that begins when it is made and ends with its block, or before."""
+
+    def __init__(self, world: _core.World) -> None:
+        self._world = world
+        self._runs = True
+
+    def stop(self) -> object:
+        raise NotImplementedError
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        if self._runs and not self._world.closed():
+            self.stop()
+
+
+class Recording(_Open):
+    """Samples of signals of a rack; see :meth:`Rack.record`."""
+
+    def __init__(self, world: _core.World, signals: Iterable[str], period: int, most: int, title: str) -> None:
+        self._title = title
+        self._trace: Trace | None = None
+        world.begin_samples(list(signals), period, most)
+        super().__init__(world)
+
+    def __enter__(self) -> Recording:
+        return self
+
+    def stop(self) -> Trace:
+        """Ends it, with a last look at this instant."""
+        if self._trace is None:
+            ticks, signals = self._world.end_samples()
+            self._trace = Trace(ticks, signals, {name: unit_of(name) for name in signals}, self._world.trace_hash(), self._title)
+            self._runs = False
+        return self._trace
+
+    @property
+    def trace(self) -> Trace:
+        """What was recorded. Refused while it still runs."""
+        if self._trace is None:
+            raise Refused("The recording still runs; stop it first.")
+        return self._trace
+
+
+class Waves(_Open):
+    """Waves that are written to a file; see :meth:`Rack.waves`."""
+
+    def __init__(self, world: _core.World, path: str, signals: Iterable[str]) -> None:
+        self.path = path
+        world.begin_waves(path, list(signals))
+        super().__init__(world)
+
+    def __enter__(self) -> Waves:
+        return self
+
+    def stop(self) -> None:
+        """Ends the file. FileTrouble."""
+        if self._runs:
+            self._runs = False
+            self._world.end_waves()

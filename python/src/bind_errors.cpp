@@ -1,0 +1,42 @@
+// Errors become the exceptions of motionrack.errors.
+#include <python/src/bindings.hpp>
+#include <python/src/raised.hpp>
+
+namespace motionrack::python {
+
+namespace {
+
+const char* class_of(const Raised& raised) {
+    if (raised.timeout) return "Timeout";
+    switch (raised.error.trouble) {
+        case Trouble::bad_input: return "BadInput";
+        case Trouble::refused: return "Refused";
+        case Trouble::machine: return "MachineFault";
+        case Trouble::io: return "FileTrouble";
+        case Trouble::stopped: return "Stopped";
+    }
+    return "Error";
+}
+
+py::object exception_of(const py::module_& errors, const char* name, const Error& error) {
+    return errors.attr(name)(error.message, error.file, error.place.line, error.place.column);
+}
+
+}  // namespace
+
+void bind_errors(py::module_&) {
+    py::register_exception_translator([](std::exception_ptr thrown) {
+        try {
+            if (thrown) std::rethrow_exception(thrown);
+        } catch (const Raised& raised) {
+            const py::module_ errors = py::module_::import("motionrack.errors");
+            const py::object one = exception_of(errors, class_of(raised), raised.error);
+            py::list problems;
+            for (const Error& each : raised.all) problems.append(exception_of(errors, class_of(raised), each));
+            if (!raised.all.empty()) one.attr("problems") = problems;
+            PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(one.ptr())), one.ptr());
+        }
+    });
+}
+
+}  // namespace motionrack::python

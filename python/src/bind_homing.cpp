@@ -1,0 +1,40 @@
+// Homing the axes of a rack, and what was found.
+#include <pybind11/stl.h>
+
+#include <motionrack/rack/homing.hpp>
+#include <python/src/bindings.hpp>
+#include <python/src/turn.hpp>
+
+namespace motionrack::python {
+
+namespace {
+
+/// (error or None, text, JSON, {axis: SVG})
+py::tuple told(const rack::HomingOutcome& outcome) {
+    py::object error = py::none();
+    if (!outcome.ended) {
+        const Error& why = outcome.ended.error();
+        const char* name = why.trouble == Trouble::stopped ? "Stopped" : why.trouble == Trouble::machine ? "MachineFault" : "Refused";
+        error = py::module_::import("motionrack.errors").attr(name)(why.message, why.file, why.place.line, why.place.column);
+    }
+    py::dict pictures;
+    for (const rack::HomedAxis& axis : outcome.axes)
+        if (axis.begun) pictures[py::str(std::string(1, axis.letter))] = rack::homing_picture(axis);
+    return py::make_tuple(error, rack::homing_text(outcome), rack::homing_json(outcome), pictures);
+}
+
+}  // namespace
+
+void bind_homing(py::module_& m) {
+    m.def("home", [](World& world, const std::string& axes, std::optional<int> type, std::int64_t timeout) {
+        if (type && (*type < 1 || *type > 4))
+            refuse("The type of homing is " + std::to_string(*type) + "; it is 1 to 4. Nothing was moved.");
+        rack::HomingSettings settings;
+        settings.axes = axes;
+        settings.type = type;
+        settings.timeout = ticks(timeout);
+        return told(alone(world, [&] { return world.home(settings); }));
+    }, py::arg("world"), py::arg("axes"), py::arg("type"), py::arg("ticks"));
+}
+
+}  // namespace motionrack::python

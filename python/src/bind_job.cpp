@@ -1,0 +1,205 @@
+// A part program on a rack, and what came of it.
+#include <fmt/format.h>
+#include <pybind11/functional.h>
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <motionrack/rack/job_report.hpp>
+#include <motionrack/trace/csv.hpp>
+#include <motionrack/trace/report.hpp>
+#include <motionrack/trace/svg.hpp>
+#include <python/src/bindings.hpp>
+#include <python/src/turn.hpp>
+
+namespace motionrack::python {
+
+namespace {
+
+/// A program that was run, with its rack, which has the samples.
+struct Ran {
+    std::shared_ptr<World> world;
+    rack::JobOutcome outcome;
+
+    trace::ReportData report() const {
+        return rack::report_of(world->running(), *world->job(), outcome, world->program(), world->program_name());
+    }
+};
+
+template <class T, class Get>
+py::array_t<T> series(const std::vector<rack::Sample>& samples, Get get) {
+    py::array_t<T> out(static_cast<py::ssize_t>(samples.size()));
+    T* at = out.mutable_data();
+    for (const rack::Sample& sample : samples) *at++ = static_cast<T>(get(sample));
+    return out;
+}
+
+std::string letter(int index) { return std::string(1, control::axis_letters[static_cast<std::size_t>(index)]); }
+
+/// (ticks, {signal: values}) of what the monitor saw.
+py::tuple samples_of(const Ran& ran) {
+    const rack::Monitor& monitor = ran.world->job()->monitor();
+    const std::vector<rack::Sample>& samples = monitor.samples();
+    py::dict signals;
+    const auto add = [&](int index, const char* what, auto get) { signals[py::str(letter(index) + "." + what)] = series<double>(samples, get); };
+    for (const rack::AxisOutcome& axis : ran.outcome.axes) {
+        const auto i = static_cast<std::size_t>(axis.index);
+        add(axis.index, "position", [i](const rack::Sample& sample) { return sample.position[i]; });
+        add(axis.index, "speed", [i](const rack::Sample& sample) { return sample.speed[i]; });
+        add(axis.index, "accel", [i](const rack::Sample& sample) { return sample.accel[i]; });
+        if (axis.servo) add(axis.index, "volts", [i](const rack::Sample& sample) { return sample.volts[i]; });
+    }
+    signals["deviation"] = py::array_t<double>(static_cast<py::ssize_t>(monitor.deviations().size()), monitor.deviations().data());
+    return py::make_tuple(series<std::int64_t>(samples, [](const rack::Sample& sample) { return sample.at.count(); }), signals);
+}
+
+py::dict dict_of(const rack::AxisOutcome& axis) {
+    py::dict out;
+    out["axis"] = letter(axis.index);
+    out["unit"] = axis.unit;
+    out["servo"] = axis.servo;
+    out["min_position"] = axis.limits.min_position;
+    out["max_position"] = axis.limits.max_position;
+    out["max_speed"] = axis.limits.max_speed;
+    out["max_accel"] = axis.limits.max_accel;
+    out["pulses_sent"] = axis.pulses_sent;
+    out["pulses_net"] = axis.pulses_net;
+    out["pulse_position"] = axis.pulse_position;
+    out["pulse_start"] = axis.pulse_start;
+    out["counts_read"] = axis.counts_read;
+    out["counts_expected"] = axis.counts_expected;
+    out["lost_pulses"] = axis.lost_pulses;
+    out["planned_end"] = axis.planned_end;
+    out["real_end"] = axis.real_end;
+    out["top_speed"] = axis.top.top_speed;
+    out["top_accel"] = axis.top.top_accel;
+    out["top_jump"] = axis.top.top_jump;
+    return out;
+}
+
+py::list blocks_of(const rack::Monitor& monitor) {
+    static constexpr const char* kinds[] = {"traverse", "feed", "arc", "dwell"};
+    py::list out;
+    for (const rack::DrivenBlock& block : monitor.blocks()) {
+        py::dict one;
+        one["block"] = block.block;
+        one["line"] = block.line;
+        one["kind"] = kinds[static_cast<std::size_t>(block.kind)];
+        one["length"] = block.length;
+        one["entry_speed"] = block.entry;
+        one["cruise_speed"] = block.cruise;
+        one["exit_speed"] = block.exit;
+        one["start"] = to_seconds(block.start);
+        one["end"] = to_seconds(block.end);
+        one["deviation_mm"] = block.deviation_mm;
+        out.append(one);
+    }
+    return out;
+}
+
+void add_plan(py::dict& out, const rack::JobOutcome& outcome) {
+    out["planned_seconds"] = outcome.run.plan.seconds;
+    out["moves"] = outcome.run.plan.moves;
+    out["dwells"] = outcome.run.plan.dwells;
+    out["stops"] = outcome.run.plan.stops;
+    out["top_path_speed"] = outcome.run.plan.top_speed;
+    out["lines"] = outcome.run.lines;
+    out["moves_read"] = outcome.run.moves;
+    out["program_ended"] = outcome.run.ended;
+    py::list events;
+    for (const control::ProgramEvent& event : outcome.run.events) events.append(py::make_tuple(event.line, event.after_block, event.text));
+    out["program_events"] = events;
+    out["program_events_left_out"] = outcome.run.events_left_out;
+}
+
+/// Everything that JobOutcome has.
+py::dict dict_of(const Ran& ran) {
+    const rack::JobOutcome& outcome = ran.outcome;
+    py::dict out;
+    add_plan(out, outcome);
+    out["ticks"] = outcome.time.count();
+    out["path_mm"] = outcome.path_mm;
+    py::list axes, warnings;
+    for (const rack::AxisOutcome& axis : outcome.axes) axes.append(dict_of(axis));
+    out["axes"] = axes;
+    out["worst_mm"] = outcome.worst.mm;
+    out["worst_ticks"] = outcome.worst.at.count();
+    out["worst_line"] = outcome.worst.line;
+    out["worst_place"] = py::make_tuple(outcome.worst.place[0], outcome.worst.place[1], outcome.worst.place[2]);
+    out["tolerance_mm"] = outcome.tolerance_mm;
+    for (const rack::JobWarning& warning : outcome.warnings) warnings.append(py::make_tuple(warning.at.count(), warning.line, warning.text));
+    out["warnings"] = warnings;
+    out["chip_segments"] = outcome.chip_segments;
+    out["events"] = outcome.events;
+    out["trace_hash"] = fmt::format("{:016x}", outcome.trace_hash);
+    out["rest_axis"] = outcome.rest_axis < 0 ? py::object(py::none()) : py::object(py::str(letter(outcome.rest_axis)));
+    out["rest_off"] = outcome.rest_off;
+    out["position_trusted"] = outcome.position_trusted;
+    out["blocks"] = blocks_of(ran.world->job()->monitor());
+    out["blocks_left_out"] = ran.world->job()->monitor().blocks_left_out();
+    return out;
+}
+
+void write(const Ran& ran, const std::string& path, Result<void> (*writer)(const trace::ReportData&, const std::string&)) {
+    looking(*ran.world, [&] { value_of(writer(ran.report(), path)); });
+}
+
+void attend_progress(World& world, const py::object& progress) {
+    if (progress.is_none()) return world.on_progress({});
+    world.on_progress([&world, progress](const rack::JobProgress& p) {
+        const py::gil_scoped_acquire lock;
+        try {
+            progress(p.seconds, p.line, p.lines);
+        } catch (py::error_already_set& error) {
+            stop_because(world, error);
+        }
+    });
+}
+
+std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const std::string& program, const std::string& name, bool block_delete,
+                         std::int64_t sample_ticks, const std::optional<std::string>& profile, const std::vector<std::string>& faults, const py::object& progress) {
+    {
+        const Turn turn(*world, Turn::For::moving);
+        world->check(program, name, block_delete);
+        value_of(world->plan_faults(faults));
+        value_of(world->set_sample_period(ticks(sample_ticks)));
+        if (profile) value_of(world->set_profile(*profile));
+        attend_progress(*world, progress);
+    }
+    struct Unheard {
+        World& world;
+        ~Unheard() { world.on_progress({}); }
+    } unheard{*world};
+    // What Python raised stops the run and goes on; a stop of the machine is part of the outcome.
+    return std::make_unique<Ran>(Ran{world, alone(*world, [&] { return world->run(program, name, block_delete); })});
+}
+
+}  // namespace
+
+void bind_job(py::module_& m) {
+    py::class_<Ran>(m, "Ran", "A program that was run; motionrack.Outcome is what people use.")
+        .def("error", [](const Ran& ran) -> py::object {
+            if (ran.outcome.ended) return py::none();
+            const Error& error = ran.outcome.ended.error();
+            static constexpr const char* names[] = {"BadInput", "Refused", "MachineFault", "FileTrouble", "Stopped"};
+            return py::module_::import("motionrack.errors").attr(names[static_cast<std::size_t>(error.trouble)])(error.message, error.file, error.place.line, error.place.column);
+        })
+        .def("data", [](const Ran& ran) { return looking(*ran.world, [&] { return dict_of(ran); }); })
+        .def("samples", [](const Ran& ran) { return looking(*ran.world, [&] { return samples_of(ran); }); })
+        .def("summary", [](const Ran& ran) { return rack::summary_of(ran.world->config(), ran.outcome); })
+        .def("json", [](const Ran& ran) { return rack::summary_json(ran.world->config(), ran.outcome); })
+        .def("svg", [](const Ran& ran, bool perspective) {
+            return looking(*ran.world, [&] {
+                return trace::svg_path(ran.report(), perspective ? trace::PathView::perspective : trace::PathView::plan, {.standalone = true});
+            });
+        }, py::arg("perspective"))
+        .def("write_report", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_report); }, py::arg("path"))
+        .def("write_csv", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_csv); }, py::arg("path"))
+        .def("write_events", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_events_csv); }, py::arg("path"));
+    m.def("run", &run, py::arg("world"), py::arg("program"), py::arg("name"), py::arg("block_delete"), py::arg("sample_ticks"),
+          py::arg("profile"), py::arg("faults"), py::arg("progress"));
+    m.def("check", [](World& world, const std::string& program, const std::string& name, bool block_delete) {
+        looking(world, [&] { world.check(program, name, block_delete); });
+    }, py::arg("world"), py::arg("program"), py::arg("name"), py::arg("block_delete"));
+}
+
+}  // namespace motionrack::python

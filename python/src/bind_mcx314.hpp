@@ -1,0 +1,19 @@
+// The function library of the MCX314 as both of its binding files have it.
+#pragma once
+
+#include <motionrack/cards/mcx314/driver/driver.hpp>
+#include <python/src/turn.hpp>
+
+namespace motionrack::python {
+
+using Mcx314 = Driven<mcx314::Driver>;
+using Mcx314Class = py::class_<Mcx314>;
+
+/// Refuses what is no mask of axes.
+unsigned mask(unsigned axes);
+
+void bind_mcx314_moves(Mcx314Class& c);
+void bind_mcx314_signals(Mcx314Class& c);
+void bind_mcx314_status(Mcx314Class& c);
+
+}  // namespace motionrack::python

@@ -1,0 +1,87 @@
+// Finding what a name stands for, and looking at it.
+#include <python/src/sampler.hpp>
+
+#include <array>
+#include <cmath>
+#include <motionrack/rack/quantities.hpp>
+
+namespace motionrack::python {
+
+namespace {
+
+Result<Channel> channel_of(rack::Rack& rack, const rack::WireDesk& desk, const std::string& name) {
+    Channel out{name};
+    for (const rack::WireDesk::Named& wire : desk.names()) {
+        if (wire.name != name) continue;
+        out.whole = !wire.volts;
+        out.look = [&desk, name] { return *desk.get(name); };
+        out.count = [&desk, name] { return static_cast<std::int64_t>(std::llround(*desk.get(name))); };
+        return out;
+    }
+    const std::size_t dot = std::min(name.find('.'), name.size());
+    if (const rack::Card* card = rack.card(std::string_view(name).substr(0, dot)); card != nullptr && dot < name.size()) {
+        const std::string value = name.substr(dot + 1);
+        const Result<std::int64_t> there = card->inspect(value);
+        if (there) {
+            out.whole = true;
+            out.count = [card, value] { return *card->inspect(value); };
+            return out;
+        }
+        if (!card->quantity(value)) return tl::unexpected<Error>(there.error());
+    }
+    MOTIONRACK_CHECK(rack::get_quantity(rack, name));
+    out.whole = is_count(name);
+    out.look = [&rack, name] { return *rack::get_quantity(rack, name); };
+    out.count = [&rack, name] { return static_cast<std::int64_t>(std::llround(*rack::get_quantity(rack, name))); };
+    return out;
+}
+
+}  // namespace
+
+bool is_count(std::string_view quantity) {
+    const std::string_view name = quantity.substr(std::min(quantity.find('.'), quantity.size() - 1) + 1);
+    constexpr std::array<std::string_view, 17> whole = {"position_pulses", "position_counts", "pulses",      "lost_pulses",   "in_step",
+                                                        "limit_minus",     "limit_plus",      "home",        "cam",           "scale_counts",
+                                                        "lost_counts",     "encoder_counts",  "parts",       "points",        "lost_points",
+                                                        "closed",          "light"};
+    return std::find(whole.begin(), whole.end(), name) != whole.end();
+}
+
+Result<Sampler> Sampler::create(rack::Rack& rack, const rack::WireDesk& desk, const std::vector<std::string>& names, std::size_t most) {
+    Sampler out;
+    out.most_ = most;
+    for (const std::string& name : names) {
+        MOTIONRACK_TRY(Channel channel, channel_of(rack, desk, name));
+        out.channels_.push_back(std::move(channel));
+    }
+    return out;
+}
+
+void Sampler::take(Instant now) {
+    if (!ticks_.empty() && now.count() == ticks_.back()) return;
+    if (++skipped_ < every_ && !ticks_.empty()) return;
+    skipped_ = 0;
+    if (ticks_.size() >= most_) thin_out();
+    ticks_.push_back(now.count());
+    for (Channel& channel : channels_) {
+        if (channel.whole)
+            channel.counts.push_back(channel.count());
+        else
+            channel.values.push_back(channel.look());
+    }
+}
+
+void Sampler::thin_out() {
+    every_ *= 2;
+    const auto halve = [](auto& values) {
+        for (std::size_t i = 0; 2 * i < values.size(); ++i) values[i] = values[2 * i];
+        values.resize((values.size() + 1) / 2);
+    };
+    halve(ticks_);
+    for (Channel& channel : channels_) {
+        halve(channel.counts);
+        halve(channel.values);
+    }
+}
+
+}  // namespace motionrack::python

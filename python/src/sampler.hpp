@@ -1,0 +1,49 @@
+// Values of a running rack over time: wires, registers and counters of cards, quantities of the machine.
+//
+//   "c1.xdrive" ─ wire ─┐
+//   "c1.x.LP" ── card ──┼─► a whole number or a double each period
+//   "X.position_mm" ────┘
+#pragma once
+
+#include <functional>
+#include <motionrack/rack/rack.hpp>
+#include <motionrack/rack/wire_desk.hpp>
+#include <string>
+#include <vector>
+
+namespace motionrack::python {
+
+struct Channel {
+    std::string name;
+    bool whole = false;  ///< its values are in `counts`, else in `values`
+    std::vector<std::int64_t> counts = {};
+    std::vector<double> values = {};
+    std::function<double()> look = {};
+    std::function<std::int64_t()> count = {};
+};
+
+class Sampler {
+  public:
+    /// Errors: bad_input, with what there is, for a name that is neither a wire, nor of a card, nor of a part.
+    static Result<Sampler> create(rack::Rack& rack, const rack::WireDesk& desk, const std::vector<std::string>& names,
+                                  std::size_t most);
+
+    /// Between runs.
+    void take(Instant now);
+    /// How many instants between two that are kept: doubled whenever there are more than `most`.
+    std::size_t every() const { return every_; }
+    const std::vector<std::int64_t>& ticks() const { return ticks_; }
+    const std::vector<Channel>& channels() const { return channels_; }
+
+  private:
+    void thin_out();
+
+    std::vector<Channel> channels_;
+    std::vector<std::int64_t> ticks_;
+    std::size_t most_ = 0, every_ = 1, skipped_ = 0;
+};
+
+/// Whether the quantity of that name counts something: its values are whole.
+bool is_count(std::string_view quantity);
+
+}  // namespace motionrack::python

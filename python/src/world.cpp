@@ -1,0 +1,174 @@
+// Starting a rack, its time, and what happens between two runs of the kernel.
+#include <python/src/world.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <motionrack/rack/toml_reader.hpp>
+#include <python/src/raised.hpp>
+
+namespace motionrack::python {
+
+namespace {
+constexpr Duration slice = milliseconds(50);
+constexpr std::size_t most_problems = 20;
+}
+
+World::World(const rack::RackConfig& config) : config_(config) { build(); }
+
+void World::build() {
+    desk_.reset();
+    rack_ = std::make_unique<rack::Rack>(config_);
+    desk_ = std::make_unique<rack::WireDesk>(*rack_);
+}
+
+World::~World() { close(); }
+
+void World::close() {
+    if (recorder_) static_cast<void>(end_waves());
+    sampler_.reset();
+    recorder_.reset();
+    // The kernel knows them until the rack is gone; the rack says nothing to them any more.
+    desk_.reset();
+    rack_.reset();
+    tap_.reset();
+    bell_.reset();
+    job_.reset();
+    plan_.reset();
+}
+
+rack::Rack& World::rack() {
+    if (!rack_) refuse("The rack was closed; nothing was done. Make another one.");
+    return *rack_;
+}
+
+rack::Rack& World::running() {
+    if (!rack().started()) start();
+    return *rack_;
+}
+
+// ---- starting -----------------------------------------------------------------------------------------------------------
+
+rack::JobSettings World::job_settings() {
+    rack::JobSettings settings;
+    settings.sample_period = sample_period_;
+    settings.stop = &stop_;
+    settings.on_slice = [this] { between(); };
+    settings.progress = [this](const rack::JobProgress& progress) {
+        if (progress_) progress_(progress);
+    };
+    return settings;
+}
+
+void World::start() {
+    plan_ = value_of(rack::FaultPlan::create(*rack_, fault_texts_));
+    if (!rack_->axes().empty()) job_ = std::make_unique<rack::Job>(*rack_, job_settings());
+    bell_ = std::make_unique<Bell>(rack_->kernel());
+    tap_ = std::make_unique<rack::WireTap>(rack_->kernel());
+    rack_->input_log().keep_no_more();
+    rack_->start();
+    bell_->begin();
+    plan_->begin();
+    listen_again();
+}
+
+void World::listen_again() {
+    rack_->set_stop_flag(&stop_);
+    rack_->on_slice(slice, [this] { between(); });
+}
+
+// ---- time ---------------------------------------------------------------------------------------------------------------
+
+void World::between() {
+    plan_->apply_due();
+    if (sampler_ && bell_->take_ring() != never) sampler_->take(now());
+    if (recorder_) {
+        if (now() >= next_register_look_) {
+            recorder_->look();
+            const Duration period = recorder_->register_period();
+            next_register_look_ = (now() / period + 1) * period;
+        }
+        recorder_->drain();
+    }
+    if (look_) look_();
+}
+
+Result<void> World::run_to(Instant until, const std::function<bool()>& enough) {
+    do {
+        Instant next = std::min(until, later(now(), slice));
+        if (recorder_) next = std::min(next, std::max(next_register_look_, now()));
+        rack_->kernel().run_until(next);
+        between();
+        if (stop_) return fail(Trouble::stopped, fmt::format("The user stopped it at {:.6f} s.", to_seconds(now())));
+    } while (now() < until && !(enough && enough()));
+    return {};
+}
+
+Result<void> World::advance(Duration time) {
+    running();
+    if (time < Duration{})
+        return fail(Trouble::refused, fmt::format("Time does not run backwards: {:.9g} s; nothing was run. Use snapshot() and restore().", to_seconds(time)));
+    if (time > latest - now())
+        return fail(Trouble::refused, fmt::format("The rack's time is {:.0f} s and ends at {:.0f} s; nothing was run. Make another rack.",
+                                                  to_seconds(now()), to_seconds(latest)));
+    return run_to(now() + time);
+}
+
+Result<bool> World::wait_wire(const std::string& name, int level, Duration timeout) {
+    const sim::WireId wire = running().kernel().find_wire(name);
+    if (wire == sim::WireId::none) {
+        MOTIONRACK_CHECK(desk_->get(name));
+        return fail(Trouble::bad_input, fmt::format("{} has no edges of its own to wait for; nothing was run. Wait for the pin of a card that it leads to.", name));
+    }
+    if (timeout < Duration{} || timeout > latest - now())
+        return fail(Trouble::refused, fmt::format("The time-out is {:.9g} s; it is 0 to {:.0f} s. Nothing was run.", to_seconds(timeout), to_seconds(latest - now())));
+    struct Listening {
+        Bell& bell;
+        ~Listening() { bell.listen_no_more(); }
+    } listening{*bell_};
+    bell_->listen_for(wire, level);
+    if (bell_->heard()) return true;
+    MOTIONRACK_CHECK(run_to(now() + timeout, [this] { return bell_->heard(); }));
+    return bell_->heard();
+}
+
+Result<void> World::set_wire(const std::string& name, double value) {
+    running();
+    return desk_->set(name, value);
+}
+
+rack::HomingOutcome World::home(rack::HomingSettings settings) {
+    running();
+    settings.stop = &stop_;
+    rack::HomingOutcome out = rack::home_axes(*rack_, settings);
+    listen_again();
+    return out;
+}
+
+// ---- a part program -----------------------------------------------------------------------------------------------------
+
+void World::check(const std::string& program, const std::string& name, bool block_delete) const {
+    if (config_.axes.empty()) refuse("The rack has no axes, so no program can run on it. Nothing was moved.");
+    const control::gcode::Settings reader = rack::reader_settings(config_, block_delete);
+    value_of(control::gcode::check_settings(reader));
+    if (auto check = control::gcode::check_program(program, reader, most_problems, name); !check.problems.empty())
+        throw Raised{check.problems.front(), false, {check.problems.begin(), check.problems.end()}};
+}
+
+Result<rack::JobOutcome> World::run(const std::string& program, const std::string& name, bool block_delete) {
+    check(program, name, block_delete);
+    if (ran_ || (started() && now() != Instant{}))
+        return fail(Trouble::refused, fmt::format("A program begins where the rack file says that the machine stands, at time 0, and this rack is at "
+                                                  "{:.6f} s. Nothing was moved; run it on Rack.fresh().",
+                                                  to_seconds(now())));
+    running();
+    ran_ = true;
+    program_ = program;
+    program_name_ = name;
+    job_->give(program_, program_name_, block_delete);
+    rack::JobOutcome out = job_->run();
+    listen_again();
+    return out;
+}
+
+}  // namespace motionrack::python

@@ -1,0 +1,128 @@
+// A rack as Python has it: not started until something needs its time, then run in slices between which Python is heard.
+//
+//   Python ──► World ──┬─► Rack, Job (a part program), FaultPlan
+//                      ├─► WireDesk, WireTap, WaveRecorder
+//                      └─► Bell ──break_run──► between(): faults that are due, samples, recordings, Ctrl-C
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <motionrack/rack/fault_plan.hpp>
+#include <motionrack/rack/homing.hpp>
+#include <motionrack/rack/job.hpp>
+#include <motionrack/rack/wave_recorder.hpp>
+#include <optional>
+#include <python/src/bell.hpp>
+#include <python/src/sampler.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace motionrack::python {
+
+class World {
+  public:
+    explicit World(const rack::RackConfig& config);
+    ~World();
+    World(const World&) = delete;
+    World& operator=(const World&) = delete;
+
+    const rack::RackConfig& config() const { return config_; }
+    /// Throws a refusal once the world was closed.
+    rack::Rack& rack();
+    /// The same, started.
+    rack::Rack& running();
+    const rack::WireDesk& desk() { return running(), *desk_; }
+    bool started() const { return rack_ && rack_->started(); }
+    bool closed() const { return rack_ == nullptr; }
+    Instant now() { return rack().kernel().now(); }
+    void close();
+
+    // ---- before it is started ----
+    /// "X.limit_plus=0@0.5s": see FaultPlan. Errors: refused in a started rack, and those of the plan; none is planned then.
+    Result<void> plan_faults(const std::vector<std::string>& texts);
+    std::vector<std::string> not_done() const { return plan_ ? plan_->not_done() : std::vector<std::string>(); }
+    /// Of the samples that a job keeps, > 0. Errors: refused in a started rack.
+    Result<void> set_sample_period(Duration period);
+
+    /// "trapezoid" or "jerk_limited", instead of the rack file's. Errors: refused in a started rack.
+    Result<void> set_profile(const std::string& profile);
+
+    /// A setting of a card that is a number, in the unit of its key: within its own range, and the card alone must be sound; whether it
+    /// fits the other cards, as a rack file must, is not looked at. Errors: refused, bad_input; nothing is changed.
+    Result<void> set_card(const std::string& card, const std::string& key, double value);
+
+    // ---- time ----
+    /// Errors: refused (beyond latest), stopped (Ctrl-C).
+    Result<void> advance(Duration time);
+    /// True where the wire has that level within `timeout`: time stands at the very instant. Errors: bad_input, stopped.
+    Result<bool> wait_wire(const std::string& wire, int level, Duration timeout);
+    static constexpr Instant latest{never.count() / 2};
+
+    // ---- wires ----
+    Result<void> set_wire(const std::string& name, double value);
+
+    // ---- a part program, once, from time 0 ----
+    /// Throws every problem of a program, in the order of its lines; nothing moves.
+    void check(const std::string& program, const std::string& name, bool block_delete) const;
+    Result<rack::JobOutcome> run(const std::string& program, const std::string& name, bool block_delete);
+    /// See home_axes; `settings.stop` is this world's own.
+    rack::HomingOutcome home(rack::HomingSettings settings);
+    const rack::Job* job() const { return job_.get(); }
+    const std::string& program() const { return program_; }
+    const std::string& program_name() const { return program_name_; }
+
+    // ---- samples and waves ----
+    Result<void> begin_samples(const std::vector<std::string>& names, Duration period, std::size_t most);
+    Result<Sampler> end_samples();
+    Result<void> begin_waves(const std::string& path, const std::vector<std::string>& signals);
+    Result<void> end_waves();
+
+    // ---- the whole world ----
+    /// A world of its own in the same state; recordings stay with this one.
+    std::shared_ptr<World> copy();
+    void copy_from(World& other);
+
+    // ---- who looks on ----
+    /// Between runs, at least every 50 ms of virtual time, and where the bell rings.
+    void on_look(std::function<void()> call) { look_ = std::move(call); }
+    /// Of a program, about every 50 ms of virtual time; empty: nobody.
+    void on_progress(std::function<void(const rack::JobProgress&)> call) { progress_ = std::move(call); }
+    void stop() { stop_ = true; }
+    bool stopped() const { return stop_; }
+    void go_on() { stop_ = false; }
+    /// What reports and drains; for those who run the rack through a driver it is called by itself.
+    void between();
+    void listen_again();
+
+    /// The thread that has the rack; see Turn.
+    std::atomic<std::thread::id> owner{};
+
+  private:
+    void build();
+    void start();
+    Result<void> run_to(Instant until, const std::function<bool()>& enough = {});
+    rack::JobSettings job_settings();
+
+    rack::RackConfig config_;
+    std::atomic<bool> stop_{false};
+    std::string program_, program_name_;
+    std::vector<std::string> fault_texts_;
+    Duration sample_period_ = milliseconds(1);
+    bool ran_ = false;
+    std::function<void()> look_;
+    std::function<void(const rack::JobProgress&)> progress_;
+
+    std::unique_ptr<rack::Rack> rack_;
+    std::unique_ptr<rack::WireDesk> desk_;
+    std::unique_ptr<rack::FaultPlan> plan_;
+    std::unique_ptr<rack::Job> job_;
+    std::unique_ptr<Bell> bell_;
+    std::unique_ptr<rack::WireTap> tap_;
+    std::unique_ptr<rack::WaveRecorder> recorder_;
+    Instant next_register_look_ = never;
+    std::optional<Sampler> sampler_;
+};
+
+}  // namespace motionrack::python

@@ -1,0 +1,75 @@
+// Samples, waves and copies of a world.
+#include <fmt/format.h>
+
+#include <python/src/raised.hpp>
+#include <python/src/world.hpp>
+
+namespace motionrack::python {
+
+Result<void> World::begin_samples(const std::vector<std::string>& names, Duration period, std::size_t most) {
+    running();
+    if (sampler_) return fail(Trouble::refused, "A recording runs already; stop it before the next one is started. It goes on.");
+    if (period < microseconds(1) || period > whole_seconds(3600))
+        return fail(Trouble::refused, fmt::format("The period is {:.9g} s; it is 1e-6 to 3600 s. Nothing was started.", to_seconds(period)));
+    if (most < 2 || most > 100'000'000)
+        return fail(Trouble::refused, fmt::format("At most {} samples are to be kept; it is 2 to 100000000. Nothing was started.", most));
+    MOTIONRACK_TRY(Sampler sampler, Sampler::create(*rack_, *desk_, names, most));
+    sampler_ = std::move(sampler);
+    bell_->ring_every(period);
+    if (bell_->take_ring() != never) sampler_->take(now());
+    return {};
+}
+
+Result<Sampler> World::end_samples() {
+    rack();
+    if (!sampler_) return fail(Trouble::refused, "No recording runs; nothing was done.");
+    sampler_->take(now());
+    bell_->ring_no_more();
+    Sampler out = std::move(*sampler_);
+    sampler_.reset();
+    return out;
+}
+
+Result<void> World::begin_waves(const std::string& path, const std::vector<std::string>& signals) {
+    running();
+    if (recorder_) return fail(Trouble::refused, "Waves are recorded already; end that before the next file. It goes on.");
+    rack::WaveSettings settings;
+    settings.path = path;
+    MOTIONRACK_TRY(settings.format, rack::wave_format(path));
+    settings.tap = tap_.get();
+    settings.signals = signals;
+    MOTIONRACK_TRY(recorder_, rack::WaveRecorder::create(*rack_, settings));
+    next_register_look_ = now();
+    return {};
+}
+
+Result<void> World::end_waves() {
+    rack();
+    if (!recorder_) return fail(Trouble::refused, "No waves are recorded; nothing was done.");
+    const std::unique_ptr<rack::WaveRecorder> ended = std::move(recorder_);
+    next_register_look_ = never;
+    return ended->finish();
+}
+
+std::shared_ptr<World> World::copy() {
+    running();
+    auto out = std::make_shared<World>(config_);
+    out->fault_texts_ = fault_texts_;
+    out->sample_period_ = sample_period_;
+    out->copy_from(*this);
+    return out;
+}
+
+void World::copy_from(World& other) {
+    running();
+    other.running();
+    if (sampler_ || recorder_) refuse("A recording runs, and time would jump in it; nothing was done. Stop it first.");
+    rack_->copy_from(*other.rack_);
+    desk_->copy_from(*other.desk_);
+    plan_->copy_from(*other.plan_);
+    bell_->ring_no_more();
+    listen_again();
+    ran_ = ran_ || other.ran_;
+}
+
+}  // namespace motionrack::python

@@ -1,0 +1,385 @@
+"""Racks from Python: time, registers, wires, parts, faults, waits, snapshots, threads."""
+
+from __future__ import annotations
+
+import gc
+import subprocess
+import sys
+import threading
+import time
+import unittest
+from pathlib import Path
+
+import motionrack
+from motionrack import BadInput, MachineFault, Rack, Refused, Timeout
+
+CARD = 'card.c1 = "mcx314"'
+
+
+def command(card: motionrack.Card, axes: int, code: int, value: int = 0) -> None:
+    """A data command of the MCX314."""
+    card.WR7 = value >> 16 & 0xFFFF
+    card.WR6 = value & 0xFFFF
+    card.WR0 = axes << 8 | code
+
+
+def drive(card: motionrack.Card, pulses: int) -> None:
+    """X goes so many pulses at 40,000 a second."""
+    for code, value in ((0x00, 800000), (0x02, 400), (0x04, 100), (0x05, 4000), (0x09, 0), (0x06, pulses), (0x20, 0)):
+        command(card, 1, code, value)
+
+
+class Making(unittest.TestCase):
+    def test_every_template_makes_a_rack(self) -> None:
+        for name in motionrack.templates():
+            with self.subTest(name):
+                rack = Rack.template(name)
+                self.assertEqual(rack.warnings, [])
+                self.assertGreater(len(rack.cards), 0)
+                self.assertEqual(Rack.from_text(motionrack.template_text(name)).name, rack.name)
+
+    def test_a_wrong_rack_file_tells_every_problem_with_its_place(self) -> None:
+        with self.assertRaises(BadInput) as caught:
+            Rack.from_text('[card.c1]\ntype = "mcx999"\n\n[axis.X]\ncard = "c2"\n', "my.toml")
+        self.assertGreaterEqual(len(caught.exception.problems), 2)
+        self.assertEqual((caught.exception.file, caught.exception.line), ("my.toml", 2))
+        self.assertTrue(str(caught.exception).startswith("my.toml:2:"))
+
+    def test_a_file_that_is_not_there_is_file_trouble(self) -> None:
+        with self.assertRaises(motionrack.FileTrouble):
+            Rack.from_file("/no/such.toml")
+
+    def test_all_errors_are_of_one_kind(self) -> None:
+        for kind in (BadInput, Refused, MachineFault, Timeout, motionrack.FileTrouble, motionrack.Stopped):
+            self.assertTrue(issubclass(kind, motionrack.Error))
+        self.assertTrue(issubclass(Timeout, TimeoutError))
+
+    def test_a_closed_rack_refuses_everything_and_its_drivers_too(self) -> None:
+        rack = Rack.from_text(CARD)
+        driver = rack.cards["c1"].driver
+        rack.close()
+        rack.close()
+        for act in (lambda: rack.advance(1), lambda: rack.time, lambda: rack.wires["estop"], driver.RESET, lambda: rack.cards["c1"].peek("RR0")):
+            with self.assertRaises(Refused):
+                act()
+        self.assertIn("closed", repr(rack))
+        del driver, rack
+        gc.collect()
+
+
+class Time(unittest.TestCase):
+    def test_time_is_exact_to_the_tick(self) -> None:
+        rack = Rack.from_text(CARD)
+        rack.advance(ms=1, us=2, ns=3)
+        self.assertEqual(rack.ticks, 10_020_030)
+        rack.advance(0.1)
+        rack.advance(0.2)
+        self.assertEqual(rack.ticks, 3_010_020_030)
+        self.assertAlmostEqual(rack.time, 0.301002003, places=12)
+
+    def test_time_that_cannot_be_is_refused(self) -> None:
+        rack = Rack.from_text(CARD)
+        for seconds in (-1, float("nan"), float("inf"), 1e30):
+            with self.subTest(seconds), self.assertRaises(Refused):
+                rack.advance(seconds)
+        self.assertEqual(rack.ticks, 0)
+
+    def test_waiting_for_a_condition_ends_when_it_is_true_or_in_time(self) -> None:
+        rack = Rack.from_text(CARD)
+        drive(rack.cards["c1"], 20000)
+        rack.wait(lambda: rack.peek("c1.x.LP") >= 1000, timeout=1, every=1e-4)
+        self.assertLess(rack.peek("c1.x.LP"), 1000 + 40000 * 1e-4 + 1)
+        before = rack.ticks
+        with self.assertRaises(Timeout):
+            rack.wait(lambda: False, timeout=0.25)
+        self.assertEqual(rack.ticks - before, 2_500_000_000)
+        with self.assertRaises(Refused):
+            rack.wait(lambda: True, timeout=1, every=0)
+
+    def test_waiting_for_a_wire_stands_at_the_very_instant(self) -> None:
+        """The referee looks at the same rack in steps of a tick of the chip."""
+        rack = Rack.template("router")
+        driver = rack.cards["motion"].driver
+        driver.initialise()
+        driver.SetRange(15, 800000)
+        driver.EnableInterrupt(1, 0x80)  # the end of a drive
+        driver.TCurve_F(1, 100, 2000, 200, 300)
+        referee = rack.copy()
+        rack.wait_wire("motion.int_n", 0, timeout=5)
+        self.assertEqual(rack.wires["motion.int_n"], 0)
+        referee.advance(ns=(rack.ticks - referee.ticks) // 10 - 125)
+        self.assertEqual(referee.wires["motion.int_n"], 1)
+        referee.advance(ns=125)
+        self.assertEqual(referee.wires["motion.int_n"], 0)
+        with self.assertRaises(Timeout):
+            rack.wait_wire("estop", 0, timeout=1e-3)
+        with self.assertRaises(BadInput):
+            rack.wait_wire("no.such", 0, timeout=1e-3)
+
+    def test_an_interrupt_is_waited_for(self) -> None:
+        rack = Rack.from_text(CARD)
+        card = rack.cards["c1"]
+        card.driver.SetRange(15, 800000)
+        card.driver.EnableInterrupt(1, 0x80)
+        card.driver.TCurve_F(1, 100, 2000, 200, 300)
+        card.wait_interrupt(5)
+        self.assertEqual(card.driver.read_interrupts(0), 0x80)
+        with self.assertRaises(Timeout):
+            card.wait_interrupt(0.01)
+
+
+class Registers(unittest.TestCase):
+    def test_looking_has_no_effect_and_reading_has(self) -> None:
+        rack = Rack.from_text(CARD)
+        card = rack.cards["c1"]
+        card.WR0 = 0x010F  # X: its registers are shown
+        card.WR1 = 0x8000  # interrupt at the drive's end
+        drive(card, 100)
+        rack.advance(1)
+        before = rack.ticks
+        self.assertEqual(card.x.RR3.DEND, 1)
+        self.assertEqual(card.RR3.peek().DEND, 1)
+        self.assertEqual(card.RR3.dend, 1)
+        self.assertEqual(rack.ticks, before)
+        self.assertEqual(card.RR3.read().DEND, 1)
+        self.assertGreater(rack.ticks, before)
+        self.assertEqual(card.RR3.DEND, 0)
+
+    def test_fields_are_written_by_their_names(self) -> None:
+        card = Rack.from_text(CARD).cards["c1"]
+        card.WR0.write(CODE=0x0F, Y=1)  # Y's registers
+        card.WR1.write(0x8000)
+        self.assertEqual((int(card.x.WR1), int(card.y.WR1)), (0, 0x8000))
+        for wrong in ({"CODE": 1000}, {"CODE": -1}):
+            with self.assertRaises(Refused):
+                card.WR0.write(**wrong)
+        with self.assertRaises(BadInput):
+            card.WR0.write(NOPE=1)
+        for value in (-1, 0x10000):
+            with self.assertRaises(Refused):
+                card.WR0 = value
+        with self.assertRaises(Refused):
+            card.RR0.write(1)
+        with self.assertRaises(Refused):
+            card.WR0.read()
+
+    def test_what_is_not_in_the_map_is_no_attribute(self) -> None:
+        card = Rack.from_text(CARD).cards["c1"]
+        for act in (lambda: card.WR99, lambda: card.RR0.NOPE, lambda: card.x.NOPE, lambda: setattr(card, "WR99", 1), lambda: setattr(card.RR0, "DRV", 1)):
+            with self.assertRaises(AttributeError):
+                act()
+
+    def test_every_kind_of_card_has_its_map_and_every_register_can_be_shown(self) -> None:
+        rack = Rack.from_file(Path(__file__).parents[2] / "examples" / "15_panel" / "demonstration.toml")
+        self.assertEqual({card.type for card in rack.cards.values()}, {"mcx314", "databoard4002", "ioflex02", "grating_bus", "grating_decoder", "rtc5"})
+        for card in rack.cards.values():
+            with self.subTest(card.type):
+                self.assertIn(card.name, repr(card))
+                self.assertIn("<table>", card._repr_html_())
+                self.assertGreater(len(card.registers), 3)
+                for value in card.values:
+                    self.assertIsInstance(card.peek(value), int)
+                for register in card.registers.values():
+                    self.assertIn(register.name, repr(register))
+        self.assertEqual(rack.ticks, 0)
+
+    def test_every_register_of_the_bus_reads_what_it_shows(self) -> None:
+        rack = Rack.from_file(Path(__file__).parents[2] / "examples" / "15_panel" / "demonstration.toml")
+        for card in (rack.cards["motion"], rack.cards["host"]):
+            for register in card.registers.values():
+                if register.access == "read" and not register._reg["bank"]:
+                    with self.subTest(f"{card.name}.{register.name}"):
+                        try:
+                            shown = register.peek()
+                        except BadInput:
+                            continue
+                        self.assertIn(register.read(), (shown, register.peek()))
+
+
+class Machine(unittest.TestCase):
+    def test_wires_are_driven_and_released(self) -> None:
+        rack = Rack.template("router")
+        self.assertEqual(rack.wires["X.limit_plus"], 1)
+        rack.wires["X.limit_plus"] = 0
+        self.assertEqual(rack.wires["X.limit_plus"], 0)
+        self.assertEqual(rack.cards["motion"].x.RR2.HLMTP, 1)
+        del rack.wires["X.limit_plus"]
+        self.assertEqual(rack.wires["X.limit_plus"], 1)
+        self.assertIn("estop", rack.wires.drivable)
+        with self.assertRaises(BadInput):
+            rack.wires["X.nothing"] = 1
+        with self.assertRaises(Refused):
+            rack.wires["estop"] = 0.5
+
+    def test_parts_tell_what_is_true_and_can_be_pushed(self) -> None:
+        rack = Rack.template("router")
+        x = rack.parts["X"]
+        self.assertEqual(x.position_mm, 0)
+        x.position_mm = 5
+        self.assertAlmostEqual(x.position_mm, 5, delta=0.5)
+        self.assertGreater(x.lost_pulses ** 2, 0)
+        self.assertEqual(x.position_mm, rack.get("X.position_mm"))
+        with self.assertRaises(Refused):
+            x.top_speed_mm_s = 1
+        with self.assertRaises(AttributeError):
+            x.nothing
+        with self.assertRaises(BadInput):
+            rack.parts["Q"]
+        for part in rack.parts.values():
+            for quantity in part.quantities:
+                self.assertIsInstance(getattr(part, quantity), float)
+
+    def test_faults_break_and_mend(self) -> None:
+        rack = Rack.template("router")
+        self.assertIn("encoder.broken_a", rack.faults["X"])
+        rack.fault("X", "motor.stall")
+        driver = rack.cards["motion"].driver
+        driver.SetRange(15, 800000)
+        driver.TCurve_F(1, 100, 2000, 200, 6400)
+        driver.wait(1)
+        self.assertEqual(rack.parts["X"].position_mm, 0)
+        self.assertEqual(driver.ReadLPS(0), 6400)
+        self.assertTrue(any("X" in text for _, text in rack.conditions))
+        for target, fault in (("X", "no.such"), ("Q", "motor.stall")):
+            with self.assertRaises(BadInput):
+                rack.fault(target, fault)
+
+    def test_planned_faults_happen_at_their_instant(self) -> None:
+        rack = Rack.template("router")
+        rack.plan_fault("X.limit_plus", 0, at=0.5)
+        rack.plan_fault("X.limit_plus=release@600ms")
+        rack.advance(ms=499)
+        self.assertEqual(rack.wires["X.limit_plus"], 1)
+        rack.advance(ms=2)
+        self.assertEqual(rack.wires["X.limit_plus"], 0)
+        rack.advance(ms=100)
+        self.assertEqual(rack.wires["X.limit_plus"], 1)
+        with self.assertRaises(Refused):
+            rack.plan_fault("estop=0@2s")
+        with self.assertRaises(BadInput):
+            rack.fresh().plan_fault("X.nothing=0@2s")
+
+    def test_a_card_is_changed_before_its_time_begins(self) -> None:
+        rack = Rack.from_text('[card.d]\ntype = "grating_decoder"\n[card.h]\ntype = "grating_bus"\n')
+        rack.change_card("h", period_us=250)
+        self.assertEqual(rack.cards["h"].driver.open()["period"], 250e-6)
+        with self.assertRaises(Refused):
+            rack.change_card("h", period_us=300)
+        fresh = Rack.from_text('[card.d]\ntype = "grating_decoder"\n[card.h]\ntype = "grating_bus"\n')
+        for value in (float("nan"), -1, 1e12):
+            with self.assertRaises(Refused):
+                fresh.change_card("h", period_us=value)
+        with self.assertRaises(BadInput):
+            fresh.change_card("h", nothing=1)
+
+
+class Worlds(unittest.TestCase):
+    def test_a_restored_world_does_the_same_again(self) -> None:
+        rack = Rack.from_text(CARD)
+        drive(rack.cards["c1"], 20000)
+        rack.advance(ms=100)
+        state = rack.snapshot()
+        self.assertEqual(state.hash(), rack.state_hash())
+        rack.advance(ms=200)
+        first = rack.state_hash(), rack.trace_hash(), rack.peek("c1.x.LP"), rack.ticks
+        rack.restore(state)
+        self.assertEqual(rack.state_hash(), state.hash())
+        self.assertEqual(rack.time, state.time)
+        rack.advance(ms=200)
+        self.assertEqual((rack.state_hash(), rack.trace_hash(), rack.peek("c1.x.LP"), rack.ticks), first)
+
+    def test_a_copy_goes_its_own_way(self) -> None:
+        rack = Rack.from_text(CARD)
+        drive(rack.cards["c1"], 20000)
+        rack.advance(ms=100)
+        other = rack.copy()
+        other.wires["c1.xlmtp"] = 0
+        rack.advance(1)
+        other.advance(1)
+        self.assertEqual(rack.peek("c1.x.LP"), 20000)
+        self.assertLess(other.peek("c1.x.LP"), 20000)
+
+    def test_planned_faults_are_not_done_twice_by_a_copy(self) -> None:
+        rack = Rack.template("router")
+        rack.plan_fault("X.motor.push=320@1ms")
+        rack.advance(ms=2)
+        other = rack.copy()
+        other.advance(ms=2)
+        rack.advance(ms=2)
+        self.assertEqual(other.state_hash(), rack.state_hash())
+
+    def test_a_snapshot_of_another_kind_is_refused(self) -> None:
+        with self.assertRaises(Refused):
+            Rack.from_text(CARD).restore(Rack.template("single").snapshot())
+
+
+class Threads(unittest.TestCase):
+    def test_other_threads_go_on_and_may_not_touch_a_running_rack(self) -> None:
+        rack = Rack.template("router")
+        rack.record("X.position_mm", every=1e-5)  # keeps it busy
+        refused: list[BaseException] = []
+        done = threading.Event()
+
+        def meddle() -> None:
+            while not done.is_set() and not refused:
+                try:
+                    rack.advance(ns=1)
+                except Refused as error:
+                    refused.append(error)
+                except motionrack.Error:
+                    pass
+
+        thread = threading.Thread(target=meddle)
+        thread.start()
+        deadline = time.monotonic() + 60
+        while not refused and time.monotonic() < deadline:
+            try:
+                rack.advance(0.5)
+            except Refused as error:
+                refused.append(error)
+        done.set()
+        thread.join()
+        self.assertIn("thread", str(refused[0]))
+
+    def test_racks_run_in_threads_side_by_side_and_do_not_know_each_other(self) -> None:
+        program = "G21 G90 F2400\nG1 X20 Y10\nG3 X30 Y20 I0 J10\nG0 X0 Y0\nM2\n"
+        alone = Rack.template().run(program).trace_hash
+        found: list[str] = []
+        threads = [threading.Thread(target=lambda: found.append(Rack.template().run(program).trace_hash)) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(found, [alone] * 4)
+
+    def test_ctrl_c_ends_a_run_and_the_rack_goes_on_afterwards(self) -> None:
+        """In a process of its own, which tells when it runs; endless programs end by nothing else."""
+        program = r"""
+import signal, threading, motionrack, os
+signal.signal(signal.SIGINT, signal.default_int_handler)
+def tell(seconds, line, lines):
+    if seconds > 1 and not told: told.append(os.kill(os.getpid(), signal.SIGINT))
+told = []
+try:
+    motionrack.Rack.template().run("G21 G90 F600\n" + "G1 X100\nG1 X0\n" * 100000, progress=tell)
+    print("ended")
+except KeyboardInterrupt:
+    print("interrupted in a program")
+rack = motionrack.Rack.from_text('card.c1 = "mcx314"')
+rack.record("c1.x.LP", every=1e-6)
+timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)); timer.start()
+try:
+    rack.advance(3600 * 24 * 1000)
+    print("ended")
+except KeyboardInterrupt:
+    print("interrupted while time passed", rack.time > 0)
+before = rack.ticks
+rack.advance(ms=1)
+print(rack.ticks - before)
+"""
+        ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=False)
+        self.assertEqual(ran.stdout.splitlines(), ["interrupted in a program", "interrupted while time passed True", "10000000"], ran.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

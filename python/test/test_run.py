@@ -1,0 +1,207 @@
+"""Part programs from Python: outcomes, traces, problems, faults, homing; the command line is the referee."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import motionrack
+import numpy as np
+from motionrack import BadInput, MachineFault, Rack, Refused
+
+PROGRAM = str(Path(os.environ["MOTIONRACK_BUILD"]) / "bin" / "motionrack")
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+TEXT = "G21 G90 G64 P0.02\nG1 X10 Y5 F600\nG3 X20 Y15 I0 J10\nG0 X0 Y0\nM2\n"
+
+
+def referee(*words: str, text: str = TEXT) -> subprocess.CompletedProcess[str]:
+    """The command line with the same program."""
+    return subprocess.run([PROGRAM, *words], input=text, capture_output=True, text=True, timeout=120, check=False)
+
+
+class Outcomes(unittest.TestCase):
+    def test_an_outcome_is_that_of_the_command_line(self) -> None:
+        outcome = Rack.template().run(TEXT)
+        told = json.loads(referee("run", "-", "--no-report", "--json").stdout)
+        self.assertEqual(json.loads(outcome.json()), told)
+        self.assertEqual((outcome.ok, outcome.seconds, outcome.planned_seconds, outcome.path_mm), (told["ok"], told["seconds"], told["planned_seconds"], told["path_mm"]))
+        self.assertEqual((outcome.trace_hash, outcome.events, outcome.chip_segments), (told["trace_hash"], told["events"], told["chip_segments"]))
+        for axis in told["axes"]:
+            mine = outcome.axes[axis["axis"]]
+            self.assertEqual((mine.pulses_sent, mine.counts_read, mine.lost_pulses, mine.real_end, mine.top_speed), (axis["pulses_sent"], axis["counts_read"], axis["lost_pulses"], axis["end"], axis["top_speed"]))
+        self.assertEqual(outcome.summary(), referee("run", "-", "--no-report").stdout)
+        self.assertIs(outcome.check(), outcome)
+
+    def test_a_trace_has_what_the_command_line_writes_as_csv(self) -> None:
+        outcome = Rack.template().run(TEXT)
+        with tempfile.TemporaryDirectory() as folder:
+            referee("run", "-", "--no-report", "--csv", f"{folder}/a.csv")
+            outcome.write_csv(f"{folder}/b.csv")
+            self.assertEqual(Path(f"{folder}/a.csv").read_bytes(), Path(f"{folder}/b.csv").read_bytes())
+            with open(f"{folder}/a.csv", newline="", encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(outcome.trace.ticks))
+        for column, signal in (("x_position_mm", "x.position"), ("y_speed_mm_s", "y.speed"), ("deviation_mm", "deviation")):
+            np.testing.assert_allclose([float(row[column]) for row in rows], outcome.trace[signal], atol=1e-4)
+
+    def test_a_trace_is_made_of_arrays_with_units(self) -> None:
+        trace = Rack.template().run(TEXT).trace
+        self.assertEqual(trace.ticks.dtype, np.int64)
+        self.assertTrue(np.all(np.diff(trace.ticks) >= 0))
+        np.testing.assert_allclose(trace.time, trace.ticks * 1e-10)
+        for name in trace:
+            self.assertEqual((len(trace[name]), trace[name].dtype), (len(trace.ticks), np.dtype(np.float64)))
+        self.assertEqual((trace.units["X.position"], trace.units["A.speed"], trace.units["deviation"]), ("mm", "deg/s", "mm"))
+        self.assertIs(trace["X.POSITION"], trace["X.position"])
+        self.assertIn("x.speed", trace)
+        with self.assertRaises(BadInput):
+            trace["q.position"]
+        # The speed is that of the pulses; over a slow move it is the slope of the position.
+        slow = (trace.time > 0.4) & (trace.time < 0.9)
+        np.testing.assert_allclose(np.gradient(trace["x.position"], trace.time)[slow].mean(), trace["x.speed"][slow].mean(), rtol=0.01)
+
+    def test_a_longer_sample_period_gives_fewer_samples_and_the_same_history(self) -> None:
+        fine, coarse = (Rack.template().run(TEXT, sample_period=period) for period in (1e-3, 1e-2))
+        self.assertAlmostEqual(len(fine.trace.ticks) / len(coarse.trace.ticks), 10, delta=0.2)
+        self.assertEqual(fine.trace.hash(), coarse.trace.hash())
+        for period in (0, -1, 1e6):
+            with self.assertRaises(Refused):
+                Rack.template().run(TEXT, sample_period=period)
+
+    def test_a_profile_is_that_of_the_rack_file(self) -> None:
+        limited = Rack.template().run(TEXT, profile="jerk_limited")
+        self.assertTrue(limited.ok)
+        self.assertNotEqual(limited.trace_hash, Rack.template().run(TEXT).trace_hash)
+        text = motionrack.template_text().replace('profile = "trapezoid"', 'profile = "jerk_limited"').replace('# profile = "jerk_limited"', 'profile = "jerk_limited"')
+        self.assertIn('\nprofile = "jerk_limited"', text)
+        self.assertEqual(Rack.from_text(text).run(TEXT).trace_hash, limited.trace_hash)
+        with self.assertRaises(Refused):
+            Rack.template().run(TEXT, profile="wild")
+
+    def test_blocks_and_events_are_told(self) -> None:
+        outcome = Rack.template().run("G21 G90\nM3 S1000\nG1 X10 F600\nG4 P0.1\nG0 X0\nM2\n")
+        self.assertEqual([(block.kind, block.line) for block in outcome.blocks], [("feed", 3), ("dwell", 4), ("traverse", 5)])
+        self.assertIn("spindle", outcome.program_events[0].text)
+        self.assertEqual((outcome.moves, outcome.dwells, outcome.program_ended), (2, 1, True))
+        self.assertIn("<svg", outcome.svg())
+        self.assertIn("<svg", outcome._repr_html_())
+        with tempfile.TemporaryDirectory() as folder:
+            outcome.write_report(f"{folder}/r.html")
+            outcome.write_events(f"{folder}/e.csv")
+            self.assertIn("<html", Path(f"{folder}/r.html").read_text(encoding="utf-8"))
+            with self.assertRaises(motionrack.FileTrouble):
+                outcome.write_csv(f"{folder}/no/such/folder.csv")
+
+
+class Mistakes(unittest.TestCase):
+    def test_a_wrong_program_moves_nothing_and_tells_line_and_column(self) -> None:
+        rack = Rack.template()
+        with self.assertRaises(motionrack.Error) as caught:
+            rack.run("G21 G90\nG1 X5 F100\nG1 X600\nG1 Q\n", name="bad.ngc")
+        problems = caught.exception.problems
+        self.assertEqual([(problem.file, problem.line, problem.column) for problem in problems], [("bad.ngc", 3, 4), ("bad.ngc", 4, 4)])
+        told = referee("check", "-", text="G21 G90\nG1 X5 F100\nG1 X600\nG1 Q\n").stderr
+        for problem in problems:
+            self.assertIn(problem.message, told)
+        with self.assertRaises(motionrack.Error):
+            rack.check("G1 X600 F100\n")
+        rack.check(TEXT)
+        self.assertFalse(rack._world.started())
+        self.assertTrue(rack.run(TEXT).ok)
+
+    def test_a_program_is_run_from_time_0_once(self) -> None:
+        rack = Rack.template()
+        rack.advance(ms=1)
+        with self.assertRaises(Refused):
+            rack.run(TEXT)
+        self.assertTrue(rack.fresh().run(TEXT).ok)
+
+    def test_a_rack_without_axes_runs_no_program(self) -> None:
+        with self.assertRaises(Refused):
+            Rack.from_text('card.c1 = "ioflex02"').run(TEXT)
+
+    def test_text_or_path_one_of_the_two(self) -> None:
+        for words in ({}, {"program": "M2", "path": "x.ngc"}):
+            with self.assertRaises(BadInput):
+                Rack.template().run(**words)
+        with self.assertRaises(motionrack.FileTrouble):
+            Rack.template().run(path="/no/such.ngc")
+
+    def test_what_the_machine_does_wrong_is_the_outcomes_error(self) -> None:
+        outcome = Rack.template().run("G21 G90\nG1 X100 F3000\nM2\n", faults=["X.limit_plus=0@500ms", "X.limit_minus=0@100s"])
+        self.assertFalse(outcome.ok)
+        self.assertIsInstance(outcome.error, MachineFault)
+        self.assertEqual(outcome.error.line, 2)
+        self.assertEqual(len(outcome.faults_not_done), 1)
+        rack = Rack.template()
+        for text, faults in (("G1 X600 F100\n", ["X.limit_plus=0@500ms"]), (TEXT, ["X.limit_plus=0@500ms", "X.nothing@1s"])):
+            with self.assertRaises(motionrack.Error):
+                rack.run(text, faults=faults)
+        self.assertEqual(rack.run(TEXT).trace_hash, Rack.template().run(TEXT).trace_hash, "what was refused planned nothing")
+        with self.assertRaises(MachineFault):
+            outcome.check()
+
+    def test_lost_steps_are_no_error_but_not_ok(self) -> None:
+        outcome = Rack.template().run("G21 G90\nG1 X20 F1200\nM2\n", faults=["X.motor.lose_steps=64@500ms"])
+        self.assertIsNone(outcome.error)
+        self.assertFalse(outcome.ok)
+        self.assertFalse(outcome.position_trusted)
+        self.assertEqual(outcome.axes["X"].lost_pulses, 64)
+        self.assertTrue(outcome.warnings)
+
+
+class Progress(unittest.TestCase):
+    def test_a_progress_call_may_look_but_not_move(self) -> None:
+        rack = Rack.template()
+        seen: list[tuple[float, int, int, float]] = []
+        moved: list[str] = []
+
+        def progress(seconds: float, line: int, lines: int) -> None:
+            seen.append((seconds, line, lines, rack.parts["X"].position_mm))
+            try:
+                rack.advance(1)
+            except Refused as error:
+                moved.append(str(error))
+
+        outcome = rack.run(TEXT, progress=progress)
+        self.assertEqual(outcome.trace_hash, Rack.template().run(TEXT).trace_hash)
+        self.assertGreater(len(seen), 10)
+        self.assertEqual(len(moved), len(seen))
+        self.assertEqual(seen, sorted(seen))
+        self.assertGreater(max(place for *_, place in seen), 9)
+
+    def test_what_a_progress_call_raises_ends_the_run(self) -> None:
+        def progress(seconds: float, line: int, lines: int) -> None:
+            raise ZeroDivisionError("enough")
+
+        with self.assertRaisesRegex(ZeroDivisionError, "enough"):
+            Rack.template().run(TEXT, progress=progress)
+
+
+class Homing(unittest.TestCase):
+    def test_homing_is_that_of_the_command_line(self) -> None:
+        for machine in ("machine.toml", "unlucky.toml"):
+            with self.subTest(machine):
+                path = EXAMPLES / "08_homing" / machine
+                homing = Rack.from_file(path).home()
+                told = referee("home", "--rack", str(path), "--json")
+                self.assertEqual(json.loads(homing.json()), json.loads(told.stdout))
+                self.assertEqual(homing.ok, told.returncode == 0)
+                self.assertEqual(isinstance(homing.error, MachineFault), not homing.ok)
+                self.assertIn("<svg", next(iter(homing.pictures.values())))
+
+    def test_axes_and_types_that_there_are_not_are_refused(self) -> None:
+        path = EXAMPLES / "08_homing" / "machine.toml"
+        with self.assertRaises(Refused):
+            Rack.from_file(path).home(type=7)
+        with self.assertRaises(motionrack.Error):
+            Rack.from_file(path).home("Q").check()
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,142 @@
+"""Recordings: what is recorded is what a look at each instant would have seen; pictures with and without matplotlib."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+from pathlib import Path
+
+import motionrack
+import numpy as np
+from motionrack import BadInput, Rack, Refused
+
+SIGNALS = ("X.position_mm", "X.position_pulses", "motion.x.LP", "motion.x.CV", "X.limit_plus", "motion.RR0")
+
+
+def moving() -> Rack:
+    rack = Rack.template("router")
+    card = rack.cards["motion"].driver
+    card.SetRange(15, 800000)
+    card.TCurve_F(1, 100, 2000, 200, 3000)
+    return rack
+
+
+def look(rack: Rack, signal: str) -> float:
+    if signal in rack.wires:
+        return rack.wires[signal]
+    return rack.peek(signal) if signal.startswith("motion.") else rack.get(signal)
+
+
+class Recordings(unittest.TestCase):
+    def test_a_recording_is_a_look_at_each_instant_and_disturbs_nothing(self) -> None:
+        rack = moving()
+        referee = rack.copy()
+        with rack.record(*SIGNALS, every=1e-3) as recording:
+            rack.advance(ms=150)
+            rack.cards["motion"].driver.wait(1, timeout=10)  # a driver's waiting is recorded, too
+            rack.advance(ms=10)
+        trace = recording.trace
+        self.assertGreater(len(trace.ticks), 150)
+        for i, ticks in enumerate(trace.ticks):
+            referee.advance(ns=(int(ticks) - referee.ticks) // 10)
+            for signal in SIGNALS:
+                self.assertEqual(trace[signal][i], look(referee, signal), f"{signal} at {ticks}")
+        np.testing.assert_array_equal(np.diff(trace.ticks)[:-1], 10_000_000)
+        self.assertEqual(trace["X.position_mm"].dtype, np.float64)
+        for signal in SIGNALS[1:]:
+            self.assertEqual(trace[signal].dtype, np.int64)
+        self.assertEqual((trace.units["X.position_mm"], trace.units["X.position_pulses"]), ("mm", "pulses"))
+
+    def test_a_program_may_be_recorded_and_has_the_same_history(self) -> None:
+        text = "G21 G90\nG1 X5 F600\nM2\n"
+        rack = Rack.template()
+        with rack.record("X.position_mm", every=5e-4) as recording:
+            outcome = rack.run(text)
+        self.assertEqual(outcome.trace_hash, Rack.template().run(text).trace_hash)
+        self.assertEqual(recording.trace.hash(), outcome.trace_hash)
+        at = np.searchsorted(recording.trace.ticks, outcome.trace.ticks[100])
+        self.assertAlmostEqual(float(recording.trace["X.position_mm"][at]), float(outcome.trace["X.position"][100]), delta=0.02)
+
+    def test_too_many_instants_are_thinned_and_stay_even(self) -> None:
+        rack = moving()
+        with rack.record("motion.x.LP", every=1e-4, most=100) as recording:
+            rack.advance(ms=200)
+        ticks = recording.trace.ticks
+        self.assertLessEqual(len(ticks), 101)
+        self.assertGreater(len(ticks), 40)
+        self.assertEqual(len(set(np.diff(ticks)[:-1])), 1)
+
+    def test_one_recording_at_a_time_and_only_what_is_there(self) -> None:
+        rack = moving()
+        with self.assertRaises(BadInput):
+            rack.record("X.nothing")
+        with self.assertRaises(BadInput):
+            rack.record("nothing")
+        for every in (0, -1, 1e-9, 1e9):
+            with self.assertRaises(Refused):
+                rack.record("X.position_mm", every=every)
+        recording = rack.record("X.position_mm")
+        with self.assertRaises(Refused):
+            rack.record("X.position_mm")
+        with self.assertRaises(Refused):
+            recording.trace
+        with self.assertRaises(Refused):
+            rack.restore(rack.copy().snapshot())
+        self.assertEqual(len(recording.stop().ticks), 1)
+        self.assertIs(recording.stop(), recording.trace)
+
+    def test_waves_are_those_of_the_recorder(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            rack = moving()
+            with rack.waves(f"{folder}/a.vcd", "X.*"):
+                rack.advance(ms=100)
+            text = Path(f"{folder}/a.vcd").read_text(encoding="utf-8")
+            self.assertIn("$enddefinitions", text)
+            self.assertIn("step", text)
+            with self.assertRaises(Refused):
+                rack.waves(f"{folder}/a.txt")
+
+
+class Pictures(unittest.TestCase):
+    def trace(self) -> motionrack.Trace:
+        return Rack.template().run("G21 G90\nG1 X5 F600\nM2\n").trace
+
+    def test_the_projects_own_picture_is_sound_svg(self) -> None:
+        trace = self.trace()
+        for svg in (trace.svg("x.position", "x.speed"), trace._repr_svg_()):
+            root = xml.etree.ElementTree.fromstring(svg or "")
+            self.assertTrue(root.tag.endswith("svg"))
+        with self.assertRaises(BadInput):
+            trace.svg("nothing")
+        with self.assertRaises(Refused):
+            trace.svg("x.position", width=1)
+
+    def test_without_matplotlib_a_plot_is_the_trace_which_a_notebook_shows(self) -> None:
+        program = """
+import sys
+sys.modules["matplotlib"] = sys.modules["matplotlib.figure"] = None
+import motionrack
+trace = motionrack.Rack.template().run("G1 X5 F600\\n").trace
+assert trace.plot("x.position", path=sys.argv[1]) is trace and "<svg" in trace._repr_svg_()
+"""
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, "-c", program, f"{folder}/a.svg"], check=True, timeout=60)
+            self.assertIn("<svg", Path(f"{folder}/a.svg").read_text(encoding="utf-8"))
+
+    def test_with_matplotlib_a_plot_is_a_figure(self) -> None:
+        try:
+            from matplotlib.figure import Figure
+        except ImportError:
+            self.skipTest("matplotlib is not there")
+        with tempfile.TemporaryDirectory() as folder:
+            figure = self.trace().plot("x.position", "x.speed", "deviation", path=f"{folder}/a.png")
+            self.assertIsInstance(figure, Figure)
+            self.assertEqual(len(figure.axes), 3)
+            self.assertGreater(Path(f"{folder}/a.png").stat().st_size, 1000)
+
+
+if __name__ == "__main__":
+    unittest.main()
