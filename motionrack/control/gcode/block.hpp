@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/control/gcode/language/expression.hpp>
 #include <motionrack/control/gcode/problem.hpp>
 #include <string_view>
 #include <vector>
@@ -56,8 +57,21 @@ inline constexpr std::uint32_t offset_words = letter_bit('I') | letter_bit('J') 
 
 struct Comment {
     std::string_view text;      ///< without its marks
-    bool message = false;       ///< (MSG,text): `text` is what follows the comma
+    bool message = false;       ///< (MSG,text), (DEBUG,text), (PRINT,text): `text` is what follows the comma
+    bool values = false;        ///< of DEBUG and PRINT: parameters in it are shown with their values
     bool rest_of_line = false;  ///< written with ';'
+};
+
+/// How much of the language a line may use.
+enum class Language : std::uint8_t {
+    words,        ///< words with numbers, as Grbl 1.1
+    expressions,  ///< parameters and expressions too: what a line can do without the others of its program
+    program       ///< O words too
+};
+
+struct Assignment {
+    ParameterName parameter;
+    double value = 0;
 };
 
 struct Block {
@@ -67,6 +81,8 @@ struct Block {
     std::uint32_t m_groups = 0;
     bool percent = false;                  ///< the line is a lone %
     bool deleted = false;                  ///< a line with '/' that was left out
+    bool flow = false;                     ///< an O word begins at `flow_column`; the rest of the line was not read
+    std::uint16_t flow_column = 0;
     std::array<double, 26> value;          ///< valid where `words` says so
     std::array<std::uint16_t, 26> column;  ///< from 0
     std::array<std::int16_t, g_group_count> g;
@@ -74,6 +90,7 @@ struct Block {
     std::array<std::int16_t, m_group_count> m;
     std::array<std::uint16_t, m_group_count> m_column;
     std::vector<Comment> comments;
+    std::vector<Assignment> assignments;  ///< in their order
 
     bool has(char letter) const { return (words & letter_bit(letter)) != 0; }
     double operator[](char letter) const { return value[letter_index(letter)]; }
@@ -81,11 +98,17 @@ struct Block {
     bool has_m(GroupM group) const { return (m_groups >> group & 1) != 0; }
 };
 
+struct ScanOptions {
+    bool block_delete = false;
+    Language language = Language::words;
+    const ParameterSource* parameters = nullptr;  ///< not null but for Language::words
+};
+
 /// Takes a line apart. Checks the letters, the numbers, which codes exist, modal groups and repeated words.
 /// False: `problem` says what is wrong (its line number is left to the caller), `block` is of no use.
-bool scan_line(std::string_view text, bool block_delete, Block& block, Problem& problem);
+bool scan_line(std::string_view text, const ScanOptions& options, Block& block, Problem& problem);
 
-/// The word that begins at `column` (from 0), as written, without blanks at its end.
+/// The word that begins at `column` (from 0), as written with its number or first bracket, without blanks at its end.
 std::string_view word_at(std::string_view text, std::size_t column);
 
 /// Fills `problem`; `column` counts from 0.

@@ -213,7 +213,7 @@ Outcome<void> print_canon(std::string_view text, const Settings& settings, Canon
     std::string_view line;
     ProgramEnd end;
     while (lines.next(line)) {
-        if (auto done = interpreter.line(line, lines.number()); !done) {
+        if (auto done = interpreter.line(line, lines.number(), Language::program); !done) {
             done.error().file = file;
             return done;
         }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/language/known_values.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -33,11 +34,12 @@ Interpreter::Interpreter(const Settings& settings) : settings_(settings) {
     position_ = settings.start;
 }
 
-Outcome<void> Interpreter::line(std::string_view text, std::int32_t number) {
+Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Language language) {
     todo_ = 0;
     line_ = number;
     if (end_pending_) apply_end();
-    if (!scan_line(text, settings_.block_delete, block_, problem_) || !evaluate()) {
+    const KnownValues known(*this);
+    if (!scan_line(text, {settings_.block_delete, language, &known}, block_, problem_) || !evaluate()) {
         todo_ = 0;
         problem_.place.line = number;
         return tl::unexpected<Problem>(problem_);
@@ -63,7 +65,20 @@ bool Interpreter::evaluate() {
         todo_ |= todo_comments;
         comments_pulled_ = 0;
     }
+    if (!block_.assignments.empty() && !assign()) return false;
     commit();
+    return true;
+}
+
+bool Interpreter::assign() {
+    for (const Assignment& one : block_.assignments) {
+        if (one.parameter.number > 0) {
+            parameters_.set(one.parameter.number, one.value);
+        } else if (!parameters_.set(one.parameter.name, one.value)) {
+            return fail_at(block_.text.find('#'), GrblStatus::unsupported,
+                           fmt::format("#<{}> is one named parameter too many; there may be {}", one.parameter.name, most_names));
+        }
+    }
     return true;
 }
 
@@ -158,6 +173,7 @@ bool Interpreter::apply_machine_words() {
             return fail_at(block_.m_column[m_tool], GrblStatus::word_missing,
                            "M6 changes to the tool that a T word has selected, and there was none; write e.g. T1 M6");
         }
+        next_.tool_loaded = next_.tool_selected;
         todo_ |= todo_tool_change;
     }
     if (block_.has_m(m_spindle)) {
@@ -272,6 +288,7 @@ const Step* Interpreter::pull_comment() {
     event_.kind = comment.message ? StepKind::message : StepKind::comment;
     event_.line = line_;
     event_.text = comment.text;
+    if (comment.values) event_.text = shown_ = with_values(comment.text);
     return &event_;
 }
 
@@ -279,6 +296,12 @@ Frame& Interpreter::edit_frame() {
     if (!frame_edited_) next_frame_ = frame_;
     frame_edited_ = true;
     return next_frame_;
+}
+
+Point Interpreter::program_position() const {
+    Point out = position_;
+    for (int axis = 0; axis < axis_count; ++axis) out[axis] -= frame_.offset[axis];
+    return out;
 }
 
 void Interpreter::sum_offsets(Frame& frame) const {

@@ -21,8 +21,7 @@
 //   (LinuxCNC). Between holes the drill stays at the height where it left the last one, after rising to R where that is
 //   higher; after a change from G99 to G98, LinuxCNC rises to the first level on the slant. A peck thinner than the
 //   clearance never rapids above R.
-// - G38.x, G41, G42, G43, M56, O words, variables and expressions are refused with a sentence. M0, M1, M2 and M30 are
-// events.
+// - G38.x, G41, G42, G43 and M56 are refused with a sentence. M0, M1, M2 and M30 are events.
 // - A program may end without M2 (Grbl); LinuxCNC wants M2 or %.
 // - Ends and bulges past the axis limits are errors of the line (Grbl raises alarm 2).
 #pragma once
@@ -30,6 +29,7 @@
 #include <motionrack/control/gcode/arc.hpp>
 #include <motionrack/control/gcode/block.hpp>
 #include <motionrack/control/gcode/cycle.hpp>
+#include <motionrack/control/gcode/language/parameters.hpp>
 #include <motionrack/control/gcode/settings.hpp>
 #include <motionrack/control/gcode/step.hpp>
 
@@ -56,6 +56,7 @@ struct Modes {
     bool flood = false;
     bool ended = false;               ///< after M2, M30
     std::int32_t tool_selected = -1;  ///< by T; -1: none yet
+    std::int32_t tool_loaded = -1;    ///< by M6; -1: none yet
     double tolerance_mm = 0;
     double feed = 0;         ///< G94: mm/s, G93: 1/s; 0: none yet
     double feed_rotary = 0;  ///< G94: degrees/s, where no linear axis moves
@@ -88,7 +89,8 @@ class Interpreter {
 
     /// Reads and checks one line (without its line end) and prepares its steps; steps of the line before that were not
     /// pulled are dropped. After a problem nothing of the line has taken effect. Steps' texts point into `text`.
-    Outcome<void> line(std::string_view text, std::int32_t number);
+    /// A line with an O word (block().flow) has no steps: what it means is for who walks through the program.
+    Outcome<void> line(std::string_view text, std::int32_t number, Language language = Language::words);
 
     /// The next step of the last line, valid until the next call; null: no more.
     const Step* pull() {
@@ -97,6 +99,8 @@ class Interpreter {
     }
 
     const Point& position() const { return position_; }  ///< machine coordinates after the last line
+    Point program_position() const;                      ///< the same in the active work system, mm and degrees
+    std::int32_t line_number() const { return line_; }   ///< of the last line
     /// The machine was moved otherwise: the next line begins there.
     void stand_at(const Point& position) { position_ = position; }
     /// The operator has switched the coolant.
@@ -107,6 +111,8 @@ class Interpreter {
     const Modes& modes() const { return modes_; }
     const Frame& frame() const { return frame_; }
     const Block& block() const { return block_; }  ///< the words of the last line
+    const Parameters& parameters() const { return parameters_; }
+    Parameters& parameters() { return parameters_; }
 
   private:
     enum Todo : std::uint32_t {
@@ -124,6 +130,7 @@ class Interpreter {
 
     bool evaluate();
     bool check_values();
+    bool assign();
     bool apply_modes();
     void apply_feed();
     bool apply_machine_words();
@@ -160,6 +167,7 @@ class Interpreter {
     const Step* pull_next();
     const Step* pull_motion();
     const Step* pull_comment();
+    std::string with_values(std::string_view text) const;
 
     bool fail_at(std::size_t column, GrblStatus status, std::string message, Trouble trouble = Trouble::bad_input);
     bool fail_word(char letter, GrblStatus status, std::string message);
@@ -181,6 +189,7 @@ class Interpreter {
     Modes modes_;
     Frame frame_;
     Point position_ = {};
+    Parameters parameters_;
 
     // What the line being read will have changed when it is found good.
     Modes next_;
@@ -199,6 +208,7 @@ class Interpreter {
     Motion motion_ = Motion::single;
     bool on_the_way_ = false;
     std::size_t comments_pulled_ = 0;
+    std::string shown_;  ///< text of the event, where it is not as written
     double dwell_seconds_ = 0;
     Point dwell_at_ = {};
     std::int16_t stop_code_ = 0;

@@ -73,7 +73,7 @@ Reader::Reader(std::string_view text, const Settings& settings, std::string file
 Outcome<const Step*> Reader::next_from_lines() {
     std::string_view text;
     while (!over_ && lines_.next(text)) {
-        if (auto done = interpreter_.line(text, lines_.number()); !done) {
+        if (auto done = interpreter_.line(text, lines_.number(), Language::program); !done) {
             done.error().file = file_;
             const std::size_t column = static_cast<std::size_t>(done.error().place.column);
             if (lines_.at_end() && done.error().word == "(" && text.find(')', column) == std::string_view::npos) {
