@@ -82,7 +82,7 @@ Result<void> Controller::run(std::string_view text, const std::string& file, Pro
     Result<void> outcome;
     while (outcome) {
         auto step = reader.next();
-        run.lines = reader.line();
+        run.lines = reader.walk().furthest();
         if (!step) {
             outcome = tl::unexpected<Error>(step.error());
             break;

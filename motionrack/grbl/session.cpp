@@ -116,7 +116,7 @@ bool Session::must_wait(const Line& line) {
     if (!has_room()) return true;
     Block block;
     Problem problem;
-    return control::gcode::scan_line(text, false, block, problem) && must_stand_first(block);
+    return control::gcode::scan_line(text, {}, block, problem) && must_stand_first(block);
 }
 
 /// What Grbl does only when all motion before it is done.
@@ -155,7 +155,7 @@ int Session::gcode(const std::string& text) {
     if (text.find('%') != std::string::npos) return error_letter;
     Block block;
     Problem problem;
-    const bool good = scan_line(text, false, block, problem);
+    const bool good = scan_line(text, {}, block, problem);
     if (good && !grbl_has(block)) return error_unsupported;
     const Outcome<void> read = check_ ? check_->line(text, 0) : give(text, good && block.has('N') ? static_cast<std::int32_t>(block['N']) : 0);
     if (!read) return refused(read.error());

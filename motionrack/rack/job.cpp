@@ -52,7 +52,7 @@ JobOutcome Job::run() {
         return out;
     }
     control::ControllerSettings settings;
-    settings.gcode = reader_settings(rack_.config(), settings_.block_delete);
+    settings.gcode = settings_.reading ? *settings_.reading : reader_settings(rack_.config());
     settings.kept_back = rack_.axes().front().card->kept_back();
     settings.jerk_limited = rack_.config().jerk_limited();
     const std::int64_t lines = 1 + std::count(settings_.program.begin(), settings_.program.end(), '\n');

@@ -206,22 +206,20 @@ void CanonPrinter::move(const Move& move, const Interpreter& interpreter) {
 
 Outcome<void> print_canon(std::string_view text, const Settings& settings, CanonOptions options,
                           const CanonPrinter::Put& put, const std::string& file) {
-    Lines lines(text);
+    Walk walk(text, settings, file);
     Interpreter interpreter(settings);
     CanonPrinter printer(options, put);
     printer.begin(interpreter);
     std::string_view line;
-    ProgramEnd end;
-    while (lines.next(line)) {
-        if (auto done = interpreter.line(line, lines.number(), Language::program); !done) {
-            done.error().file = file;
+    while (walk.next(line)) {
+        if (auto done = interpreter.line(line, walk.number(), Language::program); !done) {
+            walk.place(done.error());
             return done;
         }
-        const bool over = end.at(interpreter.block());
-        if (over && interpreter.block().percent) break;
+        if (auto done = walk.took(interpreter); !done) return done;
         printer.line(interpreter);
-        if (over) break;
     }
+    if (walk.has_faults()) return tl::unexpected<Problem>(walk.take_fault());
     return {};
 }
 

@@ -3,12 +3,17 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <motionrack/base/result.hpp>
 #include <motionrack/control/limits.hpp>
+#include <string>
 
 namespace motionrack::control::gcode {
 
 inline constexpr int work_system_count = 6;  ///< G54 .. G59
+
+/// The text of a subprogram that a program calls by a name that it does not have itself. An error's sentence goes on after "and".
+using SubprogramSource = std::function<Result<std::string>(const std::string& name)>;
 
 struct Settings {
     MachineLimits limits = {};  ///< axes present and how far they may go, machine coordinates
@@ -21,6 +26,8 @@ struct Settings {
     std::array<Point, work_system_count> work_offsets = {};  ///< G54 .. G59 at the start, mm and degrees
     Point g28 = {};                                          ///< where G28 goes, machine coordinates
     Point g30 = {};                                          ///< where G30 goes, machine coordinates
+    std::int64_t most_lines = 10'000'000;  ///< that loops and calls may go through, beside the program's own; >= 0
+    SubprogramSource subprogram = {};      ///< none: a program has the subs that are in its text
 };
 
 /// Refuses settings with numbers that are not finite, or larger than 1e9, or limits the wrong way round.

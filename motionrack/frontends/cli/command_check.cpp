@@ -62,7 +62,7 @@ int check_program_file(const std::string& path, const CheckOptions& options, nlo
     const Result<std::string> text = read_text(path);
     if (!text) return report(text.error());
     const control::gcode::Check check =
-        control::gcode::check_program(*text, reader_settings(*config, options.block_delete), problems_shown, path);
+        control::gcode::check_program(*text, program_settings(*config, path, options.block_delete), problems_shown, path);
     if (json) {
         nlohmann::json entry = {{"file", path}, {"ok", check.problems.empty()}, {"lines", check.lines}, {"moves", check.moves},
                                 {"dwells", check.dwells}, {"errors", nlohmann::json::array()}};
@@ -136,7 +136,7 @@ void add_canon(CLI::App& app, Action& chosen) {
             how.coordinates = options->machine ? gcode::Coordinates::machine : gcode::Coordinates::program;
             how.numbered = !options->plain;
             const auto done = gcode::print_canon(
-                *text, reader_settings(*config, options->block_delete), how,
+                *text, program_settings(*config, options->file, options->block_delete), how,
                 [](std::string_view line) { std::fwrite(line.data(), 1, line.size(), stdout); }, options->file);
             return done ? static_cast<int>(exit_done) : report(done.error());
         };

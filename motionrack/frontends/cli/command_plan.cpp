@@ -139,7 +139,7 @@ int plan(const PlanOptions& options) {
         return report({Trouble::refused, fmt::format("The axes of {} position one by one: there is no path to plan. Give a rack whose axes follow paths together.", config->name)});
     const Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
-    const control::gcode::Settings settings = rack::reader_settings(*config, options.block_delete);
+    const control::gcode::Settings settings = program_settings(*config, program->name, options.block_delete);
     if (const int bad = print_problems(control::gcode::check_program(program->text, settings, problems_shown, program->name), program->name); bad != exit_done) return bad;
     std::vector<Move> moves;
     control::gcode::Reader reader(program->text, settings, program->name);

@@ -66,7 +66,7 @@ int run(const RunOptions& options) {
     const Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
     const auto& [text, name] = *program;
-    const control::gcode::Settings settings = reader_settings(*config, options.block_delete);
+    const control::gcode::Settings settings = program_settings(*config, name, options.block_delete);
     if (const Result<void> good = control::gcode::check_settings(settings); !good) return report(good.error());
     if (!options.stream)
         if (const int bad = print_problems(control::gcode::check_program(text, settings, 20, name), name); bad != exit_done) return bad;
@@ -80,7 +80,7 @@ int run(const RunOptions& options) {
     rack::JobSettings job_settings;
     job_settings.program = text;
     job_settings.program_name = name;
-    job_settings.block_delete = options.block_delete;
+    job_settings.reading = settings;
     job_settings.stop = &stop_asked;
     job_settings.progress = [&progress](const rack::JobProgress& p) {
         progress.show(static_cast<double>(p.line) / static_cast<double>(p.lines), fmt::format("line {} of {}, {:.2f} s", p.line, p.lines, p.seconds));

@@ -27,6 +27,10 @@ enum class BuiltInRack { router, demonstration };
 /// Reads a rack file, prints its warnings, and every error; nothing if there are errors. An empty path is the built-in one.
 std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code, BuiltInRack built_in = BuiltInRack::router);
 
+/// How a program is read: by the rack's axes, with the subprograms that lie beside it as name.ngc. Programs from standard input and the
+/// built-in example have no folder.
+control::gcode::Settings program_settings(const rack::RackConfig& config, const std::string& path, bool block_delete = false);
+
 /// Prints up to 20 problems of a program with their lines; the exit code (0 if there are none).
 int print_problems(const control::gcode::Check& check, const std::string& name);
 
