@@ -269,6 +269,7 @@ void Stream::forget() {
     unpulled_ = false;
     planned_ = handed_ = 0;
     state_ = StreamState::rest;
+    interpreter_.straighten();
     stand_here(*axes_);
 }
 

@@ -95,6 +95,8 @@ class Stream {
     void forget_modes();
     /// Work offsets, G28 and G30 are 0 from now on. Needs rest.
     void forget_offsets();
+    /// A program is over: what Grbl does not know of is as at its start, so that a sender's lines mean what they say. Needs rest.
+    void straighten() { interpreter_.straighten(); }
     /// What forget_modes() leaves: how a program that begins here is read.
     gcode::Settings fresh_settings() const;
 

@@ -126,7 +126,7 @@ bool Session::must_stand_first(const Block& block) const {
     if (block.has_m(m_stop)) return true;
     if (block.has_g(g_nonmodal) && stands_first(block.g[g_nonmodal])) return true;
     if (block.has_g(g_system) && block.g[g_system] != 540 + 10 * modes.system) return true;
-    if (block.has_g(g_tool_length) && (block.g[g_tool_length] == 431 || interpreter().frame().tool_length != 0)) return true;
+    if (block.has_g(g_tool_length) && (block.g[g_tool_length] == 431 || interpreter().frame().tool[2] != 0)) return true;
     if (block.has_m(m_spindle) && spindle_of(block.m[m_spindle]) != modes.spindle) return own_.laser == 0;
     if (block.has('S') && block['S'] != modes.speed_rpm) return own_.laser == 0;
     return (block.has_m(m_mist) && !modes.mist) || (block.has_m(m_flood) && !modes.flood) || (block.has_m(m_coolant_off) && (modes.mist || modes.flood));

@@ -162,6 +162,7 @@ void Machine::drive() {
             break;
         case control::StreamState::rest:
             if (walk_) break;
+            if (program_runs_) stream_->straighten();
             program_runs_ = false;
             if (state_ == MachineState::moving || state_ == MachineState::jogging) enter(MachineState::standstill);
             break;

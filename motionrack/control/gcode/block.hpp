@@ -23,22 +23,25 @@ enum GroupG : std::uint8_t {
     g_feed_mode,     ///< G93 G94
     g_units,         ///< G20 G21
     g_cutter,        ///< G40
-    g_tool_length,   ///< G43.1 G49
+    g_tool_length,   ///< G43 G43.1 G43.2 G49
     g_retract,       ///< G98 G99
-    g_system,        ///< G54 .. G59
+    g_system,        ///< G54 .. G59, G59.1 G59.2 G59.3
     g_path,          ///< G61 G61.1 G64
+    g_spindle,       ///< G97
     g_group_count,
     g_refused = 254,  ///< known, but not for this machine
     g_unknown = 255
 };
 
 enum GroupM : std::uint8_t {
-    m_stop = 0,     ///< M0 M1 M2 M30
-    m_tool,         ///< M6
+    m_stop = 0,     ///< M0 M1 M2 M30 M60
+    m_tool,         ///< M6 M61
     m_spindle,      ///< M3 M4 M5
     m_mist,         ///< M7
     m_flood,        ///< M8
     m_coolant_off,  ///< M9
+    m_override,     ///< M48 .. M53
+    m_state,        ///< M70 .. M73
     m_group_count,
     m_unknown = 255
 };

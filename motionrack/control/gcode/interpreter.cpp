@@ -12,7 +12,6 @@ namespace motionrack::control::gcode {
 namespace {
 
 constexpr double largest_line_number = 9'999'999;
-constexpr double largest_tool = 99'999;
 
 }  // namespace
 
@@ -30,13 +29,15 @@ Interpreter::Interpreter(const Settings& settings) : settings_(settings) {
     frame_.g28 = settings.g28;
     frame_.g30 = settings.g30;
     next_ = modes_;
-    sum_offsets(frame_);
+    frame_.activate(0);
+    tools_ = settings.tools;
     position_ = settings.start;
 }
 
 Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Language language) {
     todo_ = 0;
     line_ = number;
+    language_ = language;
     if (end_pending_) apply_end();
     const KnownValues known(*this);
     if (!scan_line(text, {settings_.block_delete, language, &known}, block_, problem_) || !evaluate()) {
@@ -51,13 +52,14 @@ bool Interpreter::evaluate() {
     next_ = modes_;
     frame_edited_ = false;
     axis_words_taken_ = false;
+    tool_edited_.reset();
     used_ = letter_bit('F') | letter_bit('N') | letter_bit('S') | letter_bit('T');
     end_ = position_;
     if (!check_values()) return false;
-    if ((block_.g_groups & ~(1u << g_motion)) != 0 && !apply_modes()) return false;
-    if (block_.has('F')) apply_feed();
     if ((block_.m_groups | (block_.words & (letter_bit('S') | letter_bit('T')))) != 0 && !apply_machine_words())
         return false;
+    if ((block_.g_groups & ~(1u << g_motion)) != 0 && !apply_modes()) return false;
+    if (block_.has('F')) apply_feed();
     if (block_.has_g(g_nonmodal) && !nonmodal()) return false;
     if (!motion()) return false;
     if ((block_.words & ~used_) != 0) return unused();
@@ -66,6 +68,8 @@ bool Interpreter::evaluate() {
         comments_pulled_ = 0;
     }
     if (!block_.assignments.empty() && !assign()) return false;
+    if (tool_edited_) tools_.put(*tool_edited_);
+    if (block_.has_m(m_state)) keep_modes();
     commit();
     return true;
 }
@@ -113,6 +117,7 @@ bool Interpreter::check_values() {
         if (block_['T'] > largest_tool) {
             return fail_word('T', GrblStatus::value_too_large, fmt::format("{}: tools are T0 to T99999", written('T')));
         }
+        if (!known_tool('T', static_cast<std::int32_t>(block_['T']))) return false;
     }
     return true;
 }
@@ -130,8 +135,9 @@ bool Interpreter::apply_modes() {
     if (block_.has_g(g_retract)) next_.retract_to_r = block_.g[g_retract] == 990;
     if (block_.has_g(g_tool_length) && !tool_length()) return false;
     if (block_.has_g(g_system)) {
-        next_.system = static_cast<std::uint8_t>((block_.g[g_system] - 540) / 10);
-        sum_offsets(edit_frame());
+        const int code = block_.g[g_system];
+        next_.system = static_cast<std::uint8_t>(code > 590 ? code - 585 : (code - 540) / 10);
+        edit_frame().activate(next_.system);
     }
     if (block_.has_g(g_path)) {
         const int code = block_.g[g_path];
@@ -159,59 +165,9 @@ void Interpreter::apply_feed() {
     }
 }
 
-bool Interpreter::apply_machine_words() {
-    if (block_.has('S')) {
-        next_.speed_rpm = block_['S'];
-        todo_ |= todo_speed;
-    }
-    if (block_.has('T')) {
-        next_.tool_selected = static_cast<std::int32_t>(block_['T']);
-        todo_ |= todo_tool_select;
-    }
-    if (block_.has_m(m_tool)) {
-        if (next_.tool_selected < 0) {
-            return fail_at(block_.m_column[m_tool], GrblStatus::word_missing,
-                           "M6 changes to the tool that a T word has selected, and there was none; write e.g. T1 M6");
-        }
-        next_.tool_loaded = next_.tool_selected;
-        todo_ |= todo_tool_change;
-    }
-    if (block_.has_m(m_spindle)) {
-        const int code = block_.m[m_spindle];
-        next_.spindle = code == 3 ? Spindle::clockwise : code == 4 ? Spindle::counter_clockwise : Spindle::off;
-        todo_ |= todo_spindle;
-    }
-    if (block_.has_m(m_mist)) next_.mist = true;
-    if (block_.has_m(m_flood)) next_.flood = true;
-    if (block_.has_m(m_coolant_off)) next_.mist = next_.flood = false;
-    if ((block_.m_groups & (1u << m_mist | 1u << m_flood | 1u << m_coolant_off)) != 0) todo_ |= todo_coolant;
-    if (block_.has_m(m_stop)) {
-        stop_code_ = block_.m[m_stop];
-        todo_ |= todo_stop;
-    }
-    return true;
-}
-
-/// What M2 and M30 leave behind: the state that both Grbl and LinuxCNC put back. Done when the end is pulled, so that
-/// the moves before it on the line still show the frame they were written in.
-void Interpreter::apply_end() {
-    end_pending_ = false;
-    next_ = modes_;
-    next_.motion = 10;
-    next_.plane = 0;
-    next_.incremental = next_.inverse_time = next_.arc_absolute = false;
-    next_.feed = next_.feed_rotary = 0;
-    next_.spindle = Spindle::off;
-    next_.mist = next_.flood = false;
-    next_.ended = true;
-    next_.system = 0;
-    sum_offsets(frame_);
-    modes_ = next_;
-}
-
 void Interpreter::commit() {
     if ((todo_ & todo_dwell) != 0) dwell_at_ = position_;
-    end_pending_ = (todo_ & todo_stop) != 0 && stop_code_ >= 2;
+    end_pending_ = (todo_ & todo_stop) != 0 && (stop_code_ == 2 || stop_code_ == 30);
     position_ = end_;
     modes_ = next_;
     if (frame_edited_) frame_ = next_frame_;
@@ -236,7 +192,8 @@ const Step* Interpreter::pull_next() {
             event_.kind = StepKind::tool_select;
             break;
         case todo_tool_change:
-            event_.kind = StepKind::tool_change;
+            event_.kind = block_.m[m_tool] == 61 ? StepKind::tool_number : StepKind::tool_change;
+            event_.tool = modes_.tool_loaded;
             break;
         case todo_coolant:
             event_.kind = StepKind::coolant;
@@ -257,7 +214,7 @@ const Step* Interpreter::pull_next() {
             break;
         default:
             if (end_pending_) apply_end();
-            event_.kind = stop_code_ == 0   ? StepKind::pause
+            event_.kind = stop_code_ == 0 || stop_code_ == 60 ? StepKind::pause
                           : stop_code_ == 1 ? StepKind::optional_pause
                                             : StepKind::end;
             break;
@@ -299,14 +256,7 @@ Frame& Interpreter::edit_frame() {
 }
 
 Point Interpreter::program_position() const {
-    Point out = position_;
-    for (int axis = 0; axis < axis_count; ++axis) out[axis] -= frame_.offset[axis];
-    return out;
-}
-
-void Interpreter::sum_offsets(Frame& frame) const {
-    for (int axis = 0; axis < axis_count; ++axis) frame.offset[axis] = frame.work[next_.system][axis] + frame.g92[axis];
-    frame.offset[2] += frame.tool_length;
+    return frame_.to_program(position_);
 }
 
 bool Interpreter::fail_at(std::size_t column, GrblStatus status, std::string message, Trouble trouble) {

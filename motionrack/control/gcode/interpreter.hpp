@@ -29,6 +29,7 @@
 #include <motionrack/control/gcode/arc.hpp>
 #include <motionrack/control/gcode/block.hpp>
 #include <motionrack/control/gcode/cycle.hpp>
+#include <motionrack/control/gcode/frame.hpp>
 #include <motionrack/control/gcode/language/parameters.hpp>
 #include <motionrack/control/gcode/settings.hpp>
 #include <motionrack/control/gcode/step.hpp>
@@ -44,7 +45,7 @@ inline constexpr std::int16_t no_motion = -1;
 struct Modes {
     std::int16_t motion = no_motion;  ///< G code in tenths: 0, 10, 20, 30, 810, 820, 830; no_motion after G80
     std::uint8_t plane = 0;           ///< 0 G17, 1 G18, 2 G19
-    std::uint8_t system = 0;          ///< 0 G54 .. 5 G59
+    std::uint8_t system = 0;          ///< 0 G54 .. 5 G59, 6 G59.1 .. 8 G59.3
     bool inch = false;                ///< G20
     bool incremental = false;         ///< G91
     bool arc_absolute = false;        ///< G90.1
@@ -67,17 +68,6 @@ struct Modes {
     double cycle_q = 0;             ///< mm
     double cycle_p = 0;             ///< seconds
     double cycle_level = 0;         ///< G98: machine coordinate of the drilling axis before the first hole
-};
-
-/// Where program coordinates lie: machine = program + offset.
-struct Frame {
-    std::array<Point, work_system_count> work = {};
-    Point g92 = {};
-    Point g92_kept = {};     ///< what G92.3 brings back
-    double tool_length = 0;  ///< G43.1, mm along Z
-    Point g28 = {};
-    Point g30 = {};
-    Point offset = {};  ///< sum of the active ones
 };
 
 /// Give it lines, take the steps of each: `if (auto done = interpreter.line(text, 7); done) while (auto* step =
@@ -113,6 +103,11 @@ class Interpreter {
     const Block& block() const { return block_; }  ///< the words of the last line
     const Parameters& parameters() const { return parameters_; }
     Parameters& parameters() { return parameters_; }
+    const ToolTable& tools() const { return tools_; }
+    /// A subprogram ends: its parameters are gone, and the modes are as M73 has kept them.
+    void leave_call(std::optional<double> returned);
+    /// No work system is turned from now on.
+    void straighten();
 
   private:
     enum Todo : std::uint32_t {
@@ -134,6 +129,7 @@ class Interpreter {
     bool apply_modes();
     void apply_feed();
     bool apply_machine_words();
+    bool overrides();
     void apply_end();
     void commit();
     bool nonmodal();
@@ -141,6 +137,15 @@ class Interpreter {
     bool set_offsets();
     bool set_work_offset(int system, bool from_position);
     bool tool_length();
+    bool tool_length_of_words(bool adds);
+    bool tool_length_of_table(bool adds);
+    bool set_tool();
+    bool known_tool(char letter, std::int32_t number);
+    void shift_turned(Frame& frame, int system);
+    bool edit_tool(int what);
+    bool edit_tool_shape(Tool& tool);
+    void keep_modes();
+    void restore(const Modes& saved);
     bool shift();
     bool reference();
     bool motion();
@@ -148,6 +153,7 @@ class Interpreter {
     bool straight(std::int16_t code);
     bool by_itself(std::int16_t code);
     bool arc(std::int16_t code);
+    bool in_turned_plane(std::int16_t code);
     bool arc_centre(bool counter_clockwise, Planar& centre);
     bool arc_centre_of_radius(Planar start, Planar end, bool closed, bool counter_clockwise, Planar& centre);
     bool arc_centre_of_offsets(Planar start, Planar& centre);
@@ -156,7 +162,10 @@ class Interpreter {
     bool cycle(std::int16_t code);
     bool cycle_words(std::int16_t code);
     bool cycle_within_limits(CyclePlan& plan);
+    bool cycle_places(CyclePlan& plan);
+    bool cycle_places_turned(CyclePlan& plan);
     bool targets(bool machine_coordinates);
+    bool targets_turned();
     bool feed_of(Move& move);
     bool reach(int axis, double value, std::size_t column) {
         return (value >= low_[axis] && value <= high_[axis]) || beyond(axis, value, column);
@@ -178,7 +187,6 @@ class Interpreter {
     double scaled(char letter) const { return next_.inch ? block_[letter] * 25.4 : block_[letter]; }
     Frame& edit_frame();
     const Frame& frame_now() const { return frame_edited_ ? next_frame_ : frame_; }
-    void sum_offsets(Frame& frame) const;
     static std::size_t axis_letter(int axis) { return static_cast<std::size_t>(letter_index(axis_letters[axis])); }
 
     Settings settings_;
@@ -190,6 +198,13 @@ class Interpreter {
     Frame frame_;
     Point position_ = {};
     Parameters parameters_;
+    ToolTable tools_;
+    /// What M70 and M73 have kept, by the depth of calls.
+    struct Kept {
+        std::optional<Modes> modes;
+        bool comes_back = false;  ///< when the call ends (M73)
+    };
+    std::vector<Kept> kept_;
 
     // What the line being read will have changed when it is found good.
     Modes next_;
@@ -198,6 +213,9 @@ class Interpreter {
     Point end_ = {};
     std::uint32_t used_ = 0;
     bool axis_words_taken_ = false;
+
+    Language language_ = Language::words;
+    std::optional<Tool> tool_edited_;  ///< by G10 L1, L10, L11
 
     Block block_;
     Problem problem_;

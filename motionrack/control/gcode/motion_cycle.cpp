@@ -63,7 +63,7 @@ bool Interpreter::cycle(std::int16_t code) {
     const auto& axes = plane_axes[next_.plane];
     const int third = axes[2];
     const char depth_letter = axis_letters[third];
-    if (!cycle_words(code)) return false;
+    if (!in_turned_plane(code) || !cycle_words(code)) return false;
     CyclePlan plan;
     if (block_.has('L')) {
         if (!need_integer('L', 1, most_repeats, "the number of holes")) return false;
@@ -116,6 +116,33 @@ bool Interpreter::cycle(std::int16_t code) {
 /// end.
 bool Interpreter::cycle_within_limits(CyclePlan& plan) {
     plan.pattern.end = position_;
+    if (!(frame_now().turned ? cycle_places_turned(plan) : cycle_places(plan))) return false;
+    const char depth = axis_letters[plan.third];
+    const std::size_t r_column = block_.has('R') ? block_.column[letter_index('R')] : blame();
+    const std::size_t depth_column = block_.has(depth) ? block_.column[letter_index(depth)] : blame();
+    end_[plan.third] = plan.clear;
+    if (plan.clear != plan.level && !reach(plan.third, plan.clear, r_column)) return false;
+    return reach(plan.third, plan.r, r_column) && reach(plan.third, plan.bottom, depth_column);
+}
+
+/// The first hole and the steps in a turned work system, G17.
+bool Interpreter::cycle_places_turned(CyclePlan& plan) {
+    const Frame& frame = frame_now();
+    Point words = next_.incremental ? Point{} : frame.to_program(position_);
+    for (int axis = 0; axis < 2; ++axis)
+        if (block_.has(axis_letters[axis])) words[axis] = scaled(axis_letters[axis]);
+    const Point by = frame.turned_by(words), to = frame.to_machine(words);
+    for (int axis = 0; axis < 2; ++axis) {
+        double& step = axis == 0 ? plan.step_first : plan.step_second;
+        step = next_.incremental ? by[axis] : 0;
+        if (!next_.incremental) plan.pattern.end[axis] = to[axis];
+        end_[axis] = plan.pattern.end[axis] + plan.repeats * step;
+        if (!reach(axis, plan.pattern.end[axis] + step, blame()) || !reach(axis, end_[axis], blame())) return false;
+    }
+    return true;
+}
+
+bool Interpreter::cycle_places(CyclePlan& plan) {
     for (const int axis : {static_cast<int>(plan.first), static_cast<int>(plan.second)}) {
         const char letter = axis_letters[axis];
         if (!block_.has(letter)) continue;
@@ -129,12 +156,7 @@ bool Interpreter::cycle_within_limits(CyclePlan& plan) {
         end_[axis] = plan.pattern.end[axis] + plan.repeats * step;
         if (!reach(axis, plan.pattern.end[axis] + step, column) || !reach(axis, end_[axis], column)) return false;
     }
-    const char depth = axis_letters[plan.third];
-    const std::size_t r_column = block_.has('R') ? block_.column[letter_index('R')] : blame();
-    const std::size_t depth_column = block_.has(depth) ? block_.column[letter_index(depth)] : blame();
-    end_[plan.third] = plan.clear;
-    if (plan.clear != plan.level && !reach(plan.third, plan.clear, r_column)) return false;
-    return reach(plan.third, plan.r, r_column) && reach(plan.third, plan.bottom, depth_column);
+    return true;
 }
 
 }  // namespace motionrack::control::gcode

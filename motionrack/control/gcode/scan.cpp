@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t word_letters = axis_words | offset_words | letter_bit('F') | letter_bit('L') | letter_bit('N') |
                                        letter_bit('P') | letter_bit('Q') | letter_bit('R') | letter_bit('S') |
-                                       letter_bit('T') | letter_bit('G') | letter_bit('M');
+                                       letter_bit('T') | letter_bit('G') | letter_bit('M') | letter_bit('H');
 
 /// The code in tenths, or -1 where it has more decimals or is out of the table.
 int tenths_of(const Number& number) {
@@ -35,7 +35,7 @@ bool Scanner::scan() {
             const std::size_t column = here();
             ++at_;
             while (at_ < end_ && is_blank(*at_)) ++at_;
-            if ((letter_bit(letter) & word_letters) == 0) {
+            if ((letter_bit(letter) & word_letters) == 0 || (letter == 'H' && options_.language == Language::words)) {
                 if (letter == 'O' && options_.language == Language::program ? flow(column) : bad_letter(letter, column)) continue;
                 return false;
             }
@@ -53,7 +53,7 @@ bool Scanner::scan() {
 bool Scanner::code_g(const Number& number, std::size_t column) {
     const int tenths = tenths_of(number);
     const GroupG group = group_of_g(tenths);
-    if (group >= g_group_count) {
+    if (group >= g_group_count || (options_.language == Language::words && !is_for_senders(group, tenths))) {
         const bool named = tenths >= 0 && tenths < 1000;
         const GrblStatus status = tenths >= 591 && tenths <= 593 ? GrblStatus::no_such_system : GrblStatus::unsupported;
         return fail_at(
@@ -81,11 +81,11 @@ bool Scanner::code_m(const Number& number, std::size_t column) {
     const int tenths = tenths_of(number);
     const int code = tenths >= 0 && tenths % 10 == 0 ? tenths / 10 : -1;
     const GroupM group = group_of_m(code);
-    if (group == m_unknown) {
+    constexpr int last_of_senders = 30;
+    if (group == m_unknown || (options_.language == Language::words && code > last_of_senders)) {
         return fail_at(column, GrblStatus::unsupported,
                        code >= 0 ? why_not_m(code)
-                                 : fmt::format("{} is not a known command; known are M0 M1 M2 M3 M4 M5 M6 M7 M8 M9 M30",
-                                               word_at(text_, column)));
+                                 : fmt::format("{} is not a known command; known are {}", word_at(text_, column), known_m_codes()));
     }
     constexpr std::uint32_t coolants = 1u << m_mist | 1u << m_flood;
     const bool clash = (group == m_coolant_off && (block_.m_groups & coolants) != 0) ||

@@ -202,6 +202,13 @@ TEST(GcodeParameters, AreNotTakenFromSenders) {
     const Row rows[] = {{"G0 X#1", 4, 2, "X#1", "lines from a sender"},
                         {"G0 X[1+2]", 4, 2, "X[1+2]", "lines from a sender"},
                         {"#1=5", 1, 20, "#", "lines from a sender"},
+                        {"G59.1", 1, 29, "G59.1", "six work systems"},
+                        {"G10 L2 P7 X1", 8, 29, "P7", "six work systems"},
+                        {"G10 L2 P1 X1 R5", 14, 36, "R5", "nothing on this line uses"},
+                        {"G43 H1", 1, 20, "G43", "no tool table"},
+                        {"G43.1 X1", 7, 37, "X1", "along Z only"},
+                        {"G97", 1, 20, "G97", "rev/min"},
+                        {"M48", 1, 20, "M48", "not a known command"},
                         {"O100 SUB", 1, 20, "O100", "O words"}};
     for (const Row& row : rows) {
         Interpreter interpreter(testing::machine());

@@ -8,7 +8,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-constexpr int first_system = 5221, system_size = 20;
+constexpr int first_system = 5221, system_size = 20, turn_place = 9;
 
 /// Axis of the place in a row X Y Z A B C U V W.
 double of_axis(const Point& point, int place) {
@@ -54,7 +54,7 @@ constexpr Known known[] = {
     {"_units_per_minute", [](const Interpreter& in) { return in.modes().inverse_time ? 0.0 : 1.0; }},
     {"_units_per_rev", [](const Interpreter&) { return 0.0; }},
     {"_coord_system", [](const Interpreter& in) { return in.modes().system < 6 ? 540.0 + 10 * in.modes().system : 585.0 + in.modes().system; }},
-    {"_tool_offset", [](const Interpreter& in) { return in.frame().tool_length != 0 ? 1.0 : 0.0; }},
+    {"_tool_offset", [](const Interpreter& in) { return in.frame().tool != Point{} ? 1.0 : 0.0; }},
     {"_retract_r_plane", [](const Interpreter& in) { return in.modes().retract_to_r ? 1.0 : 0.0; }},
     {"_retract_old_z", [](const Interpreter& in) { return in.modes().retract_to_r ? 0.0 : 1.0; }},
     {"_spindle_rpm_mode", [](const Interpreter&) { return 1.0; }},
@@ -108,12 +108,19 @@ double KnownValues::numbered(int number) const {
     if (number == 5210) return frame.g92 != Point{} ? 1 : 0;
     if (between(number, 5211, 5219)) return of_axis(frame.g92_kept, number - 5211);
     if (number == 5220) return modes.system + 1;
-    if (between(number, first_system, first_system + work_system_count * system_size - 1)) {
+    if (between(number, first_system, first_system + (work_system_count - 1) * system_size + turn_place)) {
         const auto system = static_cast<std::size_t>((number - first_system) / system_size);
-        return of_axis(frame.work[system], (number - first_system) % system_size);
+        const int place = (number - first_system) % system_size;
+        return place == turn_place ? frame.turn[system] : of_axis(frame.work[system], place);
     }
     if (number == 5400) return std::max(0, modes.tool_loaded);
-    if (number == 5403) return frame.tool_length;
+    if (between(number, 5401, 5409)) return of_axis(frame.tool, number - 5401);
+    if (between(number, 5410, 5413)) {
+        const Tool* tool = interpreter_.tools().find(modes.tool_loaded);
+        if (!tool) return 0;
+        const double of_tool[] = {tool->diameter_mm, tool->front_angle, tool->back_angle, static_cast<double>(tool->orientation)};
+        return of_tool[number - 5410];
+    }
     if (between(number, 5420, 5428)) {
         const int place = number - 5420;
         return of_axis(interpreter_.program_position(), place) / unit_of(modes, place);

@@ -138,7 +138,7 @@ bool Walk::give_back(const FlowPlace& place, Interpreter& interpreter) {
     std::vector<double> values;
     const bool good = arguments(place, 1, interpreter, values);
     if (frames_.empty()) return good;
-    interpreter.parameters().leave(values.empty() ? std::nullopt : std::optional<double>(values.front()));
+    interpreter.leave_call(values.empty() ? std::nullopt : std::optional<double>(values.front()));
     const Frame& frame = frames_.back();
     lines_ = frame.back;
     counted_from_ = lines_.number();
