@@ -131,7 +131,7 @@ void CanonPrinter::path(PathControl path, double tolerance_mm, const Interpreter
     call(path == PathControl::exact_path ? "SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)"
          : path == PathControl::exact_stop
              ? "SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)"
-             : fmt::format("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {:.6f})", tolerance));
+             : fmt::format("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {:.4f})", tolerance));
 }
 
 void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {

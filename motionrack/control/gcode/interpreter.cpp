@@ -38,6 +38,7 @@ Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Lang
     todo_ = 0;
     line_ = number;
     language_ = language;
+    moving_.kind = StepKind::move;
     if (end_pending_) apply_end();
     const KnownValues known(*this);
     if (!scan_line(text, {settings_.block_delete, language, &known}, block_, problem_) || !evaluate()) {
@@ -233,7 +234,8 @@ const Step* Interpreter::pull_motion() {
         on_the_way_ = true;
         return &moving_;
     }
-    if (cycle_.next(moving_.move)) return &moving_;
+    if (cycle_.next(moving_)) return &moving_;
+    moving_.kind = StepKind::move;
     todo_ &= ~static_cast<std::uint32_t>(todo_motion);
     return pull();
 }
@@ -305,13 +307,13 @@ bool Interpreter::unused() {
                   ? "; the offsets of an arc are I J in G17, I K in G18, J K in G19, and none beside R"
                   : "; it is the centre of an arc (G2, G3)";
     } else if (letter == 'R') {
-        use = "; it is the radius of an arc (G2, G3) or the retract height of a drilling cycle (G81 G82 G83)";
+        use = "; it is the radius of an arc (G2, G3) or the retract height of a drilling cycle (G73, G81 .. G89)";
     } else if (letter == 'P') {
-        use = "; it goes with G4, G10, G64 and G82, and with arcs that have an end or offsets on the same line";
+        use = "; it goes with G4, G10, G64 and the cycles that wait, and with arcs that have an end or offsets on the same line";
     } else if (letter == 'L') {
-        use = "; it goes with G10 and the drilling cycles (G81 G82 G83)";
+        use = "; it goes with G10 and the drilling cycles (G73, G81 .. G89)";
     } else if (letter == 'Q') {
-        use = "; it is the peck depth of G83";
+        use = "; it is the peck depth of G73 and G83";
     }
     return fail_word(letter, GrblStatus::unused_word,
                      fmt::format("{}: nothing on this line uses the {} word{}", written(letter), letter, use));

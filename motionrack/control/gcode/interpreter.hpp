@@ -43,7 +43,7 @@ inline constexpr std::int16_t no_motion = -1;
 
 /// Modal state that is only numbers.
 struct Modes {
-    std::int16_t motion = no_motion;  ///< G code in tenths: 0, 10, 20, 30, 810, 820, 830; no_motion after G80
+    std::int16_t motion = no_motion;  ///< G code in tenths: 0, 10, 20, 30, 730 .. 890; no_motion after G80
     std::uint8_t plane = 0;           ///< 0 G17, 1 G18, 2 G19
     std::uint8_t system = 0;          ///< 0 G54 .. 5 G59, 6 G59.1 .. 8 G59.3
     bool inch = false;                ///< G20
@@ -161,6 +161,7 @@ class Interpreter {
     bool arc_within_limits(Planar centre, double radius);
     bool cycle(std::int16_t code);
     bool cycle_words(std::int16_t code);
+    bool spindle_turns(std::int16_t code);
     bool cycle_within_limits(CyclePlan& plan);
     bool cycle_places(CyclePlan& plan);
     bool cycle_places_turned(CyclePlan& plan);

@@ -12,9 +12,6 @@ namespace {
 bool is_arc(std::int16_t code) {
     return code == 20 || code == 30;
 }
-bool is_cycle(std::int16_t code) {
-    return code >= 810;
-}
 
 }  // namespace
 

@@ -20,7 +20,7 @@ namespace motionrack::cli {
 namespace {
 
 struct RunOptions {
-    std::string program, rack, report = "report.html", vcd, csv, events;
+    std::string program, rack, tools, report = "report.html", vcd, csv, events;
     std::vector<std::string> signals, faults;
     double timescale_ns = 100;
     bool json = false, quiet = false, no_report = false, block_delete = false, stream = false;
@@ -66,7 +66,8 @@ int run(const RunOptions& options) {
     const Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
     const auto& [text, name] = *program;
-    const control::gcode::Settings settings = program_settings(*config, name, options.block_delete);
+    control::gcode::Settings settings = program_settings(*config, name, options.block_delete);
+    if (!load_tools(options.tools, settings, code)) return code;
     if (const Result<void> good = control::gcode::check_settings(settings); !good) return report(good.error());
     if (!options.stream)
         if (const int bad = print_problems(control::gcode::check_program(text, settings, 20, name), name); bad != exit_done) return bad;
@@ -120,6 +121,7 @@ void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
     command->add_option("--events", options->events, "write what happened (blocks, warnings, the stop) as CSV");
     command->add_option("--fault", options->faults, "break something on the way, NAME=VALUE@TIME: X.limit_plus=0@0.5s, X.encoder.broken_a@1s")
         ->allow_extra_args(false);
+    command->add_option("--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43");
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
     command->add_flag("--stream", options->stream, "move line by line as it is read, without checking the whole program first");
     command->add_flag("--json", options->json, "print the summary as JSON");

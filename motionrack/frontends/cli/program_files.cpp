@@ -47,6 +47,17 @@ control::gcode::Settings program_settings(const rack::RackConfig& config, const 
     return settings;
 }
 
+bool load_tools(const std::string& path, control::gcode::Settings& settings, int& exit_code_out) {
+    if (path.empty()) return true;
+    const Result<std::string> text = read_text(path);
+    Result<control::gcode::ToolTable> tools = text ? control::gcode::read_tool_table(*text, path) : tl::unexpected<Error>(text.error());
+    if (tools)
+        settings.tools = std::move(*tools);
+    else
+        exit_code_out = report(tools.error());
+    return tools.has_value();
+}
+
 int print_problems(const control::gcode::Check& check, const std::string& name) {
     if (check.problems.empty()) return exit_done;
     for (const control::gcode::Problem& problem : check.problems) print_error(problem.text());

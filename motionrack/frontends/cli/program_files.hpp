@@ -31,6 +31,9 @@ std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_cod
 /// built-in example have no folder.
 control::gcode::Settings program_settings(const rack::RackConfig& config, const std::string& path, bool block_delete = false);
 
+/// Reads a tool table into the settings; an empty path leaves them. False: it was told what is wrong, `exit_code` says how.
+bool load_tools(const std::string& path, control::gcode::Settings& settings, int& exit_code);
+
 /// Prints up to 20 problems of a program with their lines; the exit code (0 if there are none).
 int print_problems(const control::gcode::Check& check, const std::string& name);
 
