@@ -88,4 +88,4 @@ run_packages=(g++ cmake ninja-build libfmt-dev libcli11-dev libtomlplusplus-dev 
     pkg-config librsvg2-dev fonts-dejavu-core libsqlite3-dev libboost1.81-dev libssl-dev)
 test_packages=("${run_packages[@]}" libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev sigrok-cli iverilog fp-compiler fp-units-rtl clang
     libclang-rt-14-dev make libfuse3-dev fuse3 iproute2 chromium
-    bcnc xvfb xauth)
+    bcnc xvfb xauth linuxcnc-uspace)

@@ -30,7 +30,7 @@ class Walk {
     Outcome<void> took(Interpreter& interpreter) {
         const Block& block = interpreter.block();
         if (block.flow) return follow(interpreter);
-        if (const bool stops = block.has_m(m_stop) && block.m[m_stop] >= 2; stops || block.percent || !begun_) see_end(block, stops);
+        if (const bool stops = block.has_m(m_stop) && (block.m[m_stop] == 2 || block.m[m_stop] == 30); stops || block.percent || !begun_) see_end(block, stops);
         return {};
     }
 
