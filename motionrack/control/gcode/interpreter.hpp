@@ -1,6 +1,6 @@
 // The meaning of G-code, line by line: words and modal state become moves in machine coordinates and events.
 //
-// The dialect is Grbl 1.1's, with what LinuxCNC adds for paths and drilling. Where the two differ, or neither is
+// The dialect is Grbl 1.1's, with what LinuxCNC adds: paths, cycles, tool tables, turned work systems, parameters. Where the two differ, or neither is
 // followed:
 // - At the start no motion mode is active (LinuxCNC); Grbl starts in G0: Settings::start_in_g0.
 // - F0 or no F on a feed is an error (both); in G93 every feed line needs its F (both); G93 <-> G94 forgets the feed
@@ -9,7 +9,7 @@
 //   (LinuxCNC; Grbl's errors 26 and 32). Offset words outside the plane, and R beside I J K, are errors (LinuxCNC; Grbl
 //   leaves them out silently). R arcs may be 0.005 mm too short for half a turn (LinuxCNC).
 // - M7 and M8 may stand on one line (Grbl); LinuxCNC refuses it.
-// - G53 reaches machine coordinates without the tool length (both). G43.1 takes Z alone (Grbl).
+// - G53 reaches machine coordinates without the tool length (both). G43.1 of a sender takes Z alone (Grbl).
 // - G61 is exact path, G61.1 exact stop, G64 P blends (LinuxCNC); G64 without P takes the settings' tolerance, where
 // LinuxCNC
 //   takes any. G64's Q (naive cam) is refused.
@@ -21,7 +21,7 @@
 //   (LinuxCNC). Between holes the drill stays at the height where it left the last one, after rising to R where that is
 //   higher; after a change from G99 to G98, LinuxCNC rises to the first level on the slant. A peck thinner than the
 //   clearance never rapids above R.
-// - G38.x, G41, G42, G43 and M56 are refused with a sentence. M0, M1, M2 and M30 are events.
+// - G38.x, G41, G42 and M56 are refused with a sentence. M0, M1, M2 and M30 are events.
 // - A program may end without M2 (Grbl); LinuxCNC wants M2 or %.
 // - Ends and bulges past the axis limits are errors of the line (Grbl raises alarm 2).
 #pragma once

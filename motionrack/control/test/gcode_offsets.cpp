@@ -200,6 +200,9 @@ TEST(GcodeModes, OverridesStayWithTheOperator) {
     EXPECT_THAT(problem_of("M62 P1"), HasSubstr("inputs or outputs"));
     EXPECT_THAT(problem_of("M66 P1"), HasSubstr("inputs or outputs"));
     EXPECT_THAT(problem_of("M98 P100"), HasSubstr("O words"));
+    for (const char* line : {"G7", "G8", "G70 Q1", "G71 Q1", "G72.2"}) EXPECT_THAT(problem_of(line), HasSubstr("for lathes")) << line;
+    for (const char* line : {"G33 Z1 K1", "G33.1 Z1 K1", "G76 P1", "G95"}) EXPECT_THAT(problem_of(line), HasSubstr("angle of the spindle")) << line;
+    for (const char* line : {"G87 X1 Z1 R1", "G88 X1 Z1 R1 P1"}) EXPECT_THAT(problem_of(line), HasSubstr("use G8")) << line;
     EXPECT_THAT(problem_of("G96 D100 S5"), HasSubstr("rev/min"));
 }
 

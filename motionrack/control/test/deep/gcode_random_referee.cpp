@@ -37,7 +37,10 @@ std::string line(bool turns) {
             return fmt::format("G10 L2 P1 X{} Y{}{}\n", *rc::gen::inRange(-9, 9), *rc::gen::inRange(-9, 9),
                                turns ? fmt::format(" R{}", *rc::gen::inRange(-18, 18) * 10) : "");
         case 4: return *rc::gen::element<std::string>("G90\n", "G91\n", "G55\n", "G54\n", "G20\n", "G21\n", turns ? "G54\n" : "G92 X1 Y2\n", turns ? "G55\n" : "G92.1\n");
-        default: return fmt::format("G91 G2 X{0} Y{1} I{0} J{1} P2\nG90\n", *rc::gen::inRange(1, 9), 0);
+        default: {
+            const int radius = *rc::gen::inRange(1, 9);
+            return fmt::format("G91 G2 X{} Y0 I{} J0 P2\nG90\n", 2 * radius, radius);
+        }
     }
 }
 
