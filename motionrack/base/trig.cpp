@@ -155,4 +155,13 @@ double acos(double x) {
     return 2 * atan2(std::sqrt(1 - x), std::sqrt(1 + x));
 }
 
+double asin(double x) {
+    return atan2(x, std::sqrt((1 - x) * (1 + x)));
+}
+
+double tan(double radians) {
+    const SinCos both = sin_cos(radians);
+    return both.sin / both.cos;
+}
+
 }  // namespace motionrack

@@ -1,4 +1,4 @@
-// Sine, cosine, arc tangent and arc cosine whose bits do not depend on the CPU, the compiler or the C library.
+// Sine, cosine, tangent and their inverses whose bits do not depend on the CPU, the compiler or the C library.
 //
 // They use only + - * / sqrt on doubles and no fused operations, so the same input gives the same bits everywhere. The
 // errors named are those that base/test/trig_test.cpp measures against long double (64-bit mantissa).
@@ -24,5 +24,11 @@ double atan2(double y, double x);
 
 /// The angle in [0, pi] rad whose cosine is `x`, within 2.6 ulp (measured: 2.4); NaN outside [-1, 1].
 double acos(double x);
+
+/// The angle in [-pi/2, pi/2] rad whose sine is `x`, within 2.6 ulp; NaN outside [-1, 1].
+double asin(double x);
+
+/// Tangent of `radians`, within 2.5 ulp for |radians| <= 1e6; NaN where sin_cos is.
+double tan(double radians);
 
 }  // namespace motionrack

@@ -21,6 +21,7 @@ std::string words_of(const gcode::Step& step) {
                                step.speed_rpm);
         case StepKind::coolant: return fmt::format("coolant: mist {}, flood {}", step.mist ? "on" : "off", step.flood ? "on" : "off");
         case StepKind::tool_select: return fmt::format("tool {} selected", step.tool);
+        case StepKind::tool_number: return fmt::format("tool {} is in the spindle", step.tool);
         case StepKind::tool_change: return fmt::format("tool {} changed in", step.tool);
         case StepKind::pause: return "pause (M0): nobody waits in simulated time, the program goes on";
         case StepKind::optional_pause: return "optional pause (M1): not asked for, the program goes on";
@@ -90,7 +91,7 @@ Result<void> Controller::run(std::string_view text, const std::string& file, Pro
     Result<void> outcome;
     while (outcome) {
         auto step = reader.next();
-        run.lines = reader.line();
+        run.lines = reader.walk().furthest();
         if (!step) {
             outcome = tl::unexpected<Error>(step.error());
             break;

@@ -43,6 +43,15 @@ gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number) {
     return {};
 }
 
+gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number, gcode::Walk& walk) {
+    text_ = text;
+    if (gcode::Outcome<void> read = interpreter_.line(text_, number, gcode::Language::program); !read) return read;
+    if (gcode::Outcome<void> taken = walk.took(interpreter_); !taken) return taken;
+    unpulled_ = true;
+    pull_steps();
+    return {};
+}
+
 void Stream::move(const Move& move) {
     Step step;
     step.line = move.line;
@@ -260,6 +269,7 @@ void Stream::forget() {
     unpulled_ = false;
     planned_ = handed_ = 0;
     state_ = StreamState::rest;
+    interpreter_.straighten();
     stand_here(*axes_);
 }
 

@@ -18,7 +18,7 @@
 #include <deque>
 #include <functional>
 #include <motionrack/base/port.hpp>
-#include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/language/walk.hpp>
 #include <motionrack/control/path.hpp>
 #include <motionrack/control/path_axes.hpp>
 #include <motionrack/control/path_limits.hpp>
@@ -57,6 +57,8 @@ class Stream {
     bool has_room() const { return entries_.size() < settings_.most_entries && !unpulled_ && wish_ != Wish::stop; }
     /// Reads and checks a line and puts its moves behind the others. Needs has_room(). Errors: it had no effect.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number);
+    /// The same of a whole program that is walked through: in its whole language.
+    gcode::Outcome<void> line(std::string_view text, std::int32_t number, gcode::Walk& walk);
     /// Puts a move behind the others that no line has asked for: modes stay, the feed override does not count, and the lines after it
     /// begin where it ends. It must be one that the axes can do. Needs has_room().
     void move(const Move& move);
@@ -93,6 +95,8 @@ class Stream {
     void forget_modes();
     /// Work offsets, G28 and G30 are 0 from now on. Needs rest.
     void forget_offsets();
+    /// A program is over: what Grbl does not know of is as at its start, so that a sender's lines mean what they say. Needs rest.
+    void straighten() { interpreter_.straighten(); }
     /// What forget_modes() leaves: how a program that begins here is read.
     gcode::Settings fresh_settings() const;
 

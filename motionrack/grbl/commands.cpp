@@ -217,7 +217,7 @@ int Session::jog(const std::string& text) {
     const std::string_view words = std::string_view(text).substr(3);
     Block block;
     Problem problem;
-    if (!scan_line(words, false, block, problem)) return static_cast<int>(problem.status);
+    if (!scan_line(words, {}, block, problem)) return static_cast<int>(problem.status);
     constexpr unsigned groups = 1u << g_units | 1u << g_distance | 1u << g_nonmodal;
     if (block.percent || block.m_groups != 0 || (block.g_groups & ~groups) != 0 || (block.has_g(g_nonmodal) && block.g[g_nonmodal] != 530)) return error_jog;
     if (!grbl_has(block)) return error_unsupported;

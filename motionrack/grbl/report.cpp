@@ -139,7 +139,7 @@ std::string Session::modes_text() const {
     using control::gcode::Spindle;
     const control::gcode::Modes& modes = interpreter().modes();
     const int motion = modes.motion != control::gcode::no_motion ? modes.motion / 10 : was_g80_ ? 80 : 0;
-    std::string out = fmt::format("[GC:G{} G{} G{} G{} G{} G{}", motion, 54 + modes.system, 17 + modes.plane, modes.inch ? 20 : 21,
+    std::string out = fmt::format("[GC:G{} G{} G{} G{} G{} G{}", motion, modes.system < 6 ? fmt::format("{}", 54 + modes.system) : fmt::format("59.{}", modes.system - 5), 17 + modes.plane, modes.inch ? 20 : 21,
                                   modes.incremental ? 91 : 90, modes.inverse_time ? 93 : 94);
     out += modes.spindle == Spindle::off ? " M5" : modes.spindle == Spindle::clockwise ? " M3" : " M4";
     if (modes.mist) out += " M7";
@@ -154,10 +154,10 @@ std::string Session::modes_text() const {
 std::string Session::parameters_text() const {
     const control::gcode::Frame& frame = interpreter().frame();
     std::string out;
-    for (std::size_t system = 0; system < frame.work.size(); ++system) out += fmt::format("[G{}:{}]\r\n", 54 + system, values(frame.work[system]));
+    for (std::size_t system = 0; system < control::gcode::grbl_work_system_count; ++system) out += fmt::format("[G{}:{}]\r\n", 54 + system, values(frame.work[system]));
     out += fmt::format("[G28:{}]\r\n[G30:{}]\r\n[G92:{}]\r\n", values(frame.g28), values(frame.g30), values(frame.g92));
     const bool inches = own_.inches != 0;
-    out += fmt::format("[TLO:{:.{}f}]\r\n[PRB:{}:0]\r\n", inches ? frame.tool_length / mm_per_inch : frame.tool_length, inches ? 4 : 3, values({}));
+    out += fmt::format("[TLO:{:.{}f}]\r\n[PRB:{}:0]\r\n", inches ? frame.tool[2] / mm_per_inch : frame.tool[2], inches ? 4 : 3, values({}));
     return out;
 }
 

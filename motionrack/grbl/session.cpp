@@ -116,7 +116,7 @@ bool Session::must_wait(const Line& line) {
     if (!has_room()) return true;
     Block block;
     Problem problem;
-    return control::gcode::scan_line(text, false, block, problem) && must_stand_first(block);
+    return control::gcode::scan_line(text, {}, block, problem) && must_stand_first(block);
 }
 
 /// What Grbl does only when all motion before it is done.
@@ -126,7 +126,7 @@ bool Session::must_stand_first(const Block& block) const {
     if (block.has_m(m_stop)) return true;
     if (block.has_g(g_nonmodal) && stands_first(block.g[g_nonmodal])) return true;
     if (block.has_g(g_system) && block.g[g_system] != 540 + 10 * modes.system) return true;
-    if (block.has_g(g_tool_length) && (block.g[g_tool_length] == 431 || interpreter().frame().tool_length != 0)) return true;
+    if (block.has_g(g_tool_length) && (block.g[g_tool_length] == 431 || interpreter().frame().tool[2] != 0)) return true;
     if (block.has_m(m_spindle) && spindle_of(block.m[m_spindle]) != modes.spindle) return own_.laser == 0;
     if (block.has('S') && block['S'] != modes.speed_rpm) return own_.laser == 0;
     return (block.has_m(m_mist) && !modes.mist) || (block.has_m(m_flood) && !modes.flood) || (block.has_m(m_coolant_off) && (modes.mist || modes.flood));
@@ -155,7 +155,7 @@ int Session::gcode(const std::string& text) {
     if (text.find('%') != std::string::npos) return error_letter;
     Block block;
     Problem problem;
-    const bool good = scan_line(text, false, block, problem);
+    const bool good = scan_line(text, {}, block, problem);
     if (good && !grbl_has(block)) return error_unsupported;
     const Outcome<void> read = check_ ? check_->line(text, 0) : give(text, good && block.has('N') ? static_cast<std::int32_t>(block['N']) : 0);
     if (!read) return refused(read.error());

@@ -111,8 +111,7 @@ Result<void> Machine::begin_program(std::string text, std::string name) {
     if (!check.problems.empty()) return tl::unexpected<Error>(check.problems.front());
     program_ = std::move(text);
     program_name_ = std::move(name);
-    lines_.emplace(program_);
-    end_ = {};
+    walk_.emplace(program_, stream_->fresh_settings(), program_name_);
     line_count_ = static_cast<std::int32_t>(check.lines);
     program_runs_ = true;
     enter(MachineState::moving);
@@ -153,7 +152,7 @@ Result<void> Machine::resume() {
 }
 
 void Machine::stop() {
-    lines_.reset();
+    walk_.reset();
     program_runs_ = false;
     stream_->stop();
     home_stop_ = true;

@@ -182,8 +182,7 @@ class Machine {
     bool quit_ = false, stop_wanted_ = false, reset_wanted_ = false;
     // the program, or lines one by one
     std::string program_, program_name_;
-    std::optional<control::gcode::Lines> lines_;
-    control::gcode::ProgramEnd end_;
+    std::optional<control::gcode::Walk> walk_;
     std::int32_t line_count_ = 0;
     bool program_runs_ = false, single_step_ = false;
     Instant last_line_{};

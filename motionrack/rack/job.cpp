@@ -69,7 +69,7 @@ void Job::listen(const std::vector<control::BlockStart>& starts) {
 
 Result<void> Job::drive(control::PathAxes& axes, JobOutcome& out) {
     control::ControllerSettings settings;
-    settings.gcode = reader_settings(rack_.config(), settings_.block_delete);
+    settings.gcode = settings_.reading ? *settings_.reading : reader_settings(rack_.config());
     settings.kept_back = rack_.axes().front().card->kept_back();
     settings.jerk_limited = rack_.config().jerk_limited();
     if (settings_.orders != nullptr && settings_.orders->needs_stream()) return drive_by_stream(axes, settings, out);
@@ -111,7 +111,7 @@ Result<void> Job::drive_by_stream(control::PathAxes& axes, const control::Contro
 void Job::give(std::string_view program, std::string name, bool block_delete) {
     settings_.program = program;
     settings_.program_name = std::move(name);
-    settings_.block_delete = block_delete;
+    settings_.reading = reader_settings(rack_.config(), block_delete);
 }
 
 JobOutcome Job::run() {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <motionrack/control/controller.hpp>
 #include <motionrack/rack/live_drive.hpp>
 #include <motionrack/rack/monitor.hpp>
@@ -24,7 +25,8 @@ struct JobProgress {
 struct JobSettings {
     std::string_view program;              ///< the text; must outlive the job
     std::string program_name;              ///< for messages
-    bool block_delete = false;
+    /// How it is read; none: reader_settings() of the rack.
+    std::optional<control::gcode::Settings> reading = {};
     Duration sample_period = milliseconds(1);
     std::size_t most_samples = 200'000;
     const std::atomic<bool>* stop = nullptr;               ///< Ctrl-C; not used if there are orders

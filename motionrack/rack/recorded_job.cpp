@@ -24,6 +24,8 @@ trace::RecordingHead head_of(const JobRequest& request, const OrderPlan& orders)
     head.rack = request.rack_text;
     head.block_delete = request.block_delete;
     head.stream = request.stream;
+    for (const control::gcode::Tool& tool : request.tools.tools()) head.tools += to_text(tool) + "\n";
+    head.subprograms = request.subprograms;
     head.live = orders.needs_stream();
     head.sample_period = JobSettings().sample_period;
     for (const TimedText& fault : request.faults) head.inputs.push_back({fault.at, std::string(fault_word) + fault.action});
@@ -45,6 +47,17 @@ Result<std::vector<TimedText>> read_orders(const std::vector<std::string>& texts
     return out;
 }
 
+control::gcode::Settings reading_of(const JobRequest& request) {
+    control::gcode::Settings out = reader_settings(request.config, request.block_delete);
+    out.tools = request.tools;
+    out.subprogram = [texts = request.subprograms](const std::string& name) -> Result<std::string> {
+        const auto found = texts.find(name);
+        if (found == texts.end()) return fail(Trouble::bad_input, fmt::format("no text of {} came with it", in_quotes(name)));
+        return found->second;
+    };
+    return out;
+}
+
 Result<JobRequest> request_of(const trace::RecordingReader& recording) {
     const trace::RecordingHead& head = recording.head();
     RackReading reading = read_rack_text(head.rack, head.rack_file);
@@ -58,6 +71,8 @@ Result<JobRequest> request_of(const trace::RecordingReader& recording) {
     out.program_name = head.program_name;
     out.block_delete = head.block_delete;
     out.stream = head.stream;
+    MOTIONRACK_TRY(out.tools, control::gcode::read_tool_table(head.tools, recording.path()));
+    out.subprograms = head.subprograms;
     for (const trace::RecordedInput& input : recording.inputs()) {
         const bool fault = input.text.compare(0, fault_word.size(), fault_word) == 0;
         const std::string action = fault ? input.text.substr(fault_word.size()) : input.text;
@@ -85,7 +100,7 @@ const JobOutcome& RecordedJob::run(const std::atomic<bool>* stop_asked, std::fun
     JobSettings settings;
     settings.program = request_.program;
     settings.program_name = request_.program_name;
-    settings.block_delete = request_.block_delete;
+    settings.reading = reading_of(request_);
     settings.orders = orders_.get();
     settings.progress = std::move(progress);
     settings.on_slice = [this, stop_asked] { between_runs(stop_asked); };

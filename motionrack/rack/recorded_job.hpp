@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <motionrack/rack/fault_plan.hpp>
 #include <motionrack/rack/job.hpp>
@@ -23,12 +24,17 @@ struct JobRequest {
     std::string rack_file, rack_text;        ///< what the config was read from; only recordings need them
     std::string program, program_name;
     bool block_delete = false, stream = false;
+    control::gcode::ToolTable tools;
+    std::map<std::string, std::string> subprograms;  ///< texts of those that the program calls and does not have itself
     std::vector<TimedText> faults, orders;
     std::string version;                     ///< of the program that runs it
 };
 
 /// Takes "ORDER@TIME" as users write it. Errors: bad_input.
 Result<std::vector<TimedText>> read_orders(const std::vector<std::string>& texts);
+
+/// How its program is read.
+control::gcode::Settings reading_of(const JobRequest& request);
 
 /// The request that a recording was made by. Errors: bad_input, its rack cannot be read any more.
 Result<JobRequest> request_of(const trace::RecordingReader& recording);

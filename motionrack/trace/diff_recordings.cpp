@@ -23,6 +23,8 @@ void compare_heads(const RecordingReader& a, const RecordingReader& b, Diff& dif
     const RecordingHead &x = a.head(), &y = b.head();
     if (x.program != y.program) diff.made_of.push_back(fmt::format("the programs differ, first in line {}", first_line_that_differs(x.program, y.program)));
     if (x.rack != y.rack) diff.made_of.push_back(fmt::format("the rack files differ, first in line {}", first_line_that_differs(x.rack, y.rack)));
+    if (x.tools != y.tools) diff.made_of.emplace_back("the tool tables differ");
+    if (x.subprograms != y.subprograms) diff.made_of.emplace_back("the subprograms differ");
     if (x.block_delete != y.block_delete) diff.made_of.push_back(fmt::format("only {} was run with --block-delete", x.block_delete ? "A" : "B"));
     if (x.live != y.live) diff.made_of.push_back(fmt::format("only {} was driven so that orders could come, which plans long moves in pieces", x.live ? "A" : "B"));
     if (x.sample_period != y.sample_period) diff.made_of.push_back(fmt::format("samples are {} s apart in A, {} s in B", to_seconds(x.sample_period), to_seconds(y.sample_period)));

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/time.hpp>
@@ -60,6 +61,8 @@ struct RecordingHead {
     std::string program_name, program;
     std::string rack_name, rack_file, rack;  ///< what the rack calls itself, its file's name and text
     bool block_delete = false, stream = false;
+    std::string tools;                                ///< the tool table, as text
+    std::map<std::string, std::string> subprograms;   ///< texts by name, of those that are not in the program
     bool live = false;  ///< driven so that orders can come (holds, overrides)
     std::vector<RecordedInput> inputs;       ///< planned ones; later ones are added as they come
     Duration sample_period{};

@@ -61,7 +61,8 @@ std::string axis_folder(std::string_view name) {
 
 std::string head_json(const RecordingHead& head) {
     Json json = {{"version", head.version}, {"program_name", head.program_name}, {"rack_name", head.rack_name}, {"rack_file", head.rack_file},
-                 {"block_delete", head.block_delete}, {"stream", head.stream}, {"live", head.live}, {"sample_period_ticks", head.sample_period.count()}};
+                 {"block_delete", head.block_delete}, {"stream", head.stream}, {"tools", head.tools}, {"subprograms", head.subprograms},
+                 {"live", head.live}, {"sample_period_ticks", head.sample_period.count()}};
     json["inputs"] = Json::array();
     for (const RecordedInput& input : head.inputs) json["inputs"].push_back({{"at_ticks", input.at.count()}, {"text", input.text}});
     json["axes"] = Json::array();
@@ -85,6 +86,8 @@ Result<RecordingHead> head_from_json(std::string_view text) {
         head.rack_file = json.at("rack_file");
         head.block_delete = json.at("block_delete");
         head.stream = json.at("stream");
+        head.tools = json.at("tools");
+        head.subprograms = json.at("subprograms").get<std::map<std::string, std::string>>();
         head.live = json.at("live");
         head.sample_period = Duration{json.at("sample_period_ticks").get<std::int64_t>()};
         for (const Json& input : json.at("inputs")) head.inputs.push_back({Instant{input.at("at_ticks").get<std::int64_t>()}, input.at("text")});

@@ -1,5 +1,5 @@
 // libFuzzer: any bytes as a G-code program; the reader refuses with a place in the text or gives moves within the
-// limits.
+// limits, in its whole language. The same bytes as lines of a sender, and as a tool table.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -26,6 +26,9 @@ Settings machine(std::uint8_t choice) {
     }
     settings.block_delete = (choice & 2) != 0;
     settings.start_in_g0 = (choice & 4) != 0;
+    settings.most_lines = 2'000;
+    settings.tools = *read_tool_table("T1 Z10 D3\nT2 P7 X1 Z20 D6\n");
+    if ((choice & 8) != 0) settings.subprogram = [](const std::string& name) -> motionrack::Result<std::string> { return "o<" + name + "> sub\nG0 X#1\no<" + name + "> endsub [#1]\n"; };
     return settings;
 }
 
@@ -49,6 +52,7 @@ void check_move(const Move& move, std::int32_t line) {
 void check_problem(const Problem& problem, std::string_view text) {
     require(!problem.message.empty() && problem.status != GrblStatus::none);
     require(problem.place.line >= 1 && problem.place.column >= 1);
+    if (problem.file != "f") return;
     Lines lines(text);
     std::string_view line;
     while (lines.number() < problem.place.line) require(lines.next(line));
@@ -80,6 +84,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
     }
     check_point(reader.interpreter().position());
+    Interpreter sender(machine(data[0]));
+    Lines lines(text);
+    for (std::string_view line; lines.next(line);) {
+        if (const auto read = sender.line(line, lines.number(), Language::words); !read) require(read.error().status != GrblStatus::none);
+        require(!sender.block().flow && sender.block().assignments.empty());
+    }
+    if (const auto table = read_tool_table(text)) require(table->tools().size() <= most_tools);
     if (steps < 20'000 && problems == 0) {
         require(before == reader.interpreter().position());
         const auto printed = print_canon(text, machine(data[0]), {}, [](std::string_view) {});

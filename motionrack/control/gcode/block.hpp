@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/control/gcode/language/expression.hpp>
 #include <motionrack/control/gcode/problem.hpp>
 #include <string_view>
 #include <vector>
@@ -15,29 +16,32 @@ inline constexpr std::size_t longest_line = 1024;
 /// G codes are kept in tenths: G1 = 10, G38.2 = 382. M codes as they are.
 enum GroupG : std::uint8_t {
     g_nonmodal = 0,  ///< G4 G10 G28 G28.1 G30 G30.1 G53 G92 G92.1 G92.2 G92.3
-    g_motion,        ///< G0 G1 G2 G3 G80 G81 G82 G83
+    g_motion,        ///< G0 G1 G2 G3 G73 G74 G80 G81 .. G86 G89
     g_plane,         ///< G17 G18 G19
     g_distance,      ///< G90 G91
     g_arc_distance,  ///< G90.1 G91.1
     g_feed_mode,     ///< G93 G94
     g_units,         ///< G20 G21
     g_cutter,        ///< G40
-    g_tool_length,   ///< G43.1 G49
+    g_tool_length,   ///< G43 G43.1 G43.2 G49
     g_retract,       ///< G98 G99
-    g_system,        ///< G54 .. G59
+    g_system,        ///< G54 .. G59, G59.1 G59.2 G59.3
     g_path,          ///< G61 G61.1 G64
+    g_spindle,       ///< G97
     g_group_count,
     g_refused = 254,  ///< known, but not for this machine
     g_unknown = 255
 };
 
 enum GroupM : std::uint8_t {
-    m_stop = 0,     ///< M0 M1 M2 M30
-    m_tool,         ///< M6
+    m_stop = 0,     ///< M0 M1 M2 M30 M60
+    m_tool,         ///< M6 M61
     m_spindle,      ///< M3 M4 M5
     m_mist,         ///< M7
     m_flood,        ///< M8
     m_coolant_off,  ///< M9
+    m_override,     ///< M48 .. M53
+    m_state,        ///< M70 .. M73
     m_group_count,
     m_unknown = 255
 };
@@ -56,8 +60,21 @@ inline constexpr std::uint32_t offset_words = letter_bit('I') | letter_bit('J') 
 
 struct Comment {
     std::string_view text;      ///< without its marks
-    bool message = false;       ///< (MSG,text): `text` is what follows the comma
+    bool message = false;       ///< (MSG,text), (DEBUG,text), (PRINT,text): `text` is what follows the comma
+    bool values = false;        ///< of DEBUG and PRINT: parameters in it are shown with their values
     bool rest_of_line = false;  ///< written with ';'
+};
+
+/// How much of the language a line may use.
+enum class Language : std::uint8_t {
+    words,        ///< words with numbers, as Grbl 1.1
+    expressions,  ///< parameters and expressions too: what a line can do without the others of its program
+    program       ///< O words too
+};
+
+struct Assignment {
+    ParameterName parameter;
+    double value = 0;
 };
 
 struct Block {
@@ -67,6 +84,8 @@ struct Block {
     std::uint32_t m_groups = 0;
     bool percent = false;                  ///< the line is a lone %
     bool deleted = false;                  ///< a line with '/' that was left out
+    bool flow = false;                     ///< an O word begins at `flow_column`; the rest of the line was not read
+    std::uint16_t flow_column = 0;
     std::array<double, 26> value;          ///< valid where `words` says so
     std::array<std::uint16_t, 26> column;  ///< from 0
     std::array<std::int16_t, g_group_count> g;
@@ -74,6 +93,7 @@ struct Block {
     std::array<std::int16_t, m_group_count> m;
     std::array<std::uint16_t, m_group_count> m_column;
     std::vector<Comment> comments;
+    std::vector<Assignment> assignments;  ///< in their order
 
     bool has(char letter) const { return (words & letter_bit(letter)) != 0; }
     double operator[](char letter) const { return value[letter_index(letter)]; }
@@ -81,11 +101,17 @@ struct Block {
     bool has_m(GroupM group) const { return (m_groups >> group & 1) != 0; }
 };
 
+struct ScanOptions {
+    bool block_delete = false;
+    Language language = Language::words;
+    const ParameterSource* parameters = nullptr;  ///< not null but for Language::words
+};
+
 /// Takes a line apart. Checks the letters, the numbers, which codes exist, modal groups and repeated words.
 /// False: `problem` says what is wrong (its line number is left to the caller), `block` is of no use.
-bool scan_line(std::string_view text, bool block_delete, Block& block, Problem& problem);
+bool scan_line(std::string_view text, const ScanOptions& options, Block& block, Problem& problem);
 
-/// The word that begins at `column` (from 0), as written, without blanks at its end.
+/// The word that begins at `column` (from 0), as written with its number or first bracket, without blanks at its end.
 std::string_view word_at(std::string_view text, std::size_t column);
 
 /// Fills `problem`; `column` counts from 0.

@@ -103,9 +103,9 @@ void CanonPrinter::modes(const Interpreter& interpreter) {
         call(now.inch ? "USE_LENGTH_UNITS(CANON_UNITS_INCHES)" : "USE_LENGTH_UNITS(CANON_UNITS_MM)");
     }
     if (block.has_g(g_tool_length)) {
-        const double length = interpreter.frame().tool_length / (now.inch ? 25.4 : 1.0);
-        call(fmt::format("USE_TOOL_LENGTH_OFFSET(0.0000 0.0000 {:.4f}, 0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000)",
-                         tidy(length)));
+        const Point tool = in_units(interpreter.frame().tool, now.inch);
+        call(fmt::format("USE_TOOL_LENGTH_OFFSET({:.4f} {:.4f} {:.4f}, {:.4f} {:.4f} {:.4f}, 0.0000 0.0000 0.0000)", tidy(tool[0]),
+                         tidy(tool[1]), tidy(tool[2]), tidy(tool[3]), tidy(tool[4]), tidy(tool[5])));
     }
     const std::int16_t once = block.has_g(g_nonmodal) ? block.g[g_nonmodal] : no_motion;
     if (block.has_g(g_system) || once == 100 || once >= 920) offsets(interpreter);
@@ -122,7 +122,7 @@ void CanonPrinter::offsets(const Interpreter& interpreter) {
     }
     if (shift || block.has_g(g_system) || count_ < 3)
         call(fmt::format("SET_G92_OFFSET({})", six(in_units(frame.g92, now.inch))));
-    if (!shift) call("SET_XY_ROTATION(0.0000)");
+    if (!shift) call(fmt::format("SET_XY_ROTATION({:.4f})", tidy(frame.turn[now.system])));
 }
 
 void CanonPrinter::path(PathControl path, double tolerance_mm, const Interpreter& interpreter) {
@@ -131,7 +131,7 @@ void CanonPrinter::path(PathControl path, double tolerance_mm, const Interpreter
     call(path == PathControl::exact_path ? "SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)"
          : path == PathControl::exact_stop
              ? "SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)"
-             : fmt::format("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {:.6f})", tolerance));
+             : fmt::format("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {:.4f})", tolerance));
 }
 
 void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
@@ -157,14 +157,17 @@ void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
         case StepKind::tool_change:
             call("START_CHANGE()");
             return call(fmt::format("CHANGE_TOOL({})", step.tool));
+        case StepKind::tool_number:
+            return call(fmt::format("CHANGE_TOOL_NUMBER({})", step.tool));
         case StepKind::pause:
+            if (interpreter.block().m[m_stop] == 60) call("PALLET_SHUTTLE()");
             return call("PROGRAM_STOP()");
         case StepKind::optional_pause:
             return call("OPTIONAL_PROGRAM_STOP()");
         case StepKind::end:
             call(fmt::format("SET_G5X_OFFSET(1, {})",
                              six(in_units(interpreter.frame().work[0], interpreter.modes().inch))));
-            call("SET_XY_ROTATION(0.0000)");
+            call(fmt::format("SET_XY_ROTATION({:.4f})", tidy(interpreter.frame().turn[0])));
             call("SET_FEED_MODE(0, 0)");
             call("SET_FEED_RATE(0.0000)");
             call("STOP_SPINDLE_TURNING(0)");
@@ -174,10 +177,9 @@ void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
     }
 }
 
-double CanonPrinter::shown(const Interpreter& interpreter, int axis, double machine) const {
+Point CanonPrinter::shown(const Interpreter& interpreter, const Point& machine) const {
     if (options_.coordinates == Coordinates::machine) return machine;
-    const double scale = axis < 3 && interpreter.modes().inch ? 25.4 : 1.0;
-    return (machine - interpreter.frame().offset[axis]) / scale;
+    return in_units(interpreter.frame().to_program(machine), interpreter.modes().inch);
 }
 
 void CanonPrinter::here(const Interpreter& interpreter) {
@@ -190,38 +192,38 @@ void CanonPrinter::here(const Interpreter& interpreter) {
 void CanonPrinter::move(const Move& move, const Interpreter& interpreter) {
     if (move.kind == MoveKind::dwell) return call(fmt::format("DWELL({:.4f})", move.seconds));
     if (move.path != path_) path(move.path, move.tolerance_mm, interpreter);
-    Point end = {};
-    for (int axis = 0; axis < axis_count; ++axis) end[axis] = shown(interpreter, axis, move.end[axis]);
+    const Point end = shown(interpreter, move.end);
     if (move.kind != MoveKind::arc) {
         return call(
             fmt::format("{}({})", move.kind == MoveKind::traverse ? "STRAIGHT_TRAVERSE" : "STRAIGHT_FEED", six(end)));
     }
     const int third = 3 - move.first - move.second;
+    Point centre = move.end;
+    centre[move.first] = move.centre_first;
+    centre[move.second] = move.centre_second;
+    centre = shown(interpreter, centre);
     call(fmt::format("ARC_FEED({:.4f}, {:.4f}, {:.4f}, {:.4f}, {}, {:.4f}, {:.4f}, {:.4f}, {:.4f})",
                      tidy(end[move.first]), tidy(end[move.second]),
-                     tidy(shown(interpreter, move.first, move.centre_first)),
-                     tidy(shown(interpreter, move.second, move.centre_second)), move.turns, tidy(end[third]),
+                     tidy(centre[move.first]), tidy(centre[move.second]), move.turns, tidy(end[third]),
                      tidy(end[3]), tidy(end[4]), tidy(end[5])));
 }
 
 Outcome<void> print_canon(std::string_view text, const Settings& settings, CanonOptions options,
                           const CanonPrinter::Put& put, const std::string& file) {
-    Lines lines(text);
+    Walk walk(text, settings, file);
     Interpreter interpreter(settings);
     CanonPrinter printer(options, put);
     printer.begin(interpreter);
     std::string_view line;
-    ProgramEnd end;
-    while (lines.next(line)) {
-        if (auto done = interpreter.line(line, lines.number()); !done) {
-            done.error().file = file;
+    while (walk.next(line)) {
+        if (auto done = interpreter.line(line, walk.number(), Language::program); !done) {
+            walk.place(done.error());
             return done;
         }
-        const bool over = end.at(interpreter.block());
-        if (over && interpreter.block().percent) break;
+        if (auto done = walk.took(interpreter); !done) return done;
         printer.line(interpreter);
-        if (over) break;
     }
+    if (walk.has_faults()) return tl::unexpected<Problem>(walk.take_fault());
     return {};
 }
 

@@ -43,7 +43,7 @@ class CanonPrinter {
     void modes(const Interpreter& interpreter);
     void offsets(const Interpreter& interpreter);
     void path(PathControl path, double tolerance_mm, const Interpreter& interpreter);
-    double shown(const Interpreter& interpreter, int axis, double machine) const;
+    Point shown(const Interpreter& interpreter, const Point& machine) const;
 
     CanonOptions options_;
     Put put_;

@@ -15,6 +15,10 @@ struct CodeG {
 
 constexpr CodeG known_g[] = {
     {0, g_motion},         {10, g_motion},       {20, g_motion},       {30, g_motion},    {800, g_motion},
+    {730, g_motion},       {740, g_motion},      {840, g_motion},      {850, g_motion},   {860, g_motion},
+    {890, g_motion},       {870, g_refused},     {880, g_refused},     {70, g_refused},   {80, g_refused},
+    {700, g_refused},      {710, g_refused},     {711, g_refused},     {712, g_refused},  {720, g_refused},
+    {721, g_refused},      {722, g_refused},
     {810, g_motion},       {820, g_motion},      {830, g_motion},      {40, g_nonmodal},  {100, g_nonmodal},
     {280, g_nonmodal},     {281, g_nonmodal},    {300, g_nonmodal},    {301, g_nonmodal}, {530, g_nonmodal},
     {920, g_nonmodal},     {921, g_nonmodal},    {922, g_nonmodal},    {923, g_nonmodal}, {170, g_plane},
@@ -24,9 +28,9 @@ constexpr CodeG known_g[] = {
     {540, g_system},       {550, g_system},      {560, g_system},      {570, g_system},   {580, g_system},
     {590, g_system},       {610, g_path},        {611, g_path},        {640, g_path},     {382, g_refused},
     {383, g_refused},      {384, g_refused},     {385, g_refused},     {410, g_refused},  {411, g_refused},
-    {420, g_refused},      {421, g_refused},     {430, g_refused},     {432, g_refused},  {591, g_refused},
-    {592, g_refused},      {593, g_refused},     {950, g_refused},     {330, g_refused},  {331, g_refused},
-    {760, g_refused},      {960, g_refused},     {970, g_refused}};
+    {420, g_refused},      {421, g_refused},     {430, g_tool_length}, {432, g_tool_length}, {591, g_system},
+    {592, g_system},       {593, g_system},      {950, g_refused},     {330, g_refused},  {331, g_refused},
+    {760, g_refused},      {960, g_refused},     {970, g_spindle}};
 
 struct CodeM {
     std::int16_t code;
@@ -35,7 +39,10 @@ struct CodeM {
 
 constexpr CodeM known_m[] = {{0, m_stop}, {1, m_stop},    {2, m_stop},       {30, m_stop},
                              {6, m_tool}, {3, m_spindle}, {4, m_spindle},    {5, m_spindle},
-                             {7, m_mist}, {8, m_flood},   {9, m_coolant_off}};
+                             {7, m_mist}, {8, m_flood},   {9, m_coolant_off},
+                             {60, m_stop},    {61, m_tool},       {48, m_override}, {49, m_override},
+                             {50, m_override}, {51, m_override}, {52, m_override}, {53, m_override},
+                             {70, m_state},   {71, m_state},     {72, m_state},    {73, m_state}};
 
 template <class Group, std::size_t size, class List>
 constexpr std::array<Group, size> make_table(Group unknown, const List& list) {
@@ -80,6 +87,17 @@ std::string members_of_m(GroupM group) {
     return names;
 }
 
+std::string known_m_codes() {
+    std::string names;
+    for (int code = 0; code < 100; ++code)
+        if (table_m[static_cast<std::size_t>(code)] != m_unknown) names += fmt::format("{}M{}", names.empty() ? "" : " ", code);
+    return names;
+}
+
+bool is_for_senders(GroupG group, int tenths) {
+    return group != g_spindle && !(group == g_system && tenths > 590) && !(group == g_tool_length && (tenths == 430 || tenths == 432));
+}
+
 std::string why_not_g(int tenths) {
     const std::string name = name_of_g(tenths);
     if (tenths >= 382 && tenths <= 385) {
@@ -93,21 +111,28 @@ std::string why_not_g(int tenths) {
                "centre (only G40 is taken)";
     }
     if (tenths == 430 || tenths == 432) {
-        return name + ": there is no tool table; write the tool's length itself, e.g. G43.1 Z12.5";
+        return name + ": lines from a sender know no tool table; write the tool's length itself, e.g. G43.1 Z12.5";
     }
-    if (tenths >= 591 && tenths <= 593) return name + ": there are six work systems, G54 to G59";
+    if (tenths >= 591 && tenths <= 593) return name + ": lines from a sender know six work systems, G54 to G59";
     if (tenths == 950 || tenths == 330 || tenths == 331 || tenths == 760) {
         return name + " needs the angle of the spindle, which this machine does not measure; use G94 (mm/min) or G93";
     }
-    if (tenths == 960 || tenths == 970)
-        return name + ": spindle speed is always in rev/min here (as G97); leave it out";
+    if (tenths == 70 || tenths == 80 || (tenths >= 700 && tenths <= 722))
+        return name + " is for lathes, which this machine is not; let the CAM program put out the cuts as lines, with X as a radius";
+    if (tenths == 870) return name + ": boring from behind needs a spindle that stops at an angle, which this machine does not have; use G85, G86 or G89";
+    if (tenths == 880) return name + ": nobody pulls the tool out by hand here; use G86 or G89";
+    if (tenths == 960) return name + ": spindle speed is always in rev/min here (G97); leave it out";
+    if (tenths == 970) return name + ": spindle speed is always in rev/min; leave it out";
     return name + " is not a known command; nothing of this line was done";
 }
 
 std::string why_not_m(int code) {
     if (code == 56) return "M56 (parking override) is not supported: this machine does not park; leave it out";
-    if (code == 98 || code == 99) return fmt::format("M{}: subprograms are not supported; write the lines out", code);
-    return fmt::format("M{} is not a known command; known are M0 M1 M2 M3 M4 M5 M6 M7 M8 M9 M30", code);
+    if (code == 98 || code == 99) return fmt::format("M{}: subprograms are written with O words here, e.g. o100 sub .. o100 endsub and o100 call", code);
+    if (code >= 62 && code <= 68) {
+        return fmt::format("M{} needs inputs or outputs for programs, which this machine does not have; leave it out, or wait with G4 P", code);
+    }
+    return fmt::format("M{} is not a known command; known are {}", code, known_m_codes());
 }
 
 }  // namespace motionrack::control::gcode

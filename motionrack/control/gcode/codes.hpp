@@ -19,6 +19,12 @@ std::string name_of_g(int tenths);
 std::string members_of_g(GroupG group);
 std::string members_of_m(GroupM group);
 
+/// "M0 M1 .."
+std::string known_m_codes();
+
+/// Whether a line from a sender may have the code, as Grbl 1.1 takes it.
+bool is_for_senders(GroupG group, int tenths);
+
 /// Why a refused or unknown code is not done, and what to do instead.
 std::string why_not_g(int tenths);
 std::string why_not_m(int code);

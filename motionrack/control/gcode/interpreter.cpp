@@ -5,13 +5,13 @@
 #include <cmath>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/language/known_values.hpp>
 
 namespace motionrack::control::gcode {
 
 namespace {
 
 constexpr double largest_line_number = 9'999'999;
-constexpr double largest_tool = 99'999;
 
 }  // namespace
 
@@ -29,15 +29,19 @@ Interpreter::Interpreter(const Settings& settings) : settings_(settings) {
     frame_.g28 = settings.g28;
     frame_.g30 = settings.g30;
     next_ = modes_;
-    sum_offsets(frame_);
+    frame_.activate(0);
+    tools_ = settings.tools;
     position_ = settings.start;
 }
 
-Outcome<void> Interpreter::line(std::string_view text, std::int32_t number) {
+Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Language language) {
     todo_ = 0;
     line_ = number;
+    language_ = language;
+    moving_.kind = StepKind::move;
     if (end_pending_) apply_end();
-    if (!scan_line(text, settings_.block_delete, block_, problem_) || !evaluate()) {
+    const KnownValues known(*this);
+    if (!scan_line(text, {settings_.block_delete, language, &known}, block_, problem_) || !evaluate()) {
         todo_ = 0;
         problem_.place.line = number;
         return tl::unexpected<Problem>(problem_);
@@ -49,13 +53,14 @@ bool Interpreter::evaluate() {
     next_ = modes_;
     frame_edited_ = false;
     axis_words_taken_ = false;
+    tool_edited_.reset();
     used_ = letter_bit('F') | letter_bit('N') | letter_bit('S') | letter_bit('T');
     end_ = position_;
     if (!check_values()) return false;
-    if ((block_.g_groups & ~(1u << g_motion)) != 0 && !apply_modes()) return false;
-    if (block_.has('F')) apply_feed();
     if ((block_.m_groups | (block_.words & (letter_bit('S') | letter_bit('T')))) != 0 && !apply_machine_words())
         return false;
+    if ((block_.g_groups & ~(1u << g_motion)) != 0 && !apply_modes()) return false;
+    if (block_.has('F')) apply_feed();
     if (block_.has_g(g_nonmodal) && !nonmodal()) return false;
     if (!motion()) return false;
     if ((block_.words & ~used_) != 0) return unused();
@@ -63,7 +68,22 @@ bool Interpreter::evaluate() {
         todo_ |= todo_comments;
         comments_pulled_ = 0;
     }
+    if (!block_.assignments.empty() && !assign()) return false;
+    if (tool_edited_) tools_.put(*tool_edited_);
+    if (block_.has_m(m_state)) keep_modes();
     commit();
+    return true;
+}
+
+bool Interpreter::assign() {
+    for (const Assignment& one : block_.assignments) {
+        if (one.parameter.number > 0) {
+            parameters_.set(one.parameter.number, one.value);
+        } else if (!parameters_.set(one.parameter.name, one.value)) {
+            return fail_at(block_.text.find('#'), GrblStatus::unsupported,
+                           fmt::format("#<{}> is one named parameter too many; there may be {}", one.parameter.name, most_names));
+        }
+    }
     return true;
 }
 
@@ -98,6 +118,7 @@ bool Interpreter::check_values() {
         if (block_['T'] > largest_tool) {
             return fail_word('T', GrblStatus::value_too_large, fmt::format("{}: tools are T0 to T99999", written('T')));
         }
+        if (!known_tool('T', static_cast<std::int32_t>(block_['T']))) return false;
     }
     return true;
 }
@@ -115,8 +136,9 @@ bool Interpreter::apply_modes() {
     if (block_.has_g(g_retract)) next_.retract_to_r = block_.g[g_retract] == 990;
     if (block_.has_g(g_tool_length) && !tool_length()) return false;
     if (block_.has_g(g_system)) {
-        next_.system = static_cast<std::uint8_t>((block_.g[g_system] - 540) / 10);
-        sum_offsets(edit_frame());
+        const int code = block_.g[g_system];
+        next_.system = static_cast<std::uint8_t>(code > 590 ? code - 585 : (code - 540) / 10);
+        edit_frame().activate(next_.system);
     }
     if (block_.has_g(g_path)) {
         const int code = block_.g[g_path];
@@ -144,58 +166,9 @@ void Interpreter::apply_feed() {
     }
 }
 
-bool Interpreter::apply_machine_words() {
-    if (block_.has('S')) {
-        next_.speed_rpm = block_['S'];
-        todo_ |= todo_speed;
-    }
-    if (block_.has('T')) {
-        next_.tool_selected = static_cast<std::int32_t>(block_['T']);
-        todo_ |= todo_tool_select;
-    }
-    if (block_.has_m(m_tool)) {
-        if (next_.tool_selected < 0) {
-            return fail_at(block_.m_column[m_tool], GrblStatus::word_missing,
-                           "M6 changes to the tool that a T word has selected, and there was none; write e.g. T1 M6");
-        }
-        todo_ |= todo_tool_change;
-    }
-    if (block_.has_m(m_spindle)) {
-        const int code = block_.m[m_spindle];
-        next_.spindle = code == 3 ? Spindle::clockwise : code == 4 ? Spindle::counter_clockwise : Spindle::off;
-        todo_ |= todo_spindle;
-    }
-    if (block_.has_m(m_mist)) next_.mist = true;
-    if (block_.has_m(m_flood)) next_.flood = true;
-    if (block_.has_m(m_coolant_off)) next_.mist = next_.flood = false;
-    if ((block_.m_groups & (1u << m_mist | 1u << m_flood | 1u << m_coolant_off)) != 0) todo_ |= todo_coolant;
-    if (block_.has_m(m_stop)) {
-        stop_code_ = block_.m[m_stop];
-        todo_ |= todo_stop;
-    }
-    return true;
-}
-
-/// What M2 and M30 leave behind: the state that both Grbl and LinuxCNC put back. Done when the end is pulled, so that
-/// the moves before it on the line still show the frame they were written in.
-void Interpreter::apply_end() {
-    end_pending_ = false;
-    next_ = modes_;
-    next_.motion = 10;
-    next_.plane = 0;
-    next_.incremental = next_.inverse_time = next_.arc_absolute = false;
-    next_.feed = next_.feed_rotary = 0;
-    next_.spindle = Spindle::off;
-    next_.mist = next_.flood = false;
-    next_.ended = true;
-    next_.system = 0;
-    sum_offsets(frame_);
-    modes_ = next_;
-}
-
 void Interpreter::commit() {
     if ((todo_ & todo_dwell) != 0) dwell_at_ = position_;
-    end_pending_ = (todo_ & todo_stop) != 0 && stop_code_ >= 2;
+    end_pending_ = (todo_ & todo_stop) != 0 && (stop_code_ == 2 || stop_code_ == 30);
     position_ = end_;
     modes_ = next_;
     if (frame_edited_) frame_ = next_frame_;
@@ -220,7 +193,8 @@ const Step* Interpreter::pull_next() {
             event_.kind = StepKind::tool_select;
             break;
         case todo_tool_change:
-            event_.kind = StepKind::tool_change;
+            event_.kind = block_.m[m_tool] == 61 ? StepKind::tool_number : StepKind::tool_change;
+            event_.tool = modes_.tool_loaded;
             break;
         case todo_coolant:
             event_.kind = StepKind::coolant;
@@ -241,7 +215,7 @@ const Step* Interpreter::pull_next() {
             break;
         default:
             if (end_pending_) apply_end();
-            event_.kind = stop_code_ == 0   ? StepKind::pause
+            event_.kind = stop_code_ == 0 || stop_code_ == 60 ? StepKind::pause
                           : stop_code_ == 1 ? StepKind::optional_pause
                                             : StepKind::end;
             break;
@@ -260,7 +234,8 @@ const Step* Interpreter::pull_motion() {
         on_the_way_ = true;
         return &moving_;
     }
-    if (cycle_.next(moving_.move)) return &moving_;
+    if (cycle_.next(moving_)) return &moving_;
+    moving_.kind = StepKind::move;
     todo_ &= ~static_cast<std::uint32_t>(todo_motion);
     return pull();
 }
@@ -272,6 +247,7 @@ const Step* Interpreter::pull_comment() {
     event_.kind = comment.message ? StepKind::message : StepKind::comment;
     event_.line = line_;
     event_.text = comment.text;
+    if (comment.values) event_.text = shown_ = with_values(comment.text);
     return &event_;
 }
 
@@ -281,9 +257,8 @@ Frame& Interpreter::edit_frame() {
     return next_frame_;
 }
 
-void Interpreter::sum_offsets(Frame& frame) const {
-    for (int axis = 0; axis < axis_count; ++axis) frame.offset[axis] = frame.work[next_.system][axis] + frame.g92[axis];
-    frame.offset[2] += frame.tool_length;
+Point Interpreter::program_position() const {
+    return frame_.to_program(position_);
 }
 
 bool Interpreter::fail_at(std::size_t column, GrblStatus status, std::string message, Trouble trouble) {
@@ -332,13 +307,13 @@ bool Interpreter::unused() {
                   ? "; the offsets of an arc are I J in G17, I K in G18, J K in G19, and none beside R"
                   : "; it is the centre of an arc (G2, G3)";
     } else if (letter == 'R') {
-        use = "; it is the radius of an arc (G2, G3) or the retract height of a drilling cycle (G81 G82 G83)";
+        use = "; it is the radius of an arc (G2, G3) or the retract height of a drilling cycle (G73, G81 .. G89)";
     } else if (letter == 'P') {
-        use = "; it goes with G4, G10, G64 and G82, and with arcs that have an end or offsets on the same line";
+        use = "; it goes with G4, G10, G64 and the cycles that wait, and with arcs that have an end or offsets on the same line";
     } else if (letter == 'L') {
-        use = "; it goes with G10 and the drilling cycles (G81 G82 G83)";
+        use = "; it goes with G10 and the drilling cycles (G73, G81 .. G89)";
     } else if (letter == 'Q') {
-        use = "; it is the peck depth of G83";
+        use = "; it is the peck depth of G73 and G83";
     }
     return fail_word(letter, GrblStatus::unused_word,
                      fmt::format("{}: nothing on this line uses the {} word{}", written(letter), letter, use));

@@ -1,6 +1,6 @@
 // The meaning of G-code, line by line: words and modal state become moves in machine coordinates and events.
 //
-// The dialect is Grbl 1.1's, with what LinuxCNC adds for paths and drilling. Where the two differ, or neither is
+// The dialect is Grbl 1.1's, with what LinuxCNC adds: paths, cycles, tool tables, turned work systems, parameters. Where the two differ, or neither is
 // followed:
 // - At the start no motion mode is active (LinuxCNC); Grbl starts in G0: Settings::start_in_g0.
 // - F0 or no F on a feed is an error (both); in G93 every feed line needs its F (both); G93 <-> G94 forgets the feed
@@ -9,7 +9,7 @@
 //   (LinuxCNC; Grbl's errors 26 and 32). Offset words outside the plane, and R beside I J K, are errors (LinuxCNC; Grbl
 //   leaves them out silently). R arcs may be 0.005 mm too short for half a turn (LinuxCNC).
 // - M7 and M8 may stand on one line (Grbl); LinuxCNC refuses it.
-// - G53 reaches machine coordinates without the tool length (both). G43.1 takes Z alone (Grbl).
+// - G53 reaches machine coordinates without the tool length (both). G43.1 of a sender takes Z alone (Grbl).
 // - G61 is exact path, G61.1 exact stop, G64 P blends (LinuxCNC); G64 without P takes the settings' tolerance, where
 // LinuxCNC
 //   takes any. G64's Q (naive cam) is refused.
@@ -21,8 +21,7 @@
 //   (LinuxCNC). Between holes the drill stays at the height where it left the last one, after rising to R where that is
 //   higher; after a change from G99 to G98, LinuxCNC rises to the first level on the slant. A peck thinner than the
 //   clearance never rapids above R.
-// - G38.x, G41, G42, G43, M56, O words, variables and expressions are refused with a sentence. M0, M1, M2 and M30 are
-// events.
+// - G38.x, G41, G42 and M56 are refused with a sentence. M0, M1, M2 and M30 are events.
 // - A program may end without M2 (Grbl); LinuxCNC wants M2 or %.
 // - Ends and bulges past the axis limits are errors of the line (Grbl raises alarm 2).
 #pragma once
@@ -30,6 +29,8 @@
 #include <motionrack/control/gcode/arc.hpp>
 #include <motionrack/control/gcode/block.hpp>
 #include <motionrack/control/gcode/cycle.hpp>
+#include <motionrack/control/gcode/frame.hpp>
+#include <motionrack/control/gcode/language/parameters.hpp>
 #include <motionrack/control/gcode/settings.hpp>
 #include <motionrack/control/gcode/step.hpp>
 
@@ -42,9 +43,9 @@ inline constexpr std::int16_t no_motion = -1;
 
 /// Modal state that is only numbers.
 struct Modes {
-    std::int16_t motion = no_motion;  ///< G code in tenths: 0, 10, 20, 30, 810, 820, 830; no_motion after G80
+    std::int16_t motion = no_motion;  ///< G code in tenths: 0, 10, 20, 30, 730 .. 890; no_motion after G80
     std::uint8_t plane = 0;           ///< 0 G17, 1 G18, 2 G19
-    std::uint8_t system = 0;          ///< 0 G54 .. 5 G59
+    std::uint8_t system = 0;          ///< 0 G54 .. 5 G59, 6 G59.1 .. 8 G59.3
     bool inch = false;                ///< G20
     bool incremental = false;         ///< G91
     bool arc_absolute = false;        ///< G90.1
@@ -56,6 +57,7 @@ struct Modes {
     bool flood = false;
     bool ended = false;               ///< after M2, M30
     std::int32_t tool_selected = -1;  ///< by T; -1: none yet
+    std::int32_t tool_loaded = -1;    ///< by M6; -1: none yet
     double tolerance_mm = 0;
     double feed = 0;         ///< G94: mm/s, G93: 1/s; 0: none yet
     double feed_rotary = 0;  ///< G94: degrees/s, where no linear axis moves
@@ -68,17 +70,6 @@ struct Modes {
     double cycle_level = 0;         ///< G98: machine coordinate of the drilling axis before the first hole
 };
 
-/// Where program coordinates lie: machine = program + offset.
-struct Frame {
-    std::array<Point, work_system_count> work = {};
-    Point g92 = {};
-    Point g92_kept = {};     ///< what G92.3 brings back
-    double tool_length = 0;  ///< G43.1, mm along Z
-    Point g28 = {};
-    Point g30 = {};
-    Point offset = {};  ///< sum of the active ones
-};
-
 /// Give it lines, take the steps of each: `if (auto done = interpreter.line(text, 7); done) while (auto* step =
 /// interpreter.pull()) ...`
 class Interpreter {
@@ -88,7 +79,8 @@ class Interpreter {
 
     /// Reads and checks one line (without its line end) and prepares its steps; steps of the line before that were not
     /// pulled are dropped. After a problem nothing of the line has taken effect. Steps' texts point into `text`.
-    Outcome<void> line(std::string_view text, std::int32_t number);
+    /// A line with an O word (block().flow) has no steps: what it means is for who walks through the program.
+    Outcome<void> line(std::string_view text, std::int32_t number, Language language = Language::words);
 
     /// The next step of the last line, valid until the next call; null: no more.
     const Step* pull() {
@@ -97,6 +89,8 @@ class Interpreter {
     }
 
     const Point& position() const { return position_; }  ///< machine coordinates after the last line
+    Point program_position() const;                      ///< the same in the active work system, mm and degrees
+    std::int32_t line_number() const { return line_; }   ///< of the last line
     /// The machine was moved otherwise: the next line begins there.
     void stand_at(const Point& position) { position_ = position; }
     /// The operator has switched the coolant.
@@ -107,6 +101,13 @@ class Interpreter {
     const Modes& modes() const { return modes_; }
     const Frame& frame() const { return frame_; }
     const Block& block() const { return block_; }  ///< the words of the last line
+    const Parameters& parameters() const { return parameters_; }
+    Parameters& parameters() { return parameters_; }
+    const ToolTable& tools() const { return tools_; }
+    /// A subprogram ends: its parameters are gone, and the modes are as M73 has kept them.
+    void leave_call(std::optional<double> returned);
+    /// No work system is turned from now on.
+    void straighten();
 
   private:
     enum Todo : std::uint32_t {
@@ -124,9 +125,11 @@ class Interpreter {
 
     bool evaluate();
     bool check_values();
+    bool assign();
     bool apply_modes();
     void apply_feed();
     bool apply_machine_words();
+    bool overrides();
     void apply_end();
     void commit();
     bool nonmodal();
@@ -134,6 +137,15 @@ class Interpreter {
     bool set_offsets();
     bool set_work_offset(int system, bool from_position);
     bool tool_length();
+    bool tool_length_of_words(bool adds);
+    bool tool_length_of_table(bool adds);
+    bool set_tool();
+    bool known_tool(char letter, std::int32_t number);
+    void shift_turned(Frame& frame, int system);
+    bool edit_tool(int what);
+    bool edit_tool_shape(Tool& tool);
+    void keep_modes();
+    void restore(const Modes& saved);
     bool shift();
     bool reference();
     bool motion();
@@ -141,6 +153,7 @@ class Interpreter {
     bool straight(std::int16_t code);
     bool by_itself(std::int16_t code);
     bool arc(std::int16_t code);
+    bool in_turned_plane(std::int16_t code);
     bool arc_centre(bool counter_clockwise, Planar& centre);
     bool arc_centre_of_radius(Planar start, Planar end, bool closed, bool counter_clockwise, Planar& centre);
     bool arc_centre_of_offsets(Planar start, Planar& centre);
@@ -148,8 +161,12 @@ class Interpreter {
     bool arc_within_limits(Planar centre, double radius);
     bool cycle(std::int16_t code);
     bool cycle_words(std::int16_t code);
+    bool spindle_turns(std::int16_t code);
     bool cycle_within_limits(CyclePlan& plan);
+    bool cycle_places(CyclePlan& plan);
+    bool cycle_places_turned(CyclePlan& plan);
     bool targets(bool machine_coordinates);
+    bool targets_turned();
     bool feed_of(Move& move);
     bool reach(int axis, double value, std::size_t column) {
         return (value >= low_[axis] && value <= high_[axis]) || beyond(axis, value, column);
@@ -160,6 +177,7 @@ class Interpreter {
     const Step* pull_next();
     const Step* pull_motion();
     const Step* pull_comment();
+    std::string with_values(std::string_view text) const;
 
     bool fail_at(std::size_t column, GrblStatus status, std::string message, Trouble trouble = Trouble::bad_input);
     bool fail_word(char letter, GrblStatus status, std::string message);
@@ -170,7 +188,6 @@ class Interpreter {
     double scaled(char letter) const { return next_.inch ? block_[letter] * 25.4 : block_[letter]; }
     Frame& edit_frame();
     const Frame& frame_now() const { return frame_edited_ ? next_frame_ : frame_; }
-    void sum_offsets(Frame& frame) const;
     static std::size_t axis_letter(int axis) { return static_cast<std::size_t>(letter_index(axis_letters[axis])); }
 
     Settings settings_;
@@ -181,6 +198,14 @@ class Interpreter {
     Modes modes_;
     Frame frame_;
     Point position_ = {};
+    Parameters parameters_;
+    ToolTable tools_;
+    /// What M70 and M73 have kept, by the depth of calls.
+    struct Kept {
+        std::optional<Modes> modes;
+        bool comes_back = false;  ///< when the call ends (M73)
+    };
+    std::vector<Kept> kept_;
 
     // What the line being read will have changed when it is found good.
     Modes next_;
@@ -189,6 +214,9 @@ class Interpreter {
     Point end_ = {};
     std::uint32_t used_ = 0;
     bool axis_words_taken_ = false;
+
+    Language language_ = Language::words;
+    std::optional<Tool> tool_edited_;  ///< by G10 L1, L10, L11
 
     Block block_;
     Problem problem_;
@@ -199,6 +227,7 @@ class Interpreter {
     Motion motion_ = Motion::single;
     bool on_the_way_ = false;
     std::size_t comments_pulled_ = 0;
+    std::string shown_;  ///< text of the event, where it is not as written
     double dwell_seconds_ = 0;
     Point dwell_at_ = {};
     std::int16_t stop_code_ = 0;

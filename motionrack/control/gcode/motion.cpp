@@ -12,9 +12,6 @@ namespace {
 bool is_arc(std::int16_t code) {
     return code == 20 || code == 30;
 }
-bool is_cycle(std::int16_t code) {
-    return code >= 810;
-}
 
 }  // namespace
 
@@ -39,7 +36,7 @@ bool Interpreter::motion() {
 bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
     const bool is_explicit = block_.has_g(g_motion);
     if (axis_words_taken_ && is_explicit && code != no_motion) {
-        const GroupG other = block_.has_g(g_tool_length) && block_.g[g_tool_length] == 431 ? g_tool_length : g_nonmodal;
+        const GroupG other = block_.has_g(g_tool_length) && block_.g[g_tool_length] != 490 ? g_tool_length : g_nonmodal;
         return fail_at(block_.g_column[g_motion], GrblStatus::axis_conflict,
                        fmt::format("{} and {} on one line both use axis words; put them on two lines", name_of_g(code),
                                    name_of_g(block_.g[other])));
@@ -75,6 +72,7 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
 
 /// Ends of the axes that have words.
 bool Interpreter::targets(bool machine_coordinates) {
+    if (frame_now().turned && !machine_coordinates) return targets_turned();
     const Point& offset = frame_now().offset;
     for (int axis = 0; axis < axis_count; ++axis) {
         const std::size_t index = axis_letter(axis);
@@ -84,6 +82,26 @@ bool Interpreter::targets(bool machine_coordinates) {
                               : next_.incremental ? position_[axis] + value
                                                   : value + offset[axis];
         if (!reach(axis, target, block_.column[index])) return false;
+        end_[axis] = target;
+    }
+    return true;
+}
+
+/// Where the work system is turned, a word of X moves Y too.
+bool Interpreter::targets_turned() {
+    const Frame& frame = frame_now();
+    const std::uint32_t turning = letter_bit('X') | letter_bit('Y');
+    Point program = next_.incremental ? Point{} : frame.to_program(position_);
+    for (int axis = 0; axis < axis_count; ++axis)
+        if ((block_.words & letter_bit(axis_letters[axis])) != 0) program[axis] = block_.value[axis_letter(axis)] * scale_of(axis);
+    const Point by = frame.turned_by(program), to = frame.to_machine(program);
+    for (int axis = 0; axis < axis_count; ++axis) {
+        const std::uint32_t own = letter_bit(axis_letters[axis]);
+        if ((block_.words & (axis < 2 ? turning : own)) == 0) continue;
+        const double target = next_.incremental ? position_[axis] + by[axis] : to[axis];
+        const int blamed = (block_.words & own) != 0 ? axis : 1 - axis;
+        const bool absent = (present_words_ & own) == 0 && target == position_[axis];
+        if (!absent && !reach(axis, target, block_.column[axis_letter(blamed)])) return false;
         end_[axis] = target;
     }
     return true;

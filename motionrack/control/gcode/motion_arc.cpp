@@ -29,7 +29,7 @@ constexpr std::array<const char*, 3> plane_names = {"G17 (XY)", "G18 (XZ)", "G19
 }  // namespace
 
 bool Interpreter::arc(std::int16_t code) {
-    if (!by_itself(code) || !targets(false)) return false;
+    if (!by_itself(code) || !in_turned_plane(code) || !targets(false)) return false;
     const auto& axes = plane_axes[next_.plane];
     const bool counter_clockwise = code == 30;
     double turns = 1;
@@ -60,6 +60,14 @@ bool Interpreter::arc(std::int16_t code) {
     motion_ = Motion::single;
     todo_ |= todo_motion;
     return true;
+}
+
+/// In a turned work system an arc of G18 or G19 would lie in no plane of two axes; a cycle would drill aslant.
+bool Interpreter::in_turned_plane(std::int16_t code) {
+    if (!frame_now().turned || next_.plane == 0) return true;
+    return fail_at(blame(), GrblStatus::unsupported,
+                   fmt::format("{} in {}: the work system is turned by {:.6g} degrees (G10 L2 R), where arcs and cycles go in G17 only", name_of_g(code),
+                               plane_names[next_.plane], frame_now().turn[next_.system]));
 }
 
 /// Finds the centre from R or from I J K.
@@ -113,10 +121,12 @@ bool Interpreter::arc_centre_of_offsets(Planar start, Planar& centre) {
             fmt::format("{} needs the centre ({} {} in {}) or the radius (R)", name_of_g(next_.motion),
                         std::min(letters[0], letters[1]), std::max(letters[0], letters[1]), plane_names[next_.plane]));
     }
+    Point words = {};
     std::array<double, 2> middle = {start.first, start.second};
     for (int i = 0; i < 2; ++i) {
         used_ |= letter_bit(letters[i]);
         if (block_.has(letters[i])) {
+            words[axes[i]] = scaled(letters[i]);
             middle[i] = scaled(letters[i]) + (next_.arc_absolute ? frame_now().offset[axes[i]] : middle[i]);
         } else if (next_.arc_absolute) {
             return fail_at(blame(), GrblStatus::no_offsets,
@@ -126,6 +136,10 @@ bool Interpreter::arc_centre_of_offsets(Planar start, Planar& centre) {
         }
     }
     centre = {middle[0], middle[1]};
+    if (const Frame& frame = frame_now(); frame.turned) {  // G17: the first axis is X, the second is Y
+        const Point by = next_.arc_absolute ? frame.to_machine(words) : frame.turned_by(words);
+        centre = next_.arc_absolute ? Planar{by[0], by[1]} : Planar{start.first + by[0], start.second + by[1]};
+    }
     return true;
 }
 

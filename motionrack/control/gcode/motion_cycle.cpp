@@ -1,4 +1,4 @@
-// G81, G82, G83: from words to a checked plan of the holes.
+// G73, G74, G81 .. G86, G89: from words to a checked plan of the holes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,10 +32,12 @@ bool Interpreter::cycle_words(std::int16_t code) {
     };
     if (block_.has('R')) keep('R', letter_bit('R'), next_.cycle_r, scaled('R'));
     if (block_.has(depth)) keep(depth, depth_word, next_.cycle_z, scaled(depth));
-    if (code == 820 && block_.has('P')) keep('P', letter_bit('P'), next_.cycle_p, block_['P']);
-    if (code == 830 && block_.has('Q')) keep('Q', letter_bit('Q'), next_.cycle_q, scaled('Q'));
+    const bool taps = code == 740 || code == 840, waits = code == 820 || code == 860 || code == 890;
+    if (taps && next_.cycle_words == 0) next_.cycle_p = 0;
+    if ((waits || taps) && block_.has('P')) keep('P', letter_bit('P'), next_.cycle_p, block_['P']);
+    if (is_pecking(code) && block_.has('Q')) keep('Q', letter_bit('Q'), next_.cycle_q, scaled('Q'));
     const std::uint32_t needed =
-        letter_bit('R') | depth_word | (code == 820 ? letter_bit('P') : 0) | (code == 830 ? letter_bit('Q') : 0);
+        letter_bit('R') | depth_word | (waits ? letter_bit('P') : 0) | (is_pecking(code) ? letter_bit('Q') : 0);
     const std::uint32_t missing = needed & ~next_.cycle_words;
     if (missing == 0) return true;
     const bool no_depth = (missing & depth_word) != 0;
@@ -46,6 +48,16 @@ bool Interpreter::cycle_words(std::int16_t code) {
                                        : "the depth of a peck, e.g. Q1.5";
     return fail_at(blame(), GrblStatus::word_missing,
                    fmt::format("{} word missing: {} needs {}", letter, name_of_g(code), what));
+}
+
+/// Tapping turns the spindle back at the bottom (the tap floats in its chuck), G86 stops it: it must turn, and tapping the right way.
+bool Interpreter::spindle_turns(std::int16_t code) {
+    const Spindle needed = code == 740 ? Spindle::counter_clockwise : code == 840 ? Spindle::clockwise : next_.spindle;
+    if (code != 740 && code != 840 && code != 860) return true;
+    if (next_.spindle != Spindle::off && next_.spindle == needed) return true;
+    return fail_at(blame(), GrblStatus::unsupported,
+                   fmt::format("{} needs the spindle turning{}; write e.g. S500 {} before it", name_of_g(code),
+                               code == 740 ? " counter-clockwise" : code == 840 ? " clockwise" : "", code == 740 ? "M4" : "M3"));
 }
 
 bool Interpreter::cycle(std::int16_t code) {
@@ -63,7 +75,7 @@ bool Interpreter::cycle(std::int16_t code) {
     const auto& axes = plane_axes[next_.plane];
     const int third = axes[2];
     const char depth_letter = axis_letters[third];
-    if (!cycle_words(code)) return false;
+    if (!in_turned_plane(code) || !spindle_turns(code) || !cycle_words(code)) return false;
     CyclePlan plan;
     if (block_.has('L')) {
         if (!need_integer('L', 1, most_repeats, "the number of holes")) return false;
@@ -71,13 +83,15 @@ bool Interpreter::cycle(std::int16_t code) {
         used_ |= letter_bit('L');
     }
     plan.code = code;
+    plan.spindle = next_.spindle;
+    plan.speed_rpm = next_.speed_rpm;
     plan.first = axes[0];
     plan.second = axes[1];
     plan.third = axes[2];
     plan.from = position_;
     plan.level = position_[third];
     const double offset = frame_now().offset[third];
-    const bool goes_on = modes_.motion >= 810 && modes_.plane == next_.plane;
+    const bool goes_on = is_cycle(modes_.motion) && modes_.plane == next_.plane;
     if (!goes_on) next_.cycle_level = plan.level;
     plan.r = next_.incremental ? next_.cycle_level + next_.cycle_r : next_.cycle_r + offset;
     plan.bottom = next_.incremental ? plan.r + next_.cycle_z : next_.cycle_z + offset;
@@ -91,7 +105,7 @@ bool Interpreter::cycle(std::int16_t code) {
     plan.peck = next_.cycle_q;
     plan.clearance = settings_.peck_clearance_mm;
     plan.seconds = next_.cycle_p;
-    if (code == 830 && !(plan.peck * most_pecks >= plan.r - plan.bottom && plan.peck > 0)) {
+    if (is_pecking(code) && !(plan.peck * most_pecks >= plan.r - plan.bottom && plan.peck > 0)) {
         return fail_at(
             block_.has('Q') ? block_.column[letter_index('Q')] : blame(), GrblStatus::bad_target,
             fmt::format(
@@ -116,6 +130,33 @@ bool Interpreter::cycle(std::int16_t code) {
 /// end.
 bool Interpreter::cycle_within_limits(CyclePlan& plan) {
     plan.pattern.end = position_;
+    if (!(frame_now().turned ? cycle_places_turned(plan) : cycle_places(plan))) return false;
+    const char depth = axis_letters[plan.third];
+    const std::size_t r_column = block_.has('R') ? block_.column[letter_index('R')] : blame();
+    const std::size_t depth_column = block_.has(depth) ? block_.column[letter_index(depth)] : blame();
+    end_[plan.third] = plan.clear;
+    if (plan.clear != plan.level && !reach(plan.third, plan.clear, r_column)) return false;
+    return reach(plan.third, plan.r, r_column) && reach(plan.third, plan.bottom, depth_column);
+}
+
+/// The first hole and the steps in a turned work system, G17.
+bool Interpreter::cycle_places_turned(CyclePlan& plan) {
+    const Frame& frame = frame_now();
+    Point words = next_.incremental ? Point{} : frame.to_program(position_);
+    for (int axis = 0; axis < 2; ++axis)
+        if (block_.has(axis_letters[axis])) words[axis] = scaled(axis_letters[axis]);
+    const Point by = frame.turned_by(words), to = frame.to_machine(words);
+    for (int axis = 0; axis < 2; ++axis) {
+        double& step = axis == 0 ? plan.step_first : plan.step_second;
+        step = next_.incremental ? by[axis] : 0;
+        if (!next_.incremental) plan.pattern.end[axis] = to[axis];
+        end_[axis] = plan.pattern.end[axis] + plan.repeats * step;
+        if (!reach(axis, plan.pattern.end[axis] + step, blame()) || !reach(axis, end_[axis], blame())) return false;
+    }
+    return true;
+}
+
+bool Interpreter::cycle_places(CyclePlan& plan) {
     for (const int axis : {static_cast<int>(plan.first), static_cast<int>(plan.second)}) {
         const char letter = axis_letters[axis];
         if (!block_.has(letter)) continue;
@@ -129,12 +170,7 @@ bool Interpreter::cycle_within_limits(CyclePlan& plan) {
         end_[axis] = plan.pattern.end[axis] + plan.repeats * step;
         if (!reach(axis, plan.pattern.end[axis] + step, column) || !reach(axis, end_[axis], column)) return false;
     }
-    const char depth = axis_letters[plan.third];
-    const std::size_t r_column = block_.has('R') ? block_.column[letter_index('R')] : blame();
-    const std::size_t depth_column = block_.has(depth) ? block_.column[letter_index(depth)] : blame();
-    end_[plan.third] = plan.clear;
-    if (plan.clear != plan.level && !reach(plan.third, plan.clear, r_column)) return false;
-    return reach(plan.third, plan.r, r_column) && reach(plan.third, plan.bottom, depth_column);
+    return true;
 }
 
 }  // namespace motionrack::control::gcode

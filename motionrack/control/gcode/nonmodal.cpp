@@ -1,4 +1,4 @@
-// G codes that act once: dwell, offsets (G10, G92, G43.1) and reference points (G28, G30).
+// G codes that act once: dwell, the shift G92 and reference points (G28, G30).
 #include <fmt/format.h>
 
 #include <bit>
@@ -28,19 +28,19 @@ bool Interpreter::nonmodal() {
         case 921: {
             Frame& frame = edit_frame();
             frame.g92 = frame.g92_kept = Point{};
-            sum_offsets(frame);
+            frame.activate(next_.system);
             break;
         }
         case 922: {
             Frame& frame = edit_frame();
             frame.g92 = Point{};
-            sum_offsets(frame);
+            frame.activate(next_.system);
             break;
         }
         case 923: {
             Frame& frame = edit_frame();
             frame.g92 = frame.g92_kept;
-            sum_offsets(frame);
+            frame.activate(next_.system);
             break;
         }
         default:
@@ -66,79 +66,6 @@ bool Interpreter::dwell() {
     return true;
 }
 
-bool Interpreter::set_offsets() {
-    const std::size_t column = block_.g_column[g_nonmodal];
-    if (!block_.has('L')) {
-        return fail_at(column, GrblStatus::word_missing,
-                       "L word missing: write G10 L2 P1 X.. to set G54's offset, G10 L20 P1 X.. to say where the "
-                       "machine is in G54");
-    }
-    if (!block_.has('P')) {
-        return fail_at(column, GrblStatus::word_missing,
-                       "P word missing: G10 needs P1 (G54) to P6 (G59), or P0 for the active system");
-    }
-    if (block_['L'] != 2 && block_['L'] != 20) {
-        if (!need_integer('L', 0, 1e9, "what G10 sets")) return false;
-        return fail_word(
-            'L', GrblStatus::unsupported,
-            fmt::format("G10 {} is not supported; G10 L2 sets an offset, G10 L20 sets the position in a system",
-                        written('L')));
-    }
-    if (!need_integer('P', 0, 1e9, "a work system (0 the active one, 1 G54 .. 6 G59)")) return false;
-    if (block_['P'] > work_system_count) {
-        return fail_word('P', GrblStatus::no_such_system,
-                         fmt::format("{}: there are six work systems, P1 (G54) to P6 (G59), and P0 for the active one",
-                                     written('P')));
-    }
-    used_ |= letter_bit('L') | letter_bit('P');
-    const int number = static_cast<int>(block_['P']);
-    return set_work_offset(number == 0 ? next_.system : number - 1, block_['L'] == 20);
-}
-
-bool Interpreter::set_work_offset(int system, bool from_position) {
-    if ((block_.words & axis_words) == 0) {
-        return fail_at(block_.g_column[g_nonmodal], GrblStatus::no_axis_words,
-                       "axis words missing: G10 needs at least one; write e.g. G10 L20 P1 X0 Y0");
-    }
-    Frame& frame = edit_frame();
-    for (int axis = 0; axis < axis_count; ++axis) {
-        if ((block_.words & letter_bit(axis_letters[axis])) == 0) continue;
-        const double value = block_.value[axis_letter(axis)] * scale_of(axis);
-        const double others = frame.g92[axis] + (axis == 2 ? frame.tool_length : 0);
-        frame.work[system][axis] = from_position ? position_[axis] - others - value : value;
-    }
-    sum_offsets(frame);
-    axis_words_taken_ = true;
-    used_ |= axis_words;
-    return true;
-}
-
-bool Interpreter::tool_length() {
-    Frame& frame = edit_frame();
-    if (block_.g[g_tool_length] == 490) {
-        frame.tool_length = 0;
-        sum_offsets(frame);
-        return true;
-    }
-    const std::uint32_t others = block_.words & axis_words & ~letter_bit('Z');
-    if (others != 0) {
-        const char letter = static_cast<char>('A' + std::countr_zero(others));
-        return fail_word(
-            letter, GrblStatus::tool_length_axis,
-            fmt::format("{}: the tool length goes along Z only; write e.g. G43.1 Z12.5 on a line of its own",
-                        written(letter)));
-    }
-    if (!block_.has('Z')) {
-        return fail_at(block_.g_column[g_tool_length], GrblStatus::no_axis_words,
-                       "Z word missing: G43.1 needs the length of the tool; write e.g. G43.1 Z12.5");
-    }
-    frame.tool_length = scaled('Z');
-    sum_offsets(frame);
-    axis_words_taken_ = true;
-    used_ |= axis_words;
-    return true;
-}
-
 bool Interpreter::shift() {
     if (axis_words_taken_ || (block_.words & axis_words) == 0) {
         return fail_at(
@@ -146,13 +73,17 @@ bool Interpreter::shift() {
             "axis words missing: G92 needs at least one of its own; write e.g. G92 X0 Y0 (G92.1 ends the shift)");
     }
     Frame& frame = edit_frame();
+    const Point shifted_before = frame.g92;
+    frame.g92 = {};
+    frame.activate(next_.system);
+    const Point unshifted = frame.to_program(position_);
+    frame.g92 = shifted_before;
     for (int axis = 0; axis < axis_count; ++axis) {
         if ((block_.words & letter_bit(axis_letters[axis])) == 0) continue;
-        const double others = frame.work[next_.system][axis] + (axis == 2 ? frame.tool_length : 0);
-        frame.g92[axis] = position_[axis] - others - block_.value[axis_letter(axis)] * scale_of(axis);
+        frame.g92[axis] = unshifted[axis] - block_.value[axis_letter(axis)] * scale_of(axis);
     }
     frame.g92_kept = frame.g92;
-    sum_offsets(frame);
+    frame.activate(next_.system);
     axis_words_taken_ = true;
     used_ |= axis_words;
     return true;

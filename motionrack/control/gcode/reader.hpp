@@ -2,40 +2,12 @@
 #pragma once
 
 #include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/language/walk.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace motionrack::control::gcode {
-
-/// Cuts a text into lines at LF, CR LF or CR, and leaves out a byte order mark at the beginning.
-class Lines {
-  public:
-    explicit Lines(std::string_view text);
-
-    /// The next line, without its end; false: there is none. Of a line longer than `longest_line` only the first
-    /// longest_line + 1 characters are given, and the rest is skipped at the next call.
-    bool next(std::string_view& line);
-
-    std::int32_t number() const { return number_; }  ///< of the line that next() gave, from 1
-    bool at_end() const { return at_ == end_ && !skip_; }
-
-  private:
-    const char* at_;
-    const char* end_;
-    std::int32_t number_ = 0;
-    bool skip_ = false;
-};
-
-/// Where a program is over: after M2 or M30, or at a lone '%' that is not its first line with anything on it.
-class ProgramEnd {
-  public:
-    /// For each line that was read, in order: whether it was the last one.
-    bool at(const Block& block);
-
-  private:
-    bool begun_ = false;
-};
 
 /// Pulls the steps of a program one by one:
 ///
@@ -47,8 +19,8 @@ class ProgramEnd {
 ///         if ((*step)->kind == StepKind::move) planner.push((*step)->move);
 ///     }
 ///
-/// After a problem the line has had no effect, and next() goes on with the line after it. The program is over after M2
-/// or M30, at the end of the text, or at a lone '%' that is not its first line with anything on it.
+/// After a problem the line has had no effect, and next() goes on with the line after it; see Walk for O words, and for where the
+/// program is over.
 class Reader {
   public:
     /// `text` must stay where it is as long as the Reader and the texts of its steps are used.
@@ -61,16 +33,14 @@ class Reader {
     }
 
     const Interpreter& interpreter() const { return interpreter_; }
-    std::int32_t line() const { return lines_.number(); }  ///< the line that the last step or problem is from
+    const Walk& walk() const { return walk_; }
+    std::int32_t line() const { return walk_.number(); }  ///< the line that the last step or problem is from
 
   private:
     Outcome<const Step*> next_from_lines();
 
-    Lines lines_;
+    Walk walk_;
     Interpreter interpreter_;
-    std::string file_;
-    ProgramEnd end_;
-    bool over_ = false;
 };
 
 /// What one pass over a program finds.

@@ -1,90 +1,16 @@
 // Taking a line of G-code apart: one pass over its characters, no allocation unless there is a comment or a fault.
 #include <fmt/format.h>
 
-#include <motionrack/control/gcode/block.hpp>
 #include <motionrack/control/gcode/codes.hpp>
-#include <motionrack/control/gcode/number.hpp>
+#include <motionrack/control/gcode/scanner.hpp>
 
 namespace motionrack::control::gcode {
 
 namespace {
 
-constexpr std::uint32_t value_letters = axis_words | offset_words | letter_bit('F') | letter_bit('L') |
-                                        letter_bit('N') | letter_bit('P') | letter_bit('Q') | letter_bit('R') |
-                                        letter_bit('S') | letter_bit('T');
-
-bool is_letter(char c) {
-    return static_cast<unsigned char>((c | 0x20) - 'a') < 26;
-}
-
-char upper(char c) {
-    return static_cast<char>(c & ~0x20);
-}
-
-/// A line being taken apart; every method returns false after it has filled the problem.
-class Scanner {
-  public:
-    Scanner(std::string_view text, Block& block, Problem& problem)
-        : text_(text), at_(text.data()), end_(text.data() + text.size()), block_(block), problem_(problem) {}
-
-    bool scan(bool block_delete);
-
-  private:
-    bool word();
-    bool code_g(const Number& number, std::size_t column);
-    bool code_m(const Number& number, std::size_t column);
-    bool other(bool block_delete);
-    bool comment();
-    bool slash(bool block_delete);
-    bool bad_number(const Number& number, char letter, std::size_t column);
-    bool bad_letter(char letter, std::size_t column);
-    bool bad_character();
-    bool repeated(char letter, std::size_t column);
-    bool fail_at(std::size_t column, GrblStatus status, std::string message) {
-        set_problem(problem_, text_, column, status, std::move(message));
-        return false;
-    }
-    std::size_t here() const { return static_cast<std::size_t>(at_ - text_.data()); }
-    bool nothing_yet() const { return (block_.words | block_.g_groups | block_.m_groups) == 0; }
-
-    std::string_view text_;
-    const char* at_;
-    const char* end_;
-    Block& block_;
-    Problem& problem_;
-};
-
-bool Scanner::scan(bool block_delete) {
-    while (at_ < end_) {
-        const char c = *at_;
-        if (is_letter(c)) {
-            if (!word()) return false;
-        } else if (is_blank(c)) {
-            ++at_;
-        } else if (!other(block_delete)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-bool Scanner::word() {
-    const char letter = upper(*at_);
-    const std::size_t column = here();
-    ++at_;
-    while (at_ < end_ && is_blank(*at_)) ++at_;
-    const std::uint32_t bit = letter_bit(letter);
-    if ((bit & (value_letters | letter_bit('G') | letter_bit('M'))) == 0) return bad_letter(letter, column);
-    const Number number = scan_number(at_, end_);
-    if (number.fault != NumberFault::none) return bad_number(number, letter, column);
-    if (letter == 'G') return code_g(number, column);
-    if (letter == 'M') return code_m(number, column);
-    if ((block_.words & bit) != 0) return repeated(letter, column);
-    block_.words |= bit;
-    block_.value[letter_index(letter)] = number.value;
-    block_.column[letter_index(letter)] = static_cast<std::uint16_t>(column);
-    return true;
-}
+constexpr std::uint32_t word_letters = axis_words | offset_words | letter_bit('F') | letter_bit('L') | letter_bit('N') |
+                                       letter_bit('P') | letter_bit('Q') | letter_bit('R') | letter_bit('S') |
+                                       letter_bit('T') | letter_bit('G') | letter_bit('M') | letter_bit('H');
 
 /// The code in tenths, or -1 where it has more decimals or is out of the table.
 int tenths_of(const Number& number) {
@@ -99,10 +25,35 @@ int tenths_of(const Number& number) {
     return static_cast<int>(decimals == 0 ? mantissa * 10 : mantissa);
 }
 
+}  // namespace
+
+bool Scanner::scan() {
+    while (at_ < end_) {
+        const char c = *at_;
+        if (is_letter(c)) {
+            const char letter = upper(c);
+            const std::size_t column = here();
+            ++at_;
+            while (at_ < end_ && is_blank(*at_)) ++at_;
+            if ((letter_bit(letter) & word_letters) == 0 || (letter == 'H' && options_.language == Language::words)) {
+                if (letter == 'O' && options_.language == Language::program ? flow(column) : bad_letter(letter, column)) continue;
+                return false;
+            }
+            const Number number = scan_number(at_, end_);
+            if (number.fault == NumberFault::none ? !take(letter, column, number) : !word_of_language(letter, column, number)) return false;
+        } else if (is_blank(c)) {
+            ++at_;
+        } else if (!other()) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool Scanner::code_g(const Number& number, std::size_t column) {
     const int tenths = tenths_of(number);
     const GroupG group = group_of_g(tenths);
-    if (group >= g_group_count) {
+    if (group >= g_group_count || (options_.language == Language::words && !is_for_senders(group, tenths))) {
         const bool named = tenths >= 0 && tenths < 1000;
         const GrblStatus status = tenths >= 591 && tenths <= 593 ? GrblStatus::no_such_system : GrblStatus::unsupported;
         return fail_at(
@@ -130,11 +81,11 @@ bool Scanner::code_m(const Number& number, std::size_t column) {
     const int tenths = tenths_of(number);
     const int code = tenths >= 0 && tenths % 10 == 0 ? tenths / 10 : -1;
     const GroupM group = group_of_m(code);
-    if (group == m_unknown) {
+    constexpr int last_of_senders = 30;
+    if (group == m_unknown || (options_.language == Language::words && code > last_of_senders)) {
         return fail_at(column, GrblStatus::unsupported,
                        code >= 0 ? why_not_m(code)
-                                 : fmt::format("{} is not a known command; known are M0 M1 M2 M3 M4 M5 M6 M7 M8 M9 M30",
-                                               word_at(text_, column)));
+                                 : fmt::format("{} is not a known command; known are {}", word_at(text_, column), known_m_codes()));
     }
     constexpr std::uint32_t coolants = 1u << m_mist | 1u << m_flood;
     const bool clash = (group == m_coolant_off && (block_.m_groups & coolants) != 0) ||
@@ -153,13 +104,15 @@ bool Scanner::code_m(const Number& number, std::size_t column) {
     return true;
 }
 
-bool Scanner::other(bool block_delete) {
+bool Scanner::other() {
     switch (*at_) {
         case '(':
         case ';':
             return comment();
+        case '#':
+            return options_.language == Language::words ? bad_character() : assignment();
         case '/':
-            return slash(block_delete);
+            return slash();
         case '%':
             if (text_.find_first_not_of(" \t", here() + 1) != std::string_view::npos || !nothing_yet()) {
                 return fail_at(here(), GrblStatus::unsupported,
@@ -173,13 +126,13 @@ bool Scanner::other(bool block_delete) {
     }
 }
 
-bool Scanner::slash(bool block_delete) {
+bool Scanner::slash() {
     if (text_.find_first_not_of(" \t") != here()) {
         return fail_at(here(), GrblStatus::unsupported,
                        "'/' (block delete) must be the first character of the line; division is not supported");
     }
     ++at_;
-    if (block_delete) {
+    if (options_.block_delete) {
         block_.deleted = true;
         at_ = end_;
     }
@@ -210,109 +163,18 @@ bool Scanner::comment() {
     }
     std::string_view body = found.text;
     while (!body.empty() && is_blank(body.front())) body.remove_prefix(1);
-    if (!rest && body.size() >= 4 && upper(body[0]) == 'M' && upper(body[1]) == 'S' && upper(body[2]) == 'G' &&
-        body[3] == ',') {
-        found.message = true;
-        found.text = body.substr(4);
-    }
+    if (!rest && !comment_kind(body, found)) return false;
     block_.comments.push_back(found);
     at_ = text_.data() + close + (rest ? 0 : 1);
     return true;
 }
 
-bool Scanner::repeated(char letter, std::size_t column) {
-    return fail_at(
-        column, GrblStatus::word_repeated,
-        fmt::format("{} is the second {} word on this line (the first is {}); a line takes one, leave one out",
-                    word_at(text_, column), letter, word_at(text_, block_.column[letter_index(letter)])));
-}
-
-bool Scanner::bad_number(const Number& number, char letter, std::size_t column) {
-    const std::string_view written = word_at(text_, column);
-    if (number.fault == NumberFault::two_points) {
-        return fail_at(column, GrblStatus::bad_number,
-                       fmt::format("{}: the number has two decimal points; write e.g. {}1.5", written, letter));
-    }
-    if (number.fault == NumberFault::too_large) {
-        return fail_at(column, GrblStatus::bad_number,
-                       fmt::format("{}: the number is too large; the largest is 1000000000", written));
-    }
-    if (at_ < end_ && (*at_ == '#' || *at_ == '[')) {
-        return fail_at(column, GrblStatus::bad_number,
-                       fmt::format("{}{}: variables and expressions are not supported; let the CAM program or LinuxCNC "
-                                   "write the number out, e.g. {}12.5",
-                                   letter, *at_, letter));
-    }
-    return fail_at(
-        column, GrblStatus::bad_number,
-        fmt::format("{} has no number (digits with at most one decimal point); write e.g. {}12.5", written, letter));
-}
-
-bool Scanner::bad_letter(char letter, std::size_t column) {
-    if (letter == 'E' && column > 0 && (is_digit(text_[column - 1]) || text_[column - 1] == '.')) {
-        std::size_t begin = column;
-        while (begin > 0 && !is_letter(text_[begin - 1])) --begin;
-        if (begin > 0) --begin;
-        return fail_at(begin, GrblStatus::bad_number,
-                       fmt::format("{}{}: numbers of G-code have no exponent; write 1000, not 1e3",
-                                   text_.substr(begin, column - begin), word_at(text_, column)));
-    }
-    if (letter == 'O') {
-        return fail_at(column, GrblStatus::unsupported,
-                       "O words (program numbers, subprograms, loops) are not supported; write the lines out, and a "
-                       "program's name as a comment");
-    }
-    const char* hint = letter == 'D' || letter == 'H'                    ? "; there is no tool table"
-                       : letter == 'E'                                   ? "; there is no extruder"
-                       : letter == 'U' || letter == 'V' || letter == 'W' ? "; axes are X Y Z A B C"
-                                                                         : "";
-    return fail_at(column, GrblStatus::unsupported,
-                   fmt::format("{}: there is no word {}{}", word_at(text_, column), letter, hint));
-}
-
-bool Scanner::bad_character() {
-    const auto c = static_cast<unsigned char>(*at_);
-    const std::size_t column = here();
-    if (c == '#' || c == '[' || c == ']' || c == '=' || c == '<' || c == '>') {
-        return fail_at(
-            column, GrblStatus::unsupported,
-            fmt::format("'{}': variables and expressions are not supported; let the CAM program or LinuxCNC write "
-                        "the numbers out",
-                        static_cast<char>(c)));
-    }
-    if (c == '$') {
-        return fail_at(column, GrblStatus::system_command,
-                       "'$' begins a system command of Grbl, which is no part of a program; leave the line out");
-    }
-    if (c == '*')
-        return fail_at(column, GrblStatus::expected_letter, "'*': checksums are not supported; leave them out");
-    if (c == ')') return fail_at(column, GrblStatus::expected_letter, "')' without '(' before it; take it out");
-    if (is_digit(static_cast<char>(c)) || c == '.' || c == '-' || c == '+') {
-        std::size_t stop = column;
-        while (stop < text_.size() && stop < column + 20 && !is_letter(text_[stop]) && !is_blank(text_[stop])) ++stop;
-        return fail_at(column, GrblStatus::expected_letter,
-                       fmt::format("{} has no letter before it; write e.g. X{}", text_.substr(column, stop - column),
-                                   text_.substr(column, stop - column)));
-    }
-    if (c < 0x20 || c >= 0x7f) {
-        return fail_at(
-            column, GrblStatus::expected_letter,
-            fmt::format("byte 0x{:02X} is not a character of G-code (ASCII only, UTF-8 in comments); is this a text "
-                        "file?",
-                        c));
-    }
-    return fail_at(
-        column, GrblStatus::expected_letter,
-        fmt::format("'{}' is not expected here; a word is a letter and a number, e.g. X12.5", static_cast<char>(c)));
-}
-
-}  // namespace
-
-bool scan_line(std::string_view text, bool block_delete, Block& block, Problem& problem) {
+bool scan_line(std::string_view text, const ScanOptions& options, Block& block, Problem& problem) {
     block.text = text;
     block.words = block.g_groups = block.m_groups = 0;
-    block.percent = block.deleted = false;
+    block.percent = block.deleted = block.flow = false;
     if (!block.comments.empty()) block.comments.clear();
+    if (!block.assignments.empty()) block.assignments.clear();
     if (text.size() > longest_line) {
         set_problem(
             problem, text, longest_line, GrblStatus::line_too_long,
@@ -320,7 +182,7 @@ bool scan_line(std::string_view text, bool block_delete, Block& block, Problem& 
         problem.word.clear();
         return false;
     }
-    return Scanner(text, block, problem).scan(block_delete);
+    return Scanner(text, options, block, problem).scan();
 }
 
 std::string_view word_at(std::string_view text, std::size_t column) {
@@ -328,6 +190,10 @@ std::string_view word_at(std::string_view text, std::size_t column) {
     std::size_t stop = column + 1;
     const auto part_of_number = [](char c) { return is_digit(c) || is_blank(c) || c == '.' || c == '-' || c == '+'; };
     while (is_letter(text[column]) && stop < text.size() && part_of_number(text[stop])) ++stop;
+    if (is_letter(text[column]) && stop < text.size() && (text[stop] == '[' || text[stop] == '#')) {
+        const std::size_t close = text.find_first_of(text[stop] == '[' ? "]" : " \t>", stop);
+        stop = close == std::string_view::npos ? text.size() : close + 1;
+    }
     while (stop > column + 1 && is_blank(text[stop - 1])) --stop;
     return text.substr(column, stop - column);
 }

@@ -3,12 +3,19 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <motionrack/base/result.hpp>
+#include <motionrack/control/gcode/tools.hpp>
 #include <motionrack/control/limits.hpp>
+#include <string>
 
 namespace motionrack::control::gcode {
 
-inline constexpr int work_system_count = 6;  ///< G54 .. G59
+inline constexpr int work_system_count = 9;       ///< G54 .. G59, G59.1 .. G59.3
+inline constexpr int grbl_work_system_count = 6;  ///< of them those that lines from a sender know
+
+/// The text of a subprogram that a program calls by a name that it does not have itself. An error's sentence goes on after "and".
+using SubprogramSource = std::function<Result<std::string>(const std::string& name)>;
 
 struct Settings {
     MachineLimits limits = {};  ///< axes present and how far they may go, machine coordinates
@@ -18,9 +25,12 @@ struct Settings {
     double path_tolerance_mm = 0.01;   ///< of G64 without P, and at the start; >= 0
     double peck_clearance_mm = 0.254;  ///< G83 rapids back to this far above the depth already drilled; >= 0
     Point start = {};                  ///< where the machine is at the start, machine coordinates
-    std::array<Point, work_system_count> work_offsets = {};  ///< G54 .. G59 at the start, mm and degrees
+    std::array<Point, work_system_count> work_offsets = {};  ///< at the start, mm and degrees
     Point g28 = {};                                          ///< where G28 goes, machine coordinates
     Point g30 = {};                                          ///< where G30 goes, machine coordinates
+    ToolTable tools = {};                                    ///< empty: any tool number will do, and G43 has no lengths
+    std::int64_t most_lines = 10'000'000;  ///< that loops and calls may go through, beside the program's own; >= 0
+    SubprogramSource subprogram = {};      ///< none: a program has the subs that are in its text
 };
 
 /// Refuses settings with numbers that are not finite, or larger than 1e9, or limits the wrong way round.

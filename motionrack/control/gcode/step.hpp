@@ -16,7 +16,8 @@ enum class StepKind : std::uint8_t {
     coolant,         ///< M7 M8 M9: `mist`, `flood` as they are from now on
     tool_select,     ///< T: `tool`
     tool_change,     ///< M6: `tool`
-    pause,           ///< M0: stop until the operator goes on
+    tool_number,     ///< M61: `tool` is the one in the spindle; nothing is changed
+    pause,           ///< M0, M60: stop until the operator goes on
     optional_pause,  ///< M1: the same where the operator has asked for it
     end              ///< M2, M30: the program is over; spindle and coolant off
 };

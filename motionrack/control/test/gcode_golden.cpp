@@ -1,64 +1,58 @@
 // Our canonical motion lines against those that LinuxCNC's rs274 printed for the same programs (tests/golden/canon).
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <motionrack/control/gcode/canon.hpp>
-#include <sstream>
+#include <motionrack/control/gcode/codes.hpp>
+#include <set>
 
-#include "gcode_support.hpp"
+#include "gcode_corpus.hpp"
 
 namespace motionrack::control::gcode {
 
 namespace {
 
-std::string file_text(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    EXPECT_TRUE(file) << path;
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-/// Only STRAIGHT_.., ARC_FEED and DWELL, without the columns before them and without the sign of zeros.
-std::string motion_lines(const std::string& canon) {
-    std::string out;
-    std::istringstream lines(canon);
-    for (std::string line; std::getline(lines, line);) {
-        for (const char* start : {"STRAIGHT_", "ARC_FEED", "DWELL"}) {
-            const std::size_t at = line.find(start);
-            if (at == std::string::npos || line.find("COMMENT") != std::string::npos) continue;
-            std::string call = line.substr(at);
-            for (std::size_t zero; (zero = call.find("-0.0000")) != std::string::npos;) call.erase(zero, 1);
-            out += call + '\n';
-        }
-    }
-    return out;
-}
-
-std::string printed(const std::string& program, CanonOptions options = {}) {
-    std::string out;
-    const auto done =
-        print_canon(program, testing::machine("XYZABC", 1e5), options, [&](std::string_view line) { out += line; });
-    EXPECT_TRUE(done) << done.error().text();
-    return out;
-}
+using namespace testing::corpus;
 
 }  // namespace
 
-class GcodeGolden : public ::testing::TestWithParam<const char*> {};
+class GcodeGolden : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(GcodeGolden, MovesAreThoseOfRs274) {
-    const std::string base = std::string(MOTIONRACK_SOURCE_DIR) + "/tests/golden/canon/" + GetParam();
-    const std::string expected = motion_lines(file_text(base + ".canon"));
-    ASSERT_GT(expected.size(), 100u);
-    EXPECT_EQ(motion_lines(printed(file_text(base + ".ngc"))), expected);
+    const std::string expected = motion_lines(file_text(folder() + GetParam() + ".canon"));
+    ASSERT_GT(expected.size(), 50u);
+    EXPECT_EQ(motion_lines(printed(file_text(folder() + GetParam() + ".ngc"), {}, settings_of(GetParam()))), expected);
 }
 
-INSTANTIATE_TEST_SUITE_P(Programs, GcodeGolden,
-                         ::testing::Values("lines", "planes", "helices", "radius", "inches", "offsets", "shifts",
-                                           "references", "drilling", "drilling_planes", "drilling_series", "modes",
-                                           "marks"),
-                         [](const auto& parameter) { return std::string(parameter.param); });
+INSTANTIATE_TEST_SUITE_P(Programs, GcodeGolden, ::testing::ValuesIn(names()), [](const auto& parameter) { return parameter.param; });
+
+TEST(GcodeCorpus, HasMoreThanFiftyProgramsThatUseEveryWord) {
+    EXPECT_GE(names().size(), 50u);
+    std::set<int> g, m;
+    std::string all;
+    for (const std::string& name : names()) {
+        Interpreter interpreter(settings_of(name));
+        const std::string text = file_text(folder() + name + ".ngc");
+        Walk walk(text, settings_of(name), name);
+        for (std::string_view line; walk.next(line);) {
+            ASSERT_TRUE(interpreter.line(line, walk.number(), Language::program)) << name << ": " << line;
+            ASSERT_TRUE(walk.took(interpreter));
+            const Block& block = interpreter.block();
+            for (int i = 0; i < g_group_count; ++i)
+                if (block.has_g(static_cast<GroupG>(i))) g.insert(block.g[static_cast<std::size_t>(i)]);
+            for (int i = 0; i < m_group_count; ++i)
+                if (block.has_m(static_cast<GroupM>(i))) m.insert(block.m[static_cast<std::size_t>(i)]);
+        }
+        all += text;
+    }
+    for (int tenths = 0; tenths < 1000; ++tenths)
+        EXPECT_TRUE(group_of_g(tenths) >= g_group_count || g.contains(tenths)) << name_of_g(tenths);
+    for (int code = 0; code < 100; ++code)
+        EXPECT_TRUE(group_of_m(code) == m_unknown || code == 49 || code == 61 || m.contains(code)) << "M" << code;
+    for (const char* word : {"sub", "endsub", "return", "call", "if", "elseif", "else", "endif", "while", "endwhile", "do", "repeat", "endrepeat", "break", "continue"})
+        EXPECT_NE(all.find(std::string(" ") + word), std::string::npos) << word;
+    for (const char* word : {"ABS", "ACOS", "ASIN", "ATAN", "COS", "EXISTS", "EXP", "FIX", "FUP", "LN", "ROUND", "SIN", "SQRT", "TAN", "MOD", "EQ", "NE",
+                             "GT", "GE", "LT", "LE", "AND", "OR", "XOR", "**", "DEBUG", "PRINT", "MSG"})
+        EXPECT_NE(all.find(word), std::string::npos) << word;
+}
 
 TEST(GcodeCanon, PrintsEventsAndColumnsAsRs274Does) {
     const std::string out =

@@ -33,7 +33,7 @@ int bench(const BenchOptions& options) {
     const Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
     const auto& [text, name] = *program;
-    const control::gcode::Settings settings = reader_settings(*config, false);
+    const control::gcode::Settings settings = program_settings(*config, name);
     std::vector<double> reading, running;
     double simulated = 0;
     std::uint64_t events = 0;
@@ -48,6 +48,7 @@ int bench(const BenchOptions& options) {
         rack::JobSettings job_settings;
         job_settings.program = text;
         job_settings.program_name = name;
+        job_settings.reading = settings;
         rack::Job job(rack, job_settings);
         rack.start();
         begin = std::chrono::steady_clock::now();

@@ -27,6 +27,7 @@ struct CheckOptions {
     std::string rack;
     bool json = false;
     bool block_delete = false;
+    std::string tools;
 };
 
 nlohmann::json json_of(const Error& error) {
@@ -61,8 +62,9 @@ int check_program_file(const std::string& path, const CheckOptions& options, nlo
     if (!config) return code;
     const Result<std::string> text = read_text(path);
     if (!text) return report(text.error());
-    const control::gcode::Check check =
-        control::gcode::check_program(*text, reader_settings(*config, options.block_delete), problems_shown, path);
+    control::gcode::Settings settings = program_settings(*config, path, options.block_delete);
+    if (!load_tools(options.tools, settings, code)) return code;
+    const control::gcode::Check check = control::gcode::check_program(*text, settings, problems_shown, path);
     if (json) {
         nlohmann::json entry = {{"file", path}, {"ok", check.problems.empty()}, {"lines", check.lines}, {"moves", check.moves},
                                 {"dwells", check.dwells}, {"errors", nlohmann::json::array()}};
@@ -105,6 +107,7 @@ void add_check(CLI::App& app, Action& chosen) {
     CLI::App* command = app.add_subcommand("check", "List everything that is wrong in rack files (*.toml) and part programs; nothing moves");
     command->add_option("FILE", options->files, "rack files and part programs")->required();
     command->add_option("--rack", options->rack, "rack file that the programs are checked against (default: the built-in router)");
+    command->add_option("--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43");
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
     command->add_flag("--json", options->json, "print the findings as JSON");
     command->footer("Example: motionrack check my.toml part.ngc --rack my.toml");
@@ -113,15 +116,16 @@ void add_check(CLI::App& app, Action& chosen) {
 
 void add_canon(CLI::App& app, Action& chosen) {
     struct Options {
-        std::string file, rack;
-        bool machine = false, plain = false, block_delete = false;
+        std::string file, rack, tools;
+        bool machine = false, numbered = false, block_delete = false;
     };
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("canon", "Print the canonical moves of a part program, in the form of LinuxCNC's rs274 -g");
+    CLI::App* command = app.add_subcommand("canon", "Print the canonical calls of a part program, one a line, as LinuxCNC's rs274 -g does");
     command->add_option("FILE", options->file, "part program ('-': standard input)")->required();
     command->add_option("--rack", options->rack, "rack file whose axes and limits count (default: the built-in router)");
     command->add_flag("--machine", options->machine, "machine coordinates in mm and degrees instead of the program's own");
-    command->add_flag("--plain", options->plain, "without the two number columns");
+    command->add_option("-t,--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43");
+    command->add_flag("--numbered", options->numbered, "with the two columns of numbers that rs274 prints before each call");
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
     command->footer("Example: motionrack canon part.ngc | grep ARC_FEED");
     command->callback([options, &chosen] {
@@ -134,9 +138,11 @@ void add_canon(CLI::App& app, Action& chosen) {
             if (!text) return report(text.error());
             gcode::CanonOptions how;
             how.coordinates = options->machine ? gcode::Coordinates::machine : gcode::Coordinates::program;
-            how.numbered = !options->plain;
+            how.numbered = options->numbered;
+            gcode::Settings settings = program_settings(*config, options->file, options->block_delete);
+            if (!load_tools(options->tools, settings, code)) return code;
             const auto done = gcode::print_canon(
-                *text, reader_settings(*config, options->block_delete), how,
+                *text, settings, how,
                 [](std::string_view line) { std::fwrite(line.data(), 1, line.size(), stdout); }, options->file);
             return done ? static_cast<int>(exit_done) : report(done.error());
         };

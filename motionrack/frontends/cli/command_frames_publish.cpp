@@ -89,6 +89,7 @@ Result<dds::Published> publish_program(Run& run, const ProgramText& program) {
     rack::JobSettings job_settings;
     job_settings.program = program.text;
     job_settings.program_name = program.name;
+    job_settings.reading = program_settings(run.rack.config(), program.name);
     job_settings.stop = &stop_asked;
     dds::Frame frame;
     job_settings.on_slice = [&] {
@@ -113,7 +114,7 @@ int publish_rack(Run& run) {
     if (!options.program.empty()) {
         auto loaded = load_program(options.program);
         if (!loaded) return report(loaded.error());
-        const control::gcode::Settings settings = reader_settings(run.rack.config(), false);
+        const control::gcode::Settings settings = program_settings(run.rack.config(), loaded->name);
         if (const int bad = print_problems(control::gcode::check_program(loaded->text, settings, 20, loaded->name), loaded->name); bad != exit_done) return bad;
         program = std::move(*loaded);
     }

@@ -82,11 +82,12 @@ void run_for(Show& show, Duration time) {
 int run_program(Show& show, const ShowOptions& options) {
     const Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
-    const control::gcode::Settings settings = reader_settings(show.rack.config(), false);
+    const control::gcode::Settings settings = program_settings(show.rack.config(), program->name);
     if (const int bad = print_problems(control::gcode::check_program(program->text, settings, 20, program->name), program->name); bad != exit_done) return bad;
     rack::JobSettings job_settings;
     job_settings.program = program->text;
     job_settings.program_name = program->name;
+    job_settings.reading = settings;
     job_settings.stop = &stop_asked;
     job_settings.on_slice = [&show] { show.between_runs(); };
     rack::Job job(show.rack, job_settings);

@@ -30,6 +30,7 @@ constexpr std::size_t problems_shown = 100;
 
 struct PlanOptions {
     std::string program, rack, picture;
+    std::string tools;
     bool block_delete = false, json = false;
 };
 
@@ -139,7 +140,8 @@ int plan(const PlanOptions& options) {
         return report({Trouble::refused, fmt::format("The axes of {} position one by one: there is no path to plan. Give a rack whose axes follow paths together.", config->name)});
     const Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
-    const control::gcode::Settings settings = rack::reader_settings(*config, options.block_delete);
+    control::gcode::Settings settings = program_settings(*config, program->name, options.block_delete);
+    if (!load_tools(options.tools, settings, code)) return code;
     if (const int bad = print_problems(control::gcode::check_program(program->text, settings, problems_shown, program->name), program->name); bad != exit_done) return bad;
     std::vector<Move> moves;
     control::gcode::Reader reader(program->text, settings, program->name);
@@ -165,6 +167,7 @@ void add_plan(CLI::App& app, Action& chosen) {
     CLI::App* command = app.add_subcommand("plan", "Tell how long a part program takes: stopping at each move, by trapezoids, and jerk-limited; nothing moves");
     command->add_option("PROGRAM", options->program, "part program, '-' for standard input (default: the built-in example)");
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
+    command->add_option("--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43");
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
     command->add_option("--picture", options->picture, "write the jerk-limited plan as SVG: the path coloured by its speed, speed, acceleration and jerk over time");
     command->add_flag("--json", options->json, "print the plans as JSON");

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <map>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
@@ -18,7 +19,7 @@ namespace motionrack::cli {
 namespace {
 
 struct RunOptions {
-    std::string program, rack, report = "report.html", record, vcd, csv, events;
+    std::string program, rack, tools, report = "report.html", record, vcd, csv, events;
     std::vector<std::string> signals, faults, orders;
     double timescale_ns = 100;
     bool json = false, quiet = false, no_report = false, block_delete = false, stream = false;
@@ -48,6 +49,16 @@ int read_request(const RunOptions& options, rack::JobRequest& request) {
     request.faults = std::move(*faults);
     request.orders = std::move(*orders);
     return exit_done;
+}
+
+/// What the program calls is kept with it, for the run itself and for recordings.
+void keep_subprograms(control::gcode::Settings& settings, std::map<std::string, std::string>& kept) {
+    if (!settings.subprogram) return;
+    settings.subprogram = [load = settings.subprogram, &kept](const std::string& name) -> Result<std::string> {
+        Result<std::string> text = load(name);
+        if (text) kept[name] = *text;
+        return text;
+    };
 }
 
 int write_results(const rack::RecordedJob& job, const RunOptions& options) {
@@ -82,7 +93,11 @@ void print_outcome(const rack::RecordedJob& job, const rack::JobRequest& request
 int run(const RunOptions& options) {
     rack::JobRequest request;
     if (const int bad = read_request(options, request); bad != exit_done) return bad;
-    const control::gcode::Settings settings = rack::reader_settings(request.config, options.block_delete);
+    int unread = exit_done;
+    control::gcode::Settings settings = program_settings(request.config, request.program_name, options.block_delete);
+    if (!load_tools(options.tools, settings, unread)) return unread;
+    keep_subprograms(settings, request.subprograms);
+    request.tools = settings.tools;
     if (const Result<void> good = control::gcode::check_settings(settings); !good) return report(good.error());
     const std::string& name = request.program_name;
     if (!options.stream)
@@ -123,6 +138,7 @@ void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
         ->allow_extra_args(false);
     command->add_option("--at", options->orders, "order something on the way, ORDER@TIME: hold@1.5s, resume@2s, feed=0.5@1s, rapid=0.25@1s, stop@3s")
         ->allow_extra_args(false);
+    command->add_option("--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43");
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
     command->add_flag("--stream", options->stream, "move line by line as it is read, without checking the whole program first");
     command->add_flag("--json", options->json, "print the summary as JSON");

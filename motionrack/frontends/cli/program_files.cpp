@@ -4,7 +4,9 @@
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
+#include <filesystem>
 #include <motionrack/rack/counted.hpp>
+#include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
 
 namespace motionrack::cli {
@@ -34,6 +36,33 @@ std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_cod
     for (const Error& error : reading.errors) print_error(error.text());
     if (!reading.errors.empty()) exit_code_out = exit_code(reading.errors.front().trouble);
     return reading.config;
+}
+
+control::gcode::Settings program_settings(const rack::RackConfig& config, const std::string& path, bool block_delete) {
+    control::gcode::Settings settings = rack::reader_settings(config, block_delete);
+    std::error_code unknown;
+    if (!std::filesystem::is_regular_file(path, unknown)) return settings;
+    settings.subprogram = [folder = std::filesystem::path(path).parent_path()](const std::string& name) -> Result<std::string> {
+        constexpr std::uintmax_t largest = 64 << 20;
+        const std::string file = (folder / (name + ".ngc")).string();
+        std::error_code missing;
+        const std::uintmax_t size = std::filesystem::file_size(file, missing);
+        if (missing) return fail(Trouble::bad_input, fmt::format("{} beside it is not there or cannot be read", file));
+        if (size > largest) return fail(Trouble::bad_input, fmt::format("{} beside it is larger than 64 MiB", file));
+        return read_text(file);
+    };
+    return settings;
+}
+
+bool load_tools(const std::string& path, control::gcode::Settings& settings, int& exit_code_out) {
+    if (path.empty()) return true;
+    const Result<std::string> text = read_text(path);
+    Result<control::gcode::ToolTable> tools = text ? control::gcode::read_tool_table(*text, path) : tl::unexpected<Error>(text.error());
+    if (tools)
+        settings.tools = std::move(*tools);
+    else
+        exit_code_out = report(tools.error());
+    return tools.has_value();
 }
 
 int print_problems(const control::gcode::Check& check, const std::string& name) {

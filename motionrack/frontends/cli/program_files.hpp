@@ -30,6 +30,13 @@ std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_cod
 /// The text that load_rack reads from this path, and what it is called. Errors: io.
 Result<ProgramText> load_rack_text(const std::string& path, BuiltInRack built_in = BuiltInRack::router);
 
+/// How a program is read: by the rack's axes, with the subprograms that lie beside it as name.ngc. Programs from standard input and the
+/// built-in example have no folder.
+control::gcode::Settings program_settings(const rack::RackConfig& config, const std::string& path, bool block_delete = false);
+
+/// Reads a tool table into the settings; an empty path leaves them. False: it was told what is wrong, `exit_code` says how.
+bool load_tools(const std::string& path, control::gcode::Settings& settings, int& exit_code);
+
 /// Prints up to 20 problems of a program with their lines; the exit code (0 if there are none).
 int print_problems(const control::gcode::Check& check, const std::string& name);
 

@@ -1,0 +1,78 @@
+// Values of G-code words as LinuxCNC has them: numbers, parameters, expressions in brackets and functions.
+//
+//     X12.5   X#1   X-#<depth>   X[#1 + 2 * [#2 - 1]]   X SIN[30]   X ATAN[#2]/[#3]
+//
+// Operators from the strongest to the weakest, equals from left to right:
+//     **     * / MOD     + -     EQ NE GT GE LT LE     AND OR XOR
+// Comparisons give 1 or 0; EQ and NE take numbers for equal that differ by less than 0.0001. MOD is never negative. Angles are in
+// degrees. Functions: ABS ACOS ASIN ATAN[]/[] COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace motionrack::control::gcode {
+
+/// Parameters are #1 to #5602.
+inline constexpr int last_parameter = 5602;
+/// Characters of a parameter's name, blanks not counted.
+inline constexpr std::size_t longest_name = 100;
+
+/// Where the values of parameters come from.
+class ParameterSource {
+  public:
+    virtual ~ParameterSource() = default;
+    /// Of #number, 1 .. last_parameter; 0 if it was never set.
+    virtual double numbered(int number) const = 0;
+    /// Of #<name>, lower case and without blanks; nothing if it was never set.
+    virtual std::optional<double> named(std::string_view name) const = 0;
+};
+
+/// What stands left of an assignment, or after a '#'.
+struct ParameterName {
+    int number = 0;    ///< 1 .. last_parameter; 0: `name` counts
+    std::string name;  ///< lower case, without blanks
+};
+
+/// Reads values out of a line. After a method gave false, `fault_at` (from 0) and `fault` say what is wrong.
+class ExpressionReader {
+  public:
+    ExpressionReader(std::string_view text, const ParameterSource& source)
+        : text_(text), end_(text.data() + text.size()), source_(source) {}
+
+    /// Whether a value that is not a plain number begins at `at`: '#', '[', a function, or one of these after a sign.
+    bool begins(const char* at) const;
+
+    /// Reads a value; leaves `at` behind it and the blanks after it. The value is finite.
+    bool value(const char*& at, double& value);
+
+    /// Reads what stands behind a '#', at which `at` must point.
+    bool parameter(const char*& at, ParameterName& name);
+
+    std::size_t fault_at() const { return fault_at_; }
+    const std::string& fault() const { return fault_; }
+
+  private:
+    enum class Operator : unsigned char;
+
+    bool bracket(const char*& at, double& value);
+    bool operation(const char*& at, int weakest, double& value);
+    bool unary(const char*& at, double& value);
+    bool arc_tangent(const char*& at, double over, double& value);
+    bool exists(const char*& at, double& value);
+    bool apply(const char* at, Operator what, double& left, double right);
+    bool finite(const char* at, double value);
+    Operator operator_at(const char* at, const char*& after) const;
+    void skip(const char*& at) const;
+    bool fail(const char* at, std::string message);
+
+    std::string_view text_;
+    const char* end_;
+    const ParameterSource& source_;
+    int depth_ = 0;
+    std::size_t fault_at_ = 0;
+    std::string fault_;
+};
+
+}  // namespace motionrack::control::gcode

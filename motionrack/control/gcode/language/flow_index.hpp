@@ -1,0 +1,51 @@
+// Where the O words of a text are, and which belong together: so that who walks through it can jump.
+#pragma once
+
+#include <map>
+#include <motionrack/control/gcode/language/flow_line.hpp>
+#include <motionrack/control/gcode/lines.hpp>
+#include <vector>
+
+namespace motionrack::control::gcode {
+
+/// Nothing belongs to it.
+inline constexpr std::int32_t no_place = -1;
+
+/// A line with an O word in its text. Places are indices into FlowIndex::places.
+///
+///     o1 if [..]      begin of all four is the if; branch of the if is the elseif, of the elseif the else, of the
+///     o1 elseif [..]  else the endif; end of all is the endif
+///     o1 else
+///     o1 endif
+///     o2 while [..]   likewise do .. while, repeat .. endrepeat, sub .. endsub; break, continue: those of their loop;
+///     o2 endwhile     return: those of its sub
+struct FlowPlace {
+    FlowWord word = FlowWord::sub;
+    std::uint16_t column = 0;  ///< of the O word, from 0
+    std::uint16_t rest = 0;    ///< of its arguments
+    std::int32_t line = 0;     ///< from 1
+    std::int32_t label = 0;    ///< the same number for the same label
+    std::int32_t begin = no_place;
+    std::int32_t branch = no_place;
+    std::int32_t end = no_place;
+    std::string_view text;     ///< the line
+    Lines before;              ///< from where the line is next
+    Lines after;               ///< from where what follows it is next
+
+    FlowPlace(const Lines& from, const Lines& to) : before(from), after(to) {}
+};
+
+struct FlowIndex {
+    std::vector<FlowPlace> places;  ///< in the order of their lines
+    std::map<std::string, std::int32_t, std::less<>> subs;  ///< by label
+    std::vector<Problem> problems;  ///< of O words that do not fit together, without the file
+    std::int32_t lines = 0;         ///< of the text
+
+    /// The place in `line`; no_place: none.
+    std::int32_t at_line(std::int32_t line) const;
+};
+
+/// Reads the whole text, or up to its closing '%'. At most 100 problems.
+FlowIndex index_flow(std::string_view text, bool block_delete);
+
+}  // namespace motionrack::control::gcode

@@ -1,0 +1,34 @@
+// One line with an O word, taken apart: o100 while [#1 LT 5], o<drill> call [1] [2].
+#pragma once
+
+#include <motionrack/control/gcode/problem.hpp>
+#include <string>
+#include <string_view>
+
+namespace motionrack::control::gcode {
+
+enum class FlowWord : unsigned char {
+    sub, endsub, call, give_back, if_true, else_if, else_branch, endif, while_true, endwhile, do_once, repeat, endrepeat, leave, go_on
+};
+
+struct FlowLine {
+    std::string label;         ///< "100" or "<drill>", lower case; empty where it is computed
+    bool computed = false;     ///< o#1 call, o[#1 + 1] call: its value begins behind the O
+    FlowWord word = FlowWord::sub;
+    std::uint16_t column = 0;  ///< of the O, from 0
+    std::uint16_t rest = 0;    ///< where the arguments begin, or the end of the line
+};
+
+/// "while"
+std::string_view name_of(FlowWord word);
+
+/// Takes apart the line whose O word begins at `column` (from 0). False: `problem` says what is wrong, but not in which line.
+bool read_flow(std::string_view text, std::size_t column, FlowLine& line, Problem& problem);
+
+/// The column of the O word with which a line begins, behind '/' and N; npos: it begins with none.
+std::size_t find_flow(std::string_view text, bool block_delete);
+
+/// Whether only blanks and comments stand at `at` and behind it.
+bool is_rest_empty(std::string_view text, std::size_t at);
+
+}  // namespace motionrack::control::gcode

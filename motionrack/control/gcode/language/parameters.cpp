@@ -1,0 +1,50 @@
+// Parameters by number and by name.
+#include <algorithm>
+#include <motionrack/control/gcode/language/parameters.hpp>
+
+namespace motionrack::control::gcode {
+
+void Parameters::set(int number, double value) {
+    if (numbered_.empty()) numbered_.resize(last_parameter + 1);
+    numbered_[static_cast<std::size_t>(number)] = value;
+}
+
+std::optional<double> Parameters::named(std::string_view name) const {
+    const Names& names = name.starts_with('_') ? global_ : calls_.empty() ? main_ : calls_.back().names;
+    const auto found = names.find(name);
+    if (found == names.end()) return std::nullopt;
+    return found->second;
+}
+
+bool Parameters::set(const std::string& name, double value) {
+    Names& names = name.starts_with('_') ? global_ : calls_.empty() ? main_ : calls_.back().names;
+    const auto found = names.find(name);
+    if (found != names.end()) {
+        found->second = value;
+        return true;
+    }
+    if (names.size() >= most_names) return false;
+    names.emplace(name, value);
+    return true;
+}
+
+bool Parameters::enter(std::span<const double> arguments) {
+    if (level() == deepest_call) return false;
+    Call& call = calls_.emplace_back();
+    for (int i = 0; i < most_arguments; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        call.kept[at] = numbered(i + 1);
+        const double argument = at < arguments.size() ? arguments[at] : 0;
+        if (argument != 0 || !numbered_.empty()) set(i + 1, argument);
+    }
+    return true;
+}
+
+void Parameters::leave(std::optional<double> returned) {
+    for (int i = 0; i < most_arguments; ++i)
+        if (!numbered_.empty()) set(i + 1, calls_.back().kept[static_cast<std::size_t>(i)]);
+    calls_.pop_back();
+    returned_ = returned;
+}
+
+}  // namespace motionrack::control::gcode

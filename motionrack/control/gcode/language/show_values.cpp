@@ -1,0 +1,66 @@
+// (DEBUG,text) and (PRINT,text): the text with the values of its parameters.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/language/known_values.hpp>
+#include <motionrack/control/gcode/number.hpp>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+/// How the values behind it are shown: %d, %f, %.4f, %lf. Nothing of these: no length.
+std::size_t format_at(std::string_view text, int& decimals) {
+    if (text.starts_with("%d")) {
+        decimals = 0;
+        return 2;
+    }
+    if (text.starts_with("%f") || text.starts_with("%lf")) {
+        decimals = 6;
+        return text[1] == 'f' ? 2 : 3;
+    }
+    if (text.size() >= 4 && text.starts_with("%.") && is_digit(text[2]) && text[3] == 'f') {
+        decimals = text[2] - '0';
+        return 4;
+    }
+    return 0;
+}
+
+/// Where the name of a parameter ends that begins with the '#' at 0: digits, or up to '>'.
+std::size_t end_of_parameter(std::string_view text) {
+    if (text.size() > 1 && text[1] == '<') {
+        const std::size_t close = text.find('>');
+        return close == std::string_view::npos ? text.size() : close + 1;
+    }
+    std::size_t end = 1;
+    while (end < text.size() && is_digit(text[end])) ++end;
+    return end;
+}
+
+}  // namespace
+
+/// A parameter that has no value is shown as ######, as LinuxCNC does.
+std::string Interpreter::with_values(std::string_view text) const {
+    const KnownValues known(*this);
+    std::string out;
+    int decimals = 6;
+    while (!text.empty()) {
+        std::size_t length = format_at(text, decimals);
+        if (length == 0 && text[0] == '#') {
+            length = end_of_parameter(text);
+            const std::string_view name = text.substr(0, length);
+            ExpressionReader reader(name, known);
+            const char* at = name.data();
+            double value = 0;
+            out += reader.value(at, value) ? fmt::format("{:.{}f}", value, decimals) : "######";
+        } else if (length == 0) {
+            length = 1;
+            out += text[0];
+        }
+        text.remove_prefix(length);
+    }
+    return out;
+}
+
+}  // namespace motionrack::control::gcode

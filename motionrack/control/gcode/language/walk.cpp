@@ -1,0 +1,195 @@
+// O words at work: jumps within a text, calls between texts.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/gcode/language/known_values.hpp>
+#include <motionrack/control/gcode/language/walk.hpp>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+constexpr double most_repeats = 1e9;
+
+}  // namespace
+
+Walk::Walk(std::string_view text, const Settings& settings, std::string file)
+    : lines_(text), block_delete_(settings.block_delete), most_lines_(settings.most_lines), subprogram_(settings.subprogram) {
+    sources_.push_back(std::make_unique<Source>());
+    source_ = sources_.back().get();
+    source_->text = text;
+    source_->file = std::move(file);
+}
+
+void Walk::see_end(const Block& block, bool stops) {
+    if (stops) over_ = true;
+    if (source_ != sources_.front().get()) return;
+    if (block.percent && begun_) over_ = true;
+    begun_ = begun_ || block.percent || (block.words | block.g_groups | block.m_groups) != 0 || !block.assignments.empty();
+}
+
+void Walk::place(Problem& problem) const {
+    problem.place.line = lines_.number();
+    problem.file = source_->file;
+}
+
+Problem Walk::take_fault() {
+    Problem first = std::move(faults_.front());
+    faults_.erase(faults_.begin());
+    return first;
+}
+
+bool Walk::fail(const FlowPlace& place, std::size_t column, std::string message) {
+    set_problem(problem_, place.text, column, GrblStatus::unsupported, std::move(message));
+    problem_.place.line = place.line;
+    problem_.file = source_->file;
+    return false;
+}
+
+bool Walk::make_index(Source& source) {
+    source.index = index_flow(source.text, block_delete_);
+    for (Problem& problem : source.index->problems) {
+        problem.file = source.file;
+        faults_.push_back(std::move(problem));
+    }
+    over_ = over_ || !faults_.empty();
+    return faults_.empty();
+}
+
+Outcome<void> Walk::follow(Interpreter& interpreter) {
+    begun_ = true;
+    if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
+    const std::int32_t at = source_->index->at_line(lines_.number());
+    if (at == no_place) return {};
+    const FlowPlace place = place_at(at);
+    if (!within_budget(place) || !execute(place, at, interpreter)) return tl::unexpected<Problem>(problem_);
+    return {};
+}
+
+/// Loops and calls go through a program more often than it has lines.
+bool Walk::within_budget(const FlowPlace& place) {
+    furthest_ = furthest();
+    walked_ += lines_.number() - counted_from_;
+    counted_from_ = lines_.number();
+    if (walked_ <= most_lines_ + source_->index->lines) return true;
+    over_ = true;
+    return fail(place, place.column,
+                fmt::format("the program has gone through {} lines by now and is not over; does this loop or call ever end? No more of it was read", most_lines_));
+}
+
+void Walk::jump(const FlowPlace& place) {
+    lines_ = place.after;
+    counted_from_ = place.line;
+}
+
+bool Walk::execute(const FlowPlace& place, std::int32_t at, Interpreter& interpreter) {
+    switch (place.word) {
+        case FlowWord::sub:
+            jump(place_at(place.end));
+            return true;
+        case FlowWord::call:
+            return call(place, interpreter);
+        case FlowWord::endsub:
+        case FlowWord::give_back:
+            return give_back(place, interpreter);
+        case FlowWord::if_true:
+            return choose(at, interpreter);
+        case FlowWord::else_if:
+        case FlowWord::else_branch:
+            jump(place_at(place.end));
+            return true;
+        case FlowWord::while_true: {
+            double value = 0;
+            const bool good = evaluate(place, interpreter, value);
+            const FlowPlace& begin = place_at(place.begin);
+            if (begin.word == FlowWord::do_once) {
+                if (good && value != 0) jump(begin);
+            } else if (!good || value == 0) {
+                jump(place_at(place.end));
+            }
+            return good;
+        }
+        case FlowWord::endwhile:
+            go_on(place_at(place.begin));
+            return true;
+        case FlowWord::repeat:
+            return begin_repeat(place, at, interpreter);
+        case FlowWord::endrepeat:
+            end_repeat(place);
+            return true;
+        case FlowWord::leave:
+            leave_loop(place_at(place.begin));
+            return true;
+        case FlowWord::go_on:
+            go_on(place_at(place.begin));
+            return true;
+        case FlowWord::endif:
+        case FlowWord::do_once:
+            return true;
+    }
+    return true;
+}
+
+/// Goes behind the first branch whose condition holds, or behind the endif.
+bool Walk::choose(std::int32_t at, Interpreter& interpreter) {
+    for (;;) {
+        const FlowPlace& place = place_at(at);
+        if (place.word == FlowWord::else_branch || place.word == FlowWord::endif) {
+            jump(place);
+            return true;
+        }
+        double value = 0;
+        if (!evaluate(place, interpreter, value)) {
+            jump(place_at(place.end));
+            return false;
+        }
+        if (value != 0) {
+            jump(place);
+            return true;
+        }
+        at = place.branch;
+    }
+}
+
+bool Walk::begin_repeat(const FlowPlace& place, std::int32_t at, Interpreter& interpreter) {
+    double times = 0;
+    const bool good = evaluate(place, interpreter, times);
+    times = std::floor(std::min(times, most_repeats) + 0.5);
+    if (!good || times < 1) {
+        jump(place_at(place.end));
+        return good;
+    }
+    repeats_.push_back({at, static_cast<std::int64_t>(times)});
+    return true;
+}
+
+void Walk::end_repeat(const FlowPlace& place) {
+    if (repeats_.empty() || repeats_.back().place != place.begin) return;
+    if (--repeats_.back().left > 0)
+        jump(place_at(place.begin));
+    else
+        repeats_.pop_back();
+}
+
+/// Repeats of this call between two places are over.
+void Walk::forget_repeats(std::int32_t first, std::int32_t last) {
+    const std::size_t outer = frames_.empty() ? 0 : frames_.back().repeats;
+    while (repeats_.size() > outer && repeats_.back().place >= first && repeats_.back().place < last) repeats_.pop_back();
+}
+
+void Walk::leave_loop(const FlowPlace& loop) {
+    forget_repeats(loop.begin, loop.end);
+    jump(place_at(loop.end));
+}
+
+/// The next round of a loop, or its end.
+void Walk::go_on(const FlowPlace& loop) {
+    forget_repeats(loop.begin + 1, loop.end);
+    const FlowPlace& decides = loop.word == FlowWord::while_true ? loop : place_at(loop.end);
+    // That line is walked again: back to the end of the line before it.
+    lines_ = decides.before;
+    counted_from_ = decides.line - 1;
+}
+
+}  // namespace motionrack::control::gcode

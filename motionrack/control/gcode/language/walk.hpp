@@ -1,0 +1,113 @@
+// Walking through a program: which line comes next, where O words have their say.
+//
+//     o100 sub .. endsub      a subprogram, before or after where it is called; met on the way it is passed over
+//     o100 call [..] [..]     up to 30 arguments, #1 .. #30 there; o100 return [..] or endsub [..] gives #<_value>
+//     o100 if [..] .. elseif [..] .. else .. endif
+//     o100 while [..] .. endwhile      o100 do .. while [..]      o100 repeat [..] .. endrepeat
+//     o100 break, continue    of the loop with that label
+//
+// A call of o<name> that the text does not have is looked for by Settings::subprogram. A program is over after M2 or M30, at the end of
+// its text, or at a lone '%' that is not its first line with anything on it. A plain program costs nothing of all this: the first O word
+// makes an index of the text.
+#pragma once
+
+#include <memory>
+#include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/language/flow_index.hpp>
+#include <optional>
+
+namespace motionrack::control::gcode {
+
+class Walk {
+  public:
+    /// `text` must stay where it is.
+    Walk(std::string_view text, const Settings& settings, std::string file);
+
+    /// The next line to read; false: there is none.
+    bool next(std::string_view& line) { return !over_ && lines_.next(line); }
+    /// The line was read well: does what its O word says, and sees whether the program is over. Errors: the O word cannot be done; then
+    /// it is passed over.
+    Outcome<void> took(Interpreter& interpreter) {
+        const Block& block = interpreter.block();
+        if (block.flow) return follow(interpreter);
+        if (const bool stops = block.has_m(m_stop) && (block.m[m_stop] == 2 || block.m[m_stop] == 30); stops || block.percent || !begun_) see_end(block, stops);
+        return {};
+    }
+
+    /// Line of the program; in another file the line that called it.
+    std::int32_t number() const { return called_at_ != 0 ? called_at_ : lines_.number(); }
+    /// The greatest number() so far.
+    std::int32_t furthest() const { return std::max(furthest_, number()); }
+    bool at_end() const { return lines_.at_end(); }
+    /// Fills in where a problem with the last line is.
+    void place(Problem& problem) const;
+
+    /// O words that do not fit together: once they are found, nothing more is walked.
+    bool has_faults() const { return !faults_.empty(); }
+    Problem take_fault();
+
+  private:
+    /// A text with O words: the program's or a subprogram's file.
+    struct Source {
+        std::string kept;  ///< what text is of, unless it is the program's
+        std::string_view text;
+        std::string file;
+        std::optional<FlowIndex> index;
+    };
+    struct Frame {
+        Lines back;
+        Source* source;
+        std::size_t repeats;
+        std::int32_t called_at;
+    };
+    /// A repeat loop that runs.
+    struct Repeat {
+        std::int32_t place;
+        std::int64_t left;
+    };
+    struct Target {
+        Source* source;
+        std::int32_t place;
+    };
+
+    Outcome<void> follow(Interpreter& interpreter);
+    void see_end(const Block& block, bool stops);
+    bool make_index(Source& source);
+    bool within_budget(const FlowPlace& place);
+    bool execute(const FlowPlace& place, std::int32_t at, Interpreter& interpreter);
+    bool choose(std::int32_t at, Interpreter& interpreter);
+    bool begin_repeat(const FlowPlace& place, std::int32_t at, Interpreter& interpreter);
+    void end_repeat(const FlowPlace& place);
+    void leave_loop(const FlowPlace& loop);
+    void go_on(const FlowPlace& loop);
+    bool call(const FlowPlace& place, Interpreter& interpreter);
+    bool give_back(const FlowPlace& place, Interpreter& interpreter);
+    bool find_sub(const FlowPlace& place, const std::string& label, Target& target);
+    bool load(const FlowPlace& place, const std::string& label, Target& target);
+    bool evaluate(const FlowPlace& place, Interpreter& interpreter, double& value);
+    bool arguments(const FlowPlace& place, std::size_t most, Interpreter& interpreter, std::vector<double>& values);
+    bool label_of_call(const FlowPlace& place, Interpreter& interpreter, std::string& label);
+    void jump(const FlowPlace& place);
+    void forget_repeats(std::int32_t first, std::int32_t last);
+    const FlowPlace& place_at(std::int32_t at) const { return source_->index->places[static_cast<std::size_t>(at)]; }
+    bool fail(const FlowPlace& place, std::size_t column, std::string message);
+
+    Lines lines_;
+    bool over_ = false;
+    bool begun_ = false;
+    bool block_delete_;
+    std::int32_t called_at_ = 0;
+    std::int32_t furthest_ = 0;
+    std::int64_t most_lines_;
+    std::int64_t walked_ = 0;        ///< lines, up to the last jump
+    std::int32_t counted_from_ = 0;  ///< line that it went to
+    SubprogramSource subprogram_;
+    std::vector<std::unique_ptr<Source>> sources_;
+    Source* source_;
+    std::vector<Frame> frames_;
+    std::vector<Repeat> repeats_;
+    std::vector<Problem> faults_;
+    Problem problem_;
+};
+
+}  // namespace motionrack::control::gcode

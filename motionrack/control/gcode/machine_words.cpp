@@ -1,0 +1,142 @@
+// What words say to the rest of the machine: spindle, coolant, tool, overrides, stops, and modes that are kept and brought back.
+#include <fmt/format.h>
+
+#include <motionrack/control/gcode/interpreter.hpp>
+
+namespace motionrack::control::gcode {
+
+bool Interpreter::apply_machine_words() {
+    if (block_.has('S')) {
+        next_.speed_rpm = block_['S'];
+        todo_ |= todo_speed;
+    }
+    if (block_.has('T')) {
+        next_.tool_selected = static_cast<std::int32_t>(block_['T']);
+        todo_ |= todo_tool_select;
+    }
+    if (block_.has_m(m_tool) && block_.m[m_tool] == 61) {
+        if (!set_tool()) return false;
+    } else if (block_.has_m(m_tool)) {
+        if (next_.tool_selected < 0) {
+            return fail_at(block_.m_column[m_tool], GrblStatus::word_missing,
+                           "M6 changes to the tool that a T word has selected, and there was none; write e.g. T1 M6");
+        }
+        next_.tool_loaded = next_.tool_selected;
+        todo_ |= todo_tool_change;
+    }
+    if (block_.has_m(m_spindle)) {
+        const int code = block_.m[m_spindle];
+        next_.spindle = code == 3 ? Spindle::clockwise : code == 4 ? Spindle::counter_clockwise : Spindle::off;
+        todo_ |= todo_spindle;
+    }
+    if (block_.has_m(m_mist)) next_.mist = true;
+    if (block_.has_m(m_flood)) next_.flood = true;
+    if (block_.has_m(m_coolant_off)) next_.mist = next_.flood = false;
+    if ((block_.m_groups & (1u << m_mist | 1u << m_flood | 1u << m_coolant_off)) != 0) todo_ |= todo_coolant;
+    if (block_.has_m(m_override) && !overrides()) return false;
+    if (block_.has_m(m_state) && block_.m[m_state] == 72) {
+        const auto level = static_cast<std::size_t>(parameters_.level());
+        if (level < kept_.size() && kept_[level].modes) restore(*kept_[level].modes);
+    }
+    if (block_.has_m(m_stop)) {
+        stop_code_ = block_.m[m_stop];
+        todo_ |= todo_stop;
+    }
+    return true;
+}
+
+/// What M2 and M30 leave behind: the state that both Grbl and LinuxCNC put back. Done when the end is pulled, so that
+/// the moves before it on the line still show the frame they were written in.
+void Interpreter::apply_end() {
+    end_pending_ = false;
+    next_ = modes_;
+    next_.motion = 10;
+    next_.plane = 0;
+    next_.incremental = next_.inverse_time = next_.arc_absolute = false;
+    next_.feed = next_.feed_rotary = 0;
+    next_.spindle = Spindle::off;
+    next_.mist = next_.flood = false;
+    next_.ended = true;
+    next_.system = 0;
+    frame_.activate(next_.system);
+    modes_ = next_;
+}
+
+/// The overrides are always in the operator's hands: what asks for just that is done, the rest cannot be.
+bool Interpreter::overrides() {
+    const int code = block_.m[m_override];
+    const bool takes_p = code >= 50;
+    const double wanted = takes_p && block_.has('P') ? block_['P'] : code == 49 ? 0 : 1;
+    if (takes_p) used_ |= letter_bit('P');
+    const bool usual = code == 52 ? wanted == 0 : wanted != 0;
+    if (usual) return true;
+    return fail_at(block_.m_column[m_override], GrblStatus::unsupported,
+                   code == 52 ? "M52: adaptive feed needs an input that this machine does not have; leave it out (M52 P0 is taken)"
+                              : fmt::format("M{}{}: feed and spindle override and the feed hold stay with the operator here; leave it out", code,
+                                            takes_p ? " P0" : ""));
+}
+
+/// M61 Q: the tool in the spindle is another one than was thought.
+bool Interpreter::set_tool() {
+    if (!block_.has('Q')) return fail_at(block_.m_column[m_tool], GrblStatus::word_missing, "Q word missing: M61 needs the number of the tool in the spindle; write e.g. M61 Q3");
+    if (!need_integer('Q', 0, largest_tool, "a tool number")) return false;
+    const auto number = static_cast<std::int32_t>(block_['Q']);
+    if (!known_tool('Q', number)) return false;
+    used_ |= letter_bit('Q');
+    next_.tool_loaded = number;
+    todo_ |= todo_tool_change;
+    return true;
+}
+
+/// Without a tool table every number is a tool's.
+bool Interpreter::known_tool(char letter, std::int32_t number) {
+    if (number == 0 || tools_.empty() || tools_.find(number)) return true;
+    return fail_word(letter, GrblStatus::unsupported, fmt::format("{}: the tool table has no tool {}; write it into the table", written(letter), number));
+}
+
+/// M70 keeps the modes, M71 forgets them, M72 brings them back, M73 keeps them until the call ends. Spindle and coolant are left alone.
+void Interpreter::keep_modes() {
+    const int code = block_.m[m_state];
+    if (code == 72) return;
+    const auto level = static_cast<std::size_t>(parameters_.level());
+    if (kept_.size() <= level) kept_.resize(level + 1);
+    kept_[level] = {};
+    if (code != 71) kept_[level] = {modes_, code == 73};
+}
+
+void Interpreter::restore(const Modes& saved) {
+    next_.plane = saved.plane;
+    next_.system = saved.system;
+    next_.inch = saved.inch;
+    next_.incremental = saved.incremental;
+    next_.arc_absolute = saved.arc_absolute;
+    next_.inverse_time = saved.inverse_time;
+    next_.retract_to_r = saved.retract_to_r;
+    next_.path = saved.path;
+    next_.tolerance_mm = saved.tolerance_mm;
+    next_.feed = saved.feed;
+    next_.feed_rotary = saved.feed_rotary;
+    next_.speed_rpm = saved.speed_rpm;
+    if (next_.system != modes_.system || frame_edited_) edit_frame().activate(next_.system);
+}
+
+void Interpreter::leave_call(std::optional<double> returned) {
+    const auto level = static_cast<std::size_t>(parameters_.level());
+    parameters_.leave(returned);
+    if (kept_.size() <= level) return;
+    const Kept kept = kept_[level];
+    kept_.resize(level);
+    if (!kept.modes || !kept.comes_back) return;
+    next_ = modes_;
+    frame_edited_ = false;
+    restore(*kept.modes);
+    modes_ = next_;
+    if (frame_edited_) frame_ = next_frame_;
+}
+
+void Interpreter::straighten() {
+    frame_.turn = {};
+    frame_.activate(modes_.system);
+}
+
+}  // namespace motionrack::control::gcode

@@ -1,0 +1,198 @@
+// What moves program coordinates about: work offsets and their turn (G10 L2, L20), the tool table (G10 L1, L10, L11) and tool lengths
+// (G43, G43.1, G43.2, G49).
+#include <fmt/format.h>
+
+#include <bit>
+#include <motionrack/control/gcode/codes.hpp>
+#include <motionrack/control/gcode/interpreter.hpp>
+
+namespace motionrack::control::gcode {
+
+bool Interpreter::set_offsets() {
+    const std::size_t column = block_.g_column[g_nonmodal];
+    const bool by_sender = language_ == Language::words;
+    if (!block_.has('L')) {
+        return fail_at(column, GrblStatus::word_missing,
+                       "L word missing: write G10 L2 P1 X.. to set G54's offset, G10 L20 P1 X.. to say where the "
+                       "machine is in G54");
+    }
+    const bool of_tool = !by_sender && (block_['L'] == 1 || block_['L'] == 10 || block_['L'] == 11);
+    if (!block_.has('P')) {
+        return fail_at(column, GrblStatus::word_missing,
+                       of_tool ? "P word missing: G10 L1, L10 and L11 need the number of a tool, e.g. P3"
+                               : "P word missing: G10 needs P1 (G54) to P6 (G59), or P0 for the active system");
+    }
+    if (of_tool) return edit_tool(static_cast<int>(block_['L']));
+    if (block_['L'] != 2 && block_['L'] != 20) {
+        if (!need_integer('L', 0, 1e9, "what G10 sets")) return false;
+        return fail_word(
+            'L', GrblStatus::unsupported,
+            fmt::format("G10 {} is not supported; G10 L2 sets an offset, G10 L20 sets the position in a system{}",
+                        written('L'), by_sender ? "" : ", G10 L1, L10 and L11 set a tool's length"));
+    }
+    if (!need_integer('P', 0, 1e9, "a work system (0 the active one, 1 G54 .. 6 G59)")) return false;
+    if (block_['P'] > (by_sender ? grbl_work_system_count : work_system_count)) {
+        return fail_word('P', GrblStatus::no_such_system,
+                         fmt::format("{}: there are {} work systems, P1 (G54) to P6 (G59), {}and P0 for the active one", written('P'),
+                                     by_sender ? "six" : "nine", by_sender ? "" : "P7 (G59.1) to P9 (G59.3), "));
+    }
+    used_ |= letter_bit('L') | letter_bit('P');
+    const int number = static_cast<int>(block_['P']);
+    return set_work_offset(number == 0 ? next_.system : number - 1, block_['L'] == 20);
+}
+
+bool Interpreter::set_work_offset(int system, bool from_position) {
+    const bool turns = block_.has('R') && !from_position && language_ != Language::words;
+    if ((block_.words & axis_words) == 0 && !turns) {
+        return fail_at(block_.g_column[g_nonmodal], GrblStatus::no_axis_words,
+                       "axis words missing: G10 needs at least one; write e.g. G10 L20 P1 X0 Y0");
+    }
+    Frame& frame = edit_frame();
+    const auto place = static_cast<std::size_t>(system);
+    if (turns) {
+        frame.turn[place] = block_['R'];
+        used_ |= letter_bit('R');
+    }
+    if (from_position && frame.turn[place] != 0) {
+        shift_turned(frame, system);
+    } else {
+        for (int axis = 0; axis < axis_count; ++axis) {
+            if ((block_.words & letter_bit(axis_letters[axis])) == 0) continue;
+            const double value = block_.value[axis_letter(axis)] * scale_of(axis);
+            const double others = frame.g92[axis] + frame.tool[axis];
+            frame.work[place][axis] = from_position ? position_[axis] - others - value : value;
+        }
+    }
+    frame.activate(next_.system);
+    axis_words_taken_ = true;
+    used_ |= axis_words;
+    return true;
+}
+
+/// G10 L20 of a turned system: its origin moves along its own axes until the position there is as said.
+void Interpreter::shift_turned(Frame& frame, int system) {
+    frame.activate(system);
+    const Point now = frame.to_program(position_);
+    Point by = {};
+    for (int axis = 0; axis < axis_count; ++axis) {
+        if ((block_.words & letter_bit(axis_letters[axis])) == 0) continue;
+        by[axis] = now[axis] - block_.value[axis_letter(axis)] * scale_of(axis);
+    }
+    by = frame.turned_by(by);
+    for (int axis = 0; axis < axis_count; ++axis) frame.work[static_cast<std::size_t>(system)][axis] += by[axis];
+}
+
+/// G10 L1 sets a tool's offsets as written; L10 and L11 so that the tool, as it stands, is at the place written: in the active system,
+/// or in G59.3.
+bool Interpreter::edit_tool(int what) {
+    if (!need_integer('P', 1, largest_tool, "the number of a tool")) return false;
+    used_ |= letter_bit('L') | letter_bit('P');
+    Tool tool;
+    tool.number = static_cast<std::int32_t>(block_['P']);
+    if (const Tool* known = tools_.find(tool.number)) {
+        tool = *known;
+    } else if (tools_.tools().size() >= most_tools) {
+        return fail_word('P', GrblStatus::unsupported, fmt::format("{}: the tool table has {} tools already", written('P'), most_tools));
+    }
+    Frame without = frame_now();
+    without.tool = {};
+    if (what == 11) without.g92 = {};
+    without.activate(what == 11 ? work_system_count - 1 : next_.system);
+    const Point at = without.to_program(position_);
+    for (int axis = 0; axis < axis_count; ++axis) {
+        if ((block_.words & letter_bit(axis_letters[axis])) == 0) continue;
+        const double value = block_.value[axis_letter(axis)] * scale_of(axis);
+        tool.offset[axis] = what == 1 ? value : at[axis] - value;
+    }
+    if (!edit_tool_shape(tool)) return false;
+    tool_edited_ = tool;
+    axis_words_taken_ = true;
+    used_ |= axis_words;
+    return true;
+}
+
+bool Interpreter::edit_tool_shape(Tool& tool) {
+    const auto take = [this](char letter, double& to, double scale) {
+        if (!block_.has(letter)) return;
+        to = block_[letter] * scale;
+        used_ |= letter_bit(letter);
+    };
+    if (block_.has('R') && block_['R'] < 0)
+        return fail_word('R', GrblStatus::negative_value, fmt::format("{}: the radius of a tool is 0 or more", written('R')));
+    take('R', tool.diameter_mm, 2 * scale_of(0));
+    take('I', tool.front_angle, 1);
+    take('J', tool.back_angle, 1);
+    if (!block_.has('Q')) return true;
+    if (!need_integer('Q', 0, 9, "the orientation of a tool")) return false;
+    tool.orientation = static_cast<std::int32_t>(block_['Q']);
+    used_ |= letter_bit('Q');
+    return true;
+}
+
+bool Interpreter::tool_length() {
+    const int code = block_.g[g_tool_length];
+    if (code == 490) {
+        Frame& frame = edit_frame();
+        frame.tool = {};
+        frame.activate(next_.system);
+        return true;
+    }
+    if (code == 431) return tool_length_of_words(false);
+    if (code == 432 && !block_.has('H')) return tool_length_of_words(true);
+    return tool_length_of_table(code == 432);
+}
+
+/// G43.1, and G43.2 without H: the length is written on the line.
+bool Interpreter::tool_length_of_words(bool adds) {
+    const std::uint32_t others = language_ == Language::words ? block_.words & axis_words & ~letter_bit('Z') : 0;
+    if (others != 0) {
+        const char letter = static_cast<char>('A' + std::countr_zero(others));
+        return fail_word(
+            letter, GrblStatus::tool_length_axis,
+            fmt::format("{}: the tool length goes along Z only; write e.g. G43.1 Z12.5 on a line of its own",
+                        written(letter)));
+    }
+    if ((block_.words & axis_words) == 0) {
+        return fail_at(block_.g_column[g_tool_length], GrblStatus::no_axis_words,
+                       adds ? "H word missing: G43.2 needs the number of a tool, or the length to add; write e.g. G43.2 H3"
+                            : "Z word missing: G43.1 needs the length of the tool; write e.g. G43.1 Z12.5");
+    }
+    Frame& frame = edit_frame();
+    for (int axis = 0; axis < axis_count; ++axis) {
+        if ((block_.words & letter_bit(axis_letters[axis])) == 0) continue;
+        const double value = block_.value[axis_letter(axis)] * scale_of(axis);
+        frame.tool[axis] = adds ? frame.tool[axis] + value : value;
+    }
+    frame.activate(next_.system);
+    axis_words_taken_ = true;
+    used_ |= axis_words;
+    return true;
+}
+
+/// G43 and G43.2 with the lengths of the table; G43 without H, or with H0, means the tool in the spindle.
+bool Interpreter::tool_length_of_table(bool adds) {
+    const std::size_t column = block_.g_column[g_tool_length];
+    std::int32_t number = std::max(0, next_.tool_loaded);
+    if (block_.has('H')) {
+        if (!need_integer('H', 0, largest_tool, "a tool number")) return false;
+        used_ |= letter_bit('H');
+        if (block_['H'] != 0) number = static_cast<std::int32_t>(block_['H']);
+    }
+    if (number != 0 && tools_.empty()) {
+        return fail_at(column, GrblStatus::unsupported,
+                       fmt::format("{}: there is no tool table; give one by --tools FILE, or write the tool's length itself, e.g. G43.1 Z12.5",
+                                   name_of_g(block_.g[g_tool_length])));
+    }
+    const Tool* tool = tools_.find(number);
+    if (number != 0 && !tool) {
+        return fail_at(block_.has('H') ? block_.column[letter_index('H')] : column, GrblStatus::unsupported,
+                       fmt::format("{}: the tool table has no tool {}; write it into the table", block_.has('H') ? written('H') : "G43", number));
+    }
+    Frame& frame = edit_frame();
+    const Point length = tool ? tool->offset : Point{};
+    for (int axis = 0; axis < axis_count; ++axis) frame.tool[axis] = adds ? frame.tool[axis] + length[axis] : length[axis];
+    frame.activate(next_.system);
+    return true;
+}
+
+}  // namespace motionrack::control::gcode

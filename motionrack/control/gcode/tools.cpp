@@ -1,0 +1,139 @@
+// Reading and writing a tool table.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <motionrack/control/gcode/lines.hpp>
+#include <motionrack/control/gcode/number.hpp>
+#include <motionrack/control/gcode/tools.hpp>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+char upper(char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c & ~0x20) : c;
+}
+
+/// Where a word's value belongs; null: the letter is none of a tool's. Whole: in `whole`, with the greatest value.
+struct Slot {
+    double* value = nullptr;
+    std::int32_t* whole = nullptr;
+    std::int32_t greatest = 0;
+};
+
+Slot slot_of(char letter, Tool& tool) {
+    switch (letter) {
+        case 'T': return {nullptr, &tool.number, largest_tool};
+        case 'P': return {nullptr, &tool.pocket, largest_tool};
+        case 'Q': return {nullptr, &tool.orientation, 9};
+        case 'D': return {&tool.diameter_mm};
+        case 'I': return {&tool.front_angle};
+        case 'J': return {&tool.back_angle};
+        default: break;
+    }
+    const auto* axis = std::find(axis_letters.begin(), axis_letters.end(), letter);
+    return axis == axis_letters.end() ? Slot{} : Slot{&tool.offset[static_cast<std::size_t>(axis - axis_letters.begin())]};
+}
+
+/// One line; `problem` is empty where it is good.
+struct LineReader {
+    std::string_view text;
+    Tool tool = {};
+    std::uint32_t seen = 0;
+    std::string problem = {};
+    std::size_t column = 0;
+
+    bool read();
+    bool word(const char*& at, const char* end);
+    bool wrong(const char* at, std::string why) {
+        column = static_cast<std::size_t>(at - text.data()) + 1;
+        problem = std::move(why);
+        return false;
+    }
+};
+
+bool LineReader::word(const char*& at, const char* end) {
+    const char* begin = at;
+    const char letter = upper(*at++);
+    const bool is_letter = letter >= 'A' && letter <= 'Z';
+    const Slot slot = slot_of(letter, tool);
+    const bool absent_axis = letter == 'U' || letter == 'V' || letter == 'W';
+    if (!slot.value && !slot.whole && !absent_axis)
+        return wrong(begin, fmt::format("'{}' is no word of a tool table; they are T P X Y Z A B C D I J Q, and ';' begins a remark", *begin));
+    if (is_letter && (seen >> (letter - 'A') & 1) != 0) return wrong(begin, fmt::format("{} is there twice", letter));
+    seen |= std::uint32_t{1} << (letter - 'A');
+    const Number number = scan_number(at, end);
+    if (number.fault != NumberFault::none) return wrong(begin, fmt::format("{} needs a number, e.g. {}1", letter, letter));
+    if (absent_axis) return number.value == 0 || wrong(begin, fmt::format("{} must be 0: axes are X Y Z A B C", letter));
+    if (slot.value) {
+        *slot.value = number.value;
+        return true;
+    }
+    if (number.value < 0 || number.value > slot.greatest || number.value != std::floor(number.value))
+        return wrong(begin, fmt::format("{} is a whole number from 0 to {}", letter, slot.greatest));
+    *slot.whole = static_cast<std::int32_t>(number.value);
+    return true;
+}
+
+bool LineReader::read() {
+    const char* at = text.data();
+    const char* end = at + text.size();
+    for (;;) {
+        while (at < end && is_blank(*at)) ++at;
+        if (at == end || *at == ';') break;
+        if (!word(at, end)) return false;
+    }
+    if (seen == 0) return true;
+    if ((seen >> ('T' - 'A') & 1) == 0 || tool.number == 0) return wrong(text.data(), "the line has no tool number (T1 to T99999)");
+    return true;
+}
+
+}  // namespace
+
+const Tool* ToolTable::find(std::int32_t number) const {
+    const auto found = std::find_if(tools_.begin(), tools_.end(), [&](const Tool& tool) { return tool.number == number; });
+    return found == tools_.end() ? nullptr : &*found;
+}
+
+bool ToolTable::put(const Tool& tool) {
+    if (const Tool* there = find(tool.number)) {
+        tools_[static_cast<std::size_t>(there - tools_.data())] = tool;
+        return true;
+    }
+    if (tools_.size() >= most_tools) return false;
+    tools_.push_back(tool);
+    return true;
+}
+
+Result<ToolTable> read_tool_table(std::string_view text, const std::string& file) {
+    ToolTable table;
+    Lines lines(text);
+    for (std::string_view line; lines.next(line);) {
+        LineReader reader{line};
+        const bool good = reader.read();
+        if (good && reader.seen == 0) continue;
+        if (good && table.find(reader.tool.number))
+            reader.wrong(line.data(), fmt::format("there is a tool T{} already; each has a number of its own", reader.tool.number));
+        else if (good && !table.put(reader.tool))
+            reader.wrong(line.data(), fmt::format("a tool table has {} tools at most", most_tools));
+        if (!reader.problem.empty())
+            return fail(Trouble::bad_input, fmt::format("{}; the tool table was not taken", reader.problem), {lines.number(), static_cast<int>(reader.column)}, file);
+    }
+    return table;
+}
+
+std::string to_text(const Tool& tool) {
+    std::string out = fmt::format("T{} P{}", tool.number, tool.pocket);
+    const auto add = [&out](char letter, double value) {
+        if (value != 0) out += fmt::format(" {}{}", letter, value);
+    };
+    for (std::size_t axis = 0; axis < axis_count; ++axis) add(axis_letters[axis], tool.offset[axis]);
+    add('D', tool.diameter_mm);
+    add('I', tool.front_angle);
+    add('J', tool.back_angle);
+    add('Q', tool.orientation);
+    return out;
+}
+
+}  // namespace motionrack::control::gcode

@@ -1,0 +1,51 @@
+// The tool table, as LinuxCNC keeps it in its .tbl files: one tool a line.
+//
+//     T1 P1 Z42.5 D3.175   ;end mill
+//     T2 P2 X0.1 Z38 D6 I90 J30 Q2
+//
+// T number, P pocket, X Y Z A B C offsets (mm, degrees), D diameter (mm), I J angles of a lathe tool (degrees), Q its orientation.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/base/result.hpp>
+#include <motionrack/control/move.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace motionrack::control::gcode {
+
+inline constexpr std::size_t most_tools = 1000;
+inline constexpr std::int32_t largest_tool = 99'999;
+
+struct Tool {
+    std::int32_t number = 0;  ///< 1 .. largest_tool
+    std::int32_t pocket = 0;  ///< 0 .. largest_tool
+    Point offset = {};        ///< mm and degrees
+    double diameter_mm = 0;
+    double front_angle = 0;  ///< degrees
+    double back_angle = 0;
+    std::int32_t orientation = 0;  ///< 0 .. 9
+};
+
+class ToolTable {
+  public:
+    /// Null: there is no tool of that number.
+    const Tool* find(std::int32_t number) const;
+    /// In the order of the file.
+    const std::vector<Tool>& tools() const { return tools_; }
+    bool empty() const { return tools_.empty(); }
+    /// In place of the tool with that number, or behind the others. False: most_tools.
+    bool put(const Tool& tool);
+
+  private:
+    std::vector<Tool> tools_;
+};
+
+/// Errors: a line that is no tool, with its place in `file`.
+Result<ToolTable> read_tool_table(std::string_view text, const std::string& file = {});
+
+/// "T1 P1 Z42.5 D3.175", without a line end.
+std::string to_text(const Tool& tool);
+
+}  // namespace motionrack::control::gcode

@@ -1,0 +1,72 @@
+// The programs of tests/golden/canon: what LinuxCNC's rs274 -g printed for them lies beside, and rs274 itself can be asked.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <motionrack/control/gcode/canon.hpp>
+#include <sstream>
+
+#include "gcode_support.hpp"
+
+namespace motionrack::control::gcode::testing::corpus {
+
+inline std::string folder() {
+    return std::string(MOTIONRACK_SOURCE_DIR) + "/tests/golden/canon/";
+}
+
+inline std::string file_text(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    EXPECT_TRUE(file) << path;
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+/// Programs with their calls; a subprogram's file has none.
+inline std::vector<std::string> names() {
+    std::vector<std::string> out;
+    for (const auto& entry : std::filesystem::directory_iterator(folder()))
+        if (entry.path().extension() == ".canon") out.push_back(entry.path().stem());
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+/// Those whose names begin with "tools" have the tool table.
+inline bool has_tools(const std::string& name) {
+    return name.starts_with("tools");
+}
+
+inline Settings settings_of(const std::string& name) {
+    Settings settings = machine("XYZABC", 1e5);
+    if (has_tools(name)) settings.tools = *read_tool_table(file_text(folder() + "tools.tbl"));
+    settings.subprogram = [](const std::string& sub) -> Result<std::string> { return file_text(folder() + sub + ".ngc"); };
+    return settings;
+}
+
+/// Only STRAIGHT_.., ARC_FEED and DWELL, without the columns before them and without the sign of zeros.
+inline std::string motion_lines(const std::string& canon) {
+    std::string out;
+    std::istringstream lines(canon);
+    for (std::string line; std::getline(lines, line);) {
+        for (const char* start : {"STRAIGHT_", "ARC_FEED", "DWELL"}) {
+            const std::size_t at = line.find(start);
+            if (at == std::string::npos || line.find("COMMENT") != std::string::npos) continue;
+            std::string call = line.substr(at);
+            for (std::size_t zero; (zero = call.find("-0.0000")) != std::string::npos;) call.erase(zero, 1);
+            out += call + '\n';
+        }
+    }
+    return out;
+}
+
+inline std::string printed(const std::string& program, CanonOptions options = {}, const Settings& settings = machine("XYZABC", 1e5)) {
+    std::string out;
+    const auto done = print_canon(program, settings, options, [&](std::string_view line) { out += line; });
+    EXPECT_TRUE(done) << done.error().text();
+    return out;
+}
+
+}  // namespace motionrack::control::gcode::testing::corpus

@@ -1,0 +1,21 @@
+// LinuxCNC's own interpreter as the referee of the corpus.
+#include "gcode_rs274.hpp"
+
+namespace motionrack::control::gcode {
+
+using namespace testing::corpus;
+
+TEST(GcodeReferee, Rs274MovesAsWeDoInEveryProgramOfTheCorpus) {
+    if (!is_installed()) GTEST_SKIP() << "rs274 is not installed (Debian: linuxcnc-uspace)";
+    Folder at;
+    for (const auto& entry : std::filesystem::directory_iterator(folder()))
+        if (entry.path().extension() == ".ngc") std::filesystem::copy(entry.path(), at.path());
+    write(at.file("tools.tbl"), table_in_inches());
+    for (const std::string& name : names()) {
+        const std::string theirs = motion_lines(of_rs274(at, name, has_tools(name)));
+        EXPECT_EQ(motion_lines(printed(file_text(folder() + name + ".ngc"), {}, settings_of(name))), theirs) << name;
+        EXPECT_EQ(motion_lines(file_text(folder() + name + ".canon")), theirs) << name << ".canon is not what rs274 prints";
+    }
+}
+
+}  // namespace motionrack::control::gcode
