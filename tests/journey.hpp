@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdlib>
+#include <functional>
 
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
@@ -29,12 +31,15 @@ struct Done {
     std::uint64_t state_hash = 0;
 };
 
-inline Done drive(const RackConfig& config, const std::string& program, const std::atomic<bool>* stop = nullptr) {
+/// `slice`: called all the time while it runs.
+inline Done drive(const RackConfig& config, const std::string& program, const std::atomic<bool>* stop = nullptr,
+                  const std::function<void(const Rack&)>& slice = {}) {
     Rack rack(config);
     JobSettings settings;
     settings.program = program;
     settings.program_name = "test";
     settings.stop = stop;
+    if (slice) settings.on_slice = [&] { slice(rack); };
     Job job(rack, settings);
     rack.start();
     Done done;
@@ -45,8 +50,7 @@ inline Done drive(const RackConfig& config, const std::string& program, const st
 
 /// `jump`: times the start speed that an axis' speed may change by at once; 0: not looked at, where pieces are so short that a pulse
 /// more or less in one is itself a jump of its mean rate.
-inline void expect_exact(const JobOutcome& outcome, double jump = 1.15) {
-    ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();
+inline void expect_limits(const JobOutcome& outcome, double jump = 1.15) {
     EXPECT_TRUE(outcome.position_trusted);
     for (const AxisOutcome& axis : outcome.axes) {
         EXPECT_EQ(axis.pulses_net, axis.pulse_position - axis.pulse_start) << axis.index;
@@ -59,6 +63,11 @@ inline void expect_exact(const JobOutcome& outcome, double jump = 1.15) {
             EXPECT_LE(axis.top.top_jump, axis.limits.start_speed * jump) << axis.index;
         }
     }
+}
+
+inline void expect_exact(const JobOutcome& outcome, double jump = 1.15) {
+    ASSERT_TRUE(outcome.ended) << outcome.ended.error().text();
+    expect_limits(outcome, jump);
 }
 
 }  // namespace motionrack::rack

@@ -1,13 +1,18 @@
 // Random part programs: all kinds of moves and modes, one to four axes, big pieces and tiny ones.
 // MOTIONRACK_SEED=N picks the first program, MOTIONRACK_PROGRAMS=N how many of each kind.
+#include <fmt/format.h>
+
 #include <cstdlib>
-#include <iostream>
+#include <random>
 
 #include "journey.hpp"
 #include "random_program.hpp"
 
 namespace motionrack::rack {
 namespace {
+
+/// The rounding to pulses, the chip's half pulse and the whole centre of an arc; and what chords leave out.
+double most_beside(const test::RandomProgram& program) { return 3.0 / 640 + (program.chords ? 0.0021 : 0); }
 
 /// Drives them one after the other; returns how many the reader took (an arc may bulge beyond the travel).
 int drive_random(const std::string& profile, test::ProgramSize size) {
@@ -21,9 +26,8 @@ int drive_random(const std::string& profile, test::ProgramSize size) {
         const Done done = drive(config, program.text);
         // Rounding makes two chords one or one longer: then the next takes the turn of both.
         expect_exact(done.outcome, size == test::ProgramSize::tiny ? 0 : program.chords ? 1.6 : 1.15);
-        // The rounding to pulses, the chip's half pulse and the whole centre of an arc; and what chords leave out. With limited jerk
-        // corners are cut: see the stream's tests for the programmed path.
-        EXPECT_LE(done.outcome.worst.mm, 3.0 / 640 + (program.chords ? 0.0021 : 0)) << "line " << done.outcome.worst.line;
+        // With limited jerk corners are cut: see the stream's tests for the programmed path.
+        EXPECT_LE(done.outcome.worst.mm, most_beside(program)) << "line " << done.outcome.worst.line;
         for (std::size_t i = 0; i < done.outcome.axes.size(); ++i)
             EXPECT_NEAR(done.outcome.axes[i].real_end, program.end[i], 0.51 / config.axes[i].pulses_per_unit()) << i;
         ++driven;
@@ -45,6 +49,55 @@ TEST_P(JourneyAtRandom, BigAndSmallMovesMixedEndExactlyStayOnTheirPathAndKeepThe
 
 TEST_P(JourneyAtRandom, TinyMovesEndExactlyStayOnTheirPathAndKeepSpeedAndAcceleration) {
     EXPECT_GT(drive_random(GetParam(), test::ProgramSize::tiny), 10);
+}
+
+TEST_P(JourneyAtRandom, StoppedAtAnyInstantTheyComeToRestOnTheirPathAndKeepTheLimits) {
+    const std::uint64_t first = number_from("MOTIONRACK_SEED", 1), count = number_from("MOTIONRACK_PROGRAMS", 40);
+    const RackConfig config = router(GetParam());
+    int stopped = 0;
+    for (std::uint64_t seed = first; seed < first + count; ++seed) {
+        const test::RandomProgram program = test::ProgramMaker(seed, test::ProgramSize::mixed).make();
+        if (!control::gcode::check_program(program.text, reader_settings(config), 1).problems.empty()) continue;
+        SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed) + "\n" + program.text);
+        const double at = 0.3 + static_cast<double>(seed % 37);
+        std::atomic<bool> stop{false};
+        const Done done = drive(config, program.text, &stop, [&](const Rack& rack) { stop = to_seconds(rack.kernel().now()) >= at; });
+        expect_limits(done.outcome, program.chords ? 1.6 : 1.15);
+        EXPECT_LE(done.outcome.worst.mm, most_beside(program)) << "line " << done.outcome.worst.line;
+        if (done.outcome.ended) continue;
+        EXPECT_EQ(done.outcome.ended.error().trouble, Trouble::stopped) << done.outcome.ended.error().text();
+        // The next joint of what the chip has, and the longest way from the greatest speed to rest.
+        EXPECT_LE(to_seconds(done.outcome.time), at + 2.5);
+        ++stopped;
+        if (testing::Test::HasFailure()) break;
+    }
+    EXPECT_GT(stopped, 10);
+}
+
+/// X, Y, Z and A in each line.
+std::string four_axes(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    const auto somewhere = [&](double low, double high) { return low + (high - low) * static_cast<double>(random() % 10'000) / 10'000; };
+    std::string out = "G21 G90 G94 G64 P0.05 F1200\n";
+    double a = 0;
+    for (int i = 0; i < 40; ++i) {
+        a += somewhere(-40, 40);
+        out += fmt::format("G1 X{:.3f} Y{:.3f} Z{:.3f} A{:.3f}\n", somewhere(90, 110), somewhere(90, 110), somewhere(50, 70), a);
+    }
+    return out + "M2\n";
+}
+
+TEST(FourAxesTogether, TakeTheTimeOfThePlanWithLimitedJerkAndLoseNoStep) {
+    const std::uint64_t first = number_from("MOTIONRACK_SEED", 1), count = number_from("MOTIONRACK_PROGRAMS", 40);
+    const RackConfig config = router("jerk_limited");
+    for (std::uint64_t seed = first; seed < first + count; ++seed) {
+        const std::string program = four_axes(seed);
+        SCOPED_TRACE("MOTIONRACK_SEED=" + std::to_string(seed) + "\n" + program);
+        const Done done = drive(config, program);
+        expect_exact(done.outcome, 0);
+        EXPECT_NEAR(to_seconds(done.outcome.time) / done.outcome.run.plan.seconds, 1, 0.01);
+        if (testing::Test::HasFailure()) break;
+    }
 }
 
 }  // namespace

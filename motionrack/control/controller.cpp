@@ -43,13 +43,21 @@ Controller::Controller(PathAxes& axes, const ControllerSettings& settings)
 
 Result<void> Controller::hand_over() {
     PlannedMove planned;
-    while (planner_->pull(planned)) {
+    while (true) {
+        if (!held_ && stop_wished()) held_ = planner_->hold();
+        if (!planner_->pull(planned)) return held_ ? stopped() : Result<void>{};
         summary_.add(planned);
         if (on_block_) on_block_(blocks_, planned);
         ++blocks_;
+        line_ = planned.move.line;
         MOTIONRACK_CHECK(axes_.follow(planned));
     }
-    return {};
+}
+
+/// What the axes had is driven, and it ends at rest.
+Result<void> Controller::stopped() {
+    MOTIONRACK_CHECK(axes_.finish());
+    return stopped_on_request(line_, axes_.commanded_position(), settings_.gcode.limits);
 }
 
 void Controller::remember(const gcode::Step& step, ProgramRun& run) {

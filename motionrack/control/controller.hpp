@@ -5,6 +5,7 @@
 // Callers check the whole text before anything moves (check_program), unless they stream; run then reads it a second time.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -28,6 +29,7 @@ struct ControllerSettings {
     gcode::Settings gcode;          ///< limits, start position, offsets
     PlannerSettings planner;
     bool jerk_limited = false;      ///< not trapezoids, but within each axis' jerk
+    const std::atomic<bool>* stop = nullptr;  ///< somebody wishes to stop: with limited jerk the ride slows down, else the axes on their own
     double kept_back = 0;           ///< part of each axis' acceleration that the planner leaves to the card, 0 .. 0.5
     std::size_t event_limit = 2000; ///< events kept; later ones are counted only
 };
@@ -54,7 +56,9 @@ class Controller {
     Result<void> run(std::string_view text, const std::string& file, ProgramRun& run);
 
   private:
+    bool stop_wished() const { return settings_.stop && settings_.stop->load(std::memory_order_relaxed); }
     Result<void> hand_over();
+    Result<void> stopped();
     Result<void> take(const gcode::Step& step, ProgramRun& run);
     void remember(const gcode::Step& step, ProgramRun& run);
 
@@ -63,6 +67,8 @@ class Controller {
     std::unique_ptr<PathPlanner> planner_;
     PlanSummary summary_;
     std::int64_t blocks_ = 0;
+    int line_ = 0;  ///< of the move that was handed over last
+    bool held_ = false;
     std::function<void(std::int64_t, const PlannedMove&)> on_block_;
 };
 

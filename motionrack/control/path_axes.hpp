@@ -3,6 +3,7 @@
 
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/time.hpp>
+#include <motionrack/control/limits.hpp>
 #include <motionrack/control/path.hpp>
 #include <motionrack/control/plan.hpp>
 #include <string>
@@ -23,6 +24,12 @@ struct BlockStart {
     int line = 0;
     Instant at{};
 };
+
+/// "X 10.0000, Y 5.0000": of the axes that are there.
+std::string place_text(const Point& at, const MachineLimits& limits);
+
+/// Trouble::stopped, in the words that every card's axes use.
+tl::unexpected<Error> stopped_on_request(int line, const Point& at, const MachineLimits& limits);
 
 class PathAxes {
   public:

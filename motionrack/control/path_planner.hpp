@@ -44,6 +44,9 @@ class PathPlanner {
 
     /// The next planned move; false if none is ready.
     virtual bool pull(PlannedMove& planned) = 0;
+
+    /// Comes to rest along the path as soon as the limits allow, and then has nothing more to pull. False: it cannot, and goes on as planned.
+    virtual bool hold() { return false; }
 };
 
 class PathLimits;

@@ -73,7 +73,8 @@ Result<void> Job::drive(control::PathAxes& axes, JobOutcome& out) {
     settings.kept_back = rack_.axes().front().card->kept_back();
     settings.jerk_limited = rack_.config().jerk_limited();
     if (settings_.orders != nullptr && settings_.orders->needs_stream()) return drive_by_stream(axes, settings, out);
-    rack_.set_stop_flag(settings_.orders != nullptr ? settings_.orders->stop_flag() : settings_.stop);
+    settings.stop = settings_.orders != nullptr ? settings_.orders->stop_flag() : settings_.stop;
+    rack_.set_stop_flag(settings.stop);
     rack_.on_slice(slice, [&] { listen(axes.take_starts()); });
     control::Controller controller(axes, settings);
     controller.on_block([&](std::int64_t block, const control::PlannedMove& move) { planned(block, move, out); });

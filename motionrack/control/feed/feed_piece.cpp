@@ -57,13 +57,26 @@ double square_at(const FeedPiece& cell, double x) {
 
 }  // namespace
 
-FeedPiece feed_cell(double begin, double length, double square, double slope, double bend) {
+FeedPiece sketched_cell(double begin, double length, double square, double slope, double bend) {
     FeedPiece cell{FeedPhase::cell, begin, length, 0, square, slope, bend, 0};
-    const double speed = std::sqrt(square), end = std::sqrt(square_at(cell, length));
+    cell.seconds = 2 * length / (std::sqrt(square) + std::sqrt(square_at(cell, length)));
+    return cell;
+}
+
+FeedPiece feed_cell(double begin, double length, double square, double slope, double bend) {
+    FeedPiece cell = sketched_cell(begin, length, square, slope, bend);
+    settle(cell);
+    return cell;
+}
+
+void settle(FeedPiece& cell) {
+    if (cell.phase != FeedPhase::cell) return;
+    const double length = cell.length, slope = cell.slope, bend = cell.bend;
+    const double speed = std::sqrt(cell.square), end = std::sqrt(square_at(cell, length));
     // Slower than at the ends it is only where it has slowed down and speeds up again.
     const bool dips = slope < 0 && bend > 0 && -slope < bend * length;
     const double slowest = dips ? std::sqrt(square_at(cell, -slope / bend)) : std::min(speed, end);
-    double least = 0, most = length / slowest, time = std::min(most, 2 * length / (speed + end));
+    double least = 0, most = length / slowest, time = std::min(most, cell.seconds);
     for (int step = 0; step < 60; ++step) {
         const double there = moved(cell, speed, time);
         (there < length ? least : most) = time;
@@ -75,7 +88,6 @@ FeedPiece feed_cell(double begin, double length, double square, double slope, do
         if (settled) break;
     }
     cell.seconds = time;
-    return cell;
 }
 
 FeedPiece feed_ramp(double begin, double length, double seconds, double speed, double accel, double jerk) {

@@ -39,7 +39,11 @@ struct FeedPiece {
     FeedState last() const;
 };
 
-/// A cell with its time. `square` is above 0 all over it.
+/// A cell with about its time, exactly if it has no bend. `square` is above 0 all over it.
+FeedPiece sketched_cell(double begin, double length, double square, double slope, double bend);
+/// Gives a cell its exact time.
+void settle(FeedPiece& piece);
+/// A cell with its exact time.
 FeedPiece feed_cell(double begin, double length, double square, double slope, double bend);
 /// Constant jerk from a speed and an acceleration; both and the jerk may be of any sign as long as the place rises.
 FeedPiece feed_ramp(double begin, double length, double seconds, double speed, double accel, double jerk);

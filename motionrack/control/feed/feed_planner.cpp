@@ -43,32 +43,36 @@ bool all_alike(std::span<const FeedSpan> spans) {
 
 }  // namespace
 
-std::span<const FeedPiece> FeedPlanner::plan(std::span<const FeedSpan> spans) {
-    start_ = {};
-    measure(spans);
-    if (!(length_ > 0)) return pieces_;
-    if (all_alike(spans)) {
-        write_s_curve(spans.front());
-        return pieces_;
-    }
-    cut(spans);
-    approach();
-    write();
+std::span<const FeedPiece> FeedPlanner::plan(std::span<const FeedSpan> spans) { return plan_from({}, spans); }
+
+std::span<const FeedPiece> FeedPlanner::plan_from(const FeedStart& start, std::span<const FeedSpan> spans) {
+    sketch_from(start, spans);
+    for (FeedPiece& piece : pieces_) settle(piece);
     return pieces_;
 }
 
-std::span<const FeedPiece> FeedPlanner::plan_from(const FeedStart& start, std::span<const FeedSpan> spans) {
-    if (!(start.square > 0)) return plan(spans);
-    start_ = start;
+std::span<const FeedPiece> FeedPlanner::sketch_from(const FeedStart& start, std::span<const FeedSpan> spans) {
+    start_ = start.square > 0 ? start : FeedStart{};
+    return sketch(spans, false);
+}
+
+std::span<const FeedPiece> FeedPlanner::sketch_again(std::span<const FeedSpan> spans) {
+    before_.swap(pieces_);
+    return sketch(spans, !before_.empty());
+}
+
+std::span<const FeedPiece> FeedPlanner::sketch(std::span<const FeedSpan> spans, bool again) {
     measure(spans);
     if (!(length_ > 0)) return pieces_;
     if (all_alike(spans)) {
-        write_travel(spans.front());
+        if (moving()) write_travel(spans.front());
+        else write_s_curve(spans.front());
         return pieces_;
     }
     cut(spans);
-    approach();
-    if (found_) write();
+    if (again) approach_again();
+    else approach();
+    if (!moving() || found_) write();
     return pieces_;
 }
 
@@ -86,6 +90,33 @@ void FeedPlanner::approach() {
     slope_limits();
     rise_both();
     keep_start();
+    come_nearer();
+}
+
+/// At once near to what was found before.
+void FeedPlanner::approach_again() {
+    found_ = can_start_ = true;
+    bound();
+    slope_limits();
+    left_.assign(cells_.size() + 2, 0);
+    std::size_t k = 0;
+    const auto square_at = [&](double place) {
+        while (k + 1 < before_.size() && before_[k + 1].begin <= place) ++k;
+        const FeedPiece& piece = before_[k];
+        const double begin = piece.at(0).speed, end = piece.last().speed, part = std::clamp((place - piece.begin) / piece.length, 0.0, 1.0);
+        return begin * begin + part * (end * end - begin * begin);
+    };
+    double at_begin = cells_.empty() ? 0 : square_at(cells_.front().begin);
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+        const double at_end = square_at(cells_[i].begin + cells_[i].length);
+        left_[i + 1] = std::max(at_begin, at_end);
+        at_begin = at_end;
+    }
+    come_nearer();
+}
+
+/// From a first idea in left_.
+void FeedPlanner::come_nearer() {
     narrow(left_, first_guess);
     seek();
     double guess = first_guess;

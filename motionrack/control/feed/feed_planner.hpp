@@ -42,6 +42,12 @@ class FeedPlanner {
     /// The same from a motion that goes on. Empty if none was found that keeps the limits: perhaps there is none.
     std::span<const FeedPiece> plan_from(const FeedStart& start, std::span<const FeedSpan> spans);
 
+    /// The same, but the times of its cells are only about right until settle() is called for them.
+    std::span<const FeedPiece> sketch_from(const FeedStart& start, std::span<const FeedSpan> spans);
+
+    /// Over the same way, where limits have changed a little: sought near what was found last.
+    std::span<const FeedPiece> sketch_again(std::span<const FeedSpan> spans);
+
   private:
     static constexpr double rounding = 1e-7;  ///< of a limit: so much beyond it a motion may begin
     /// What a cell asks, and its control point.
@@ -65,7 +71,10 @@ class FeedPlanner {
 
     bool moving() const { return start_.square > 0; }
     void measure(std::span<const FeedSpan> spans);
+    std::span<const FeedPiece> sketch(std::span<const FeedSpan> spans, bool again);
     void approach();
+    void approach_again();
+    void come_nearer();
     void cut(std::span<const FeedSpan> spans);
     End end_of(std::span<const FeedSpan> spans, bool back) const;
     double wanted(const FeedSpan& span) const;
@@ -104,7 +113,7 @@ class FeedPlanner {
     std::vector<double> bound_, left_, right_, square_;
     std::vector<double> fall_;  ///< the most that the slope may fall there
     std::vector<Edge> edges_;
-    std::vector<FeedPiece> pieces_;
+    std::vector<FeedPiece> pieces_, before_;
 };
 
 }  // namespace motionrack::control

@@ -71,7 +71,7 @@ void FeedPlanner::write() {
     for (std::size_t i = 0; i < n; ++i) {
         const double after = slope(i + 1);
         const Cell& cell = cells_[i];
-        pieces_.push_back(feed_cell(cell.begin, cell.length, square_[i + 1] - 0.5 * before * cell.length, before, (after - before) / cell.length));
+        pieces_.push_back(sketched_cell(cell.begin, cell.length, square_[i + 1] - 0.5 * before * cell.length, before, (after - before) / cell.length));
         before = after;
     }
     pieces_.push_back(feed_landing(length_ - landing_.length, landing_.length, last));

@@ -29,6 +29,10 @@ class RideMoves final : public PathPlanner {
     bool has_room() const override { return rider_.has_room(); }
     void flush() override { rider_.flush(); }
     bool pull(PlannedMove& planned) override { return pull(planned, false); }
+    bool hold() override {
+        rider_.hold();
+        return true;
+    }
     /// `early`: what is known is driven although there may be more.
     bool pull(PlannedMove& planned, bool early);
 

@@ -9,10 +9,10 @@ namespace motionrack::control {
 namespace {
 
 /// Rounds of planning, and the part of the time that must be won for another one.
-constexpr int most_rounds = 6;
+constexpr int most_rounds = 3;
 constexpr double worth_another = 0.995;
 /// So much faster than found last it may become.
-constexpr double first_slack = 0.25, slack_falls = 0.4;
+constexpr double first_slack = 0.35, slack_falls = 0.3;
 /// What comes so near to a limit is held by it; so much more a limit must become to be worth it.
 constexpr double nearly = 1.01;
 /// What a piece needed for changing the speed becomes more where neighbours become quicker.
@@ -29,7 +29,7 @@ bool StretchPlanner::plan(const FeedStart& start, std::span<const CurvePiece> cu
     for (std::size_t i = 0; i < curve.size(); ++i) spans_[i].length = std::min(to, curve[i].begin + curve[i].length) - std::max(from, curve[i].begin);
     double slack = 1 + first_slack;
     for (int round = 0; round < most_rounds; ++round) {
-        const std::span<const FeedPiece> found = planner_.plan_from(start, spans_);
+        const std::span<const FeedPiece> found = round == 0 ? planner_.sketch_from(start, spans_) : planner_.sketch_again(spans_);
         double seconds = 0;
         for (const FeedPiece& piece : found) seconds += piece.seconds;
         const bool much = seconds < worth_another * seconds_;
@@ -41,6 +41,11 @@ bool StretchPlanner::plan(const FeedStart& start, std::span<const CurvePiece> cu
         }
         if (feed_.empty() || (round > 0 && !much) || !narrow(curve, slack)) break;
         slack = 1 + (slack - 1) * slack_falls;
+    }
+    seconds_ = 0;
+    for (FeedPiece& piece : feed_) {
+        settle(piece);
+        seconds_ += piece.seconds;
     }
     return !feed_.empty();
 }

@@ -156,6 +156,7 @@ Result<void> Axes::play_pause(const Segment& segment) {
 Result<void> Axes::start_chain(const Segment& segment) {
     generator_ = segment.axes[0];
     s_curve_ = segment.s_curve;
+    even_ = segment.even;
     braking_ = false;
     const unsigned own = 1u << generator_;
     MOTIONRACK_CHECK(driver_.WriteRange(own, range_));
@@ -230,8 +231,13 @@ Result<void> Axes::write_acceleration(std::int32_t acceleration) {
 }
 
 /// Somebody wishes to stop. A stop command would end the drive where the queued segment ends, at any speed; so the speed is written down,
-/// segments go on being queued, and the command comes when it has fallen. One look at it; the S-curve's stop fits into its line.
+/// segments go on being queued, and the command comes when it has fallen. One look at it; the S-curve's stop fits into its line, and pieces
+/// of a ride go on until the ride has slowed down.
 Result<void> Axes::brake() {
+    if (even_) {
+        driver_.interrupt().pass(brake_look);
+        return {};
+    }
     if (!driver_.status().interpolating() || s_curve_) return stopped_by_user();
     if (!braking_ && written_speed_ > rest_speed_) {
         MOTIONRACK_CHECK(write_acceleration(braking_acceleration_));
@@ -295,14 +301,6 @@ void Axes::clear_interrupts() {
     driver_.ClearInterpolationInterrupt();
 }
 
-std::string Axes::place_text() {
-    std::string out;
-    const control::Point at = commanded_position();
-    for (std::size_t i = 0; i < at.size(); ++i)
-        if (map_.channel[i] >= 0) out += fmt::format("{}{} {:.4f}", out.empty() ? "" : ", ", control::axis_letters[i], at[i]);
-    return out;
-}
-
 tl::unexpected<Error> Axes::stopped_by_machine() {
     driver_.SlowStop(all_axes);
     while (driver_.status().driving(all_axes)) driver_.interrupt().pass(microseconds(100));
@@ -315,7 +313,7 @@ tl::unexpected<Error> Axes::stopped_by_machine() {
     if (why.empty()) why = "the chip's counters are not where the path ends";
     chain_running_ = false;
     return fail(Trouble::machine, fmt::format("The motion was stopped in line {}: {}. The axes stand at {}. Nothing after it was driven; "
-                                              "clear the cause, move back and start again.", current_line_, why, place_text()),
+                                              "clear the cause, move back and start again.", current_line_, why, control::place_text(commanded_position(), map_.limits)),
                 {current_line_, 1});
 }
 
@@ -324,9 +322,7 @@ tl::unexpected<Error> Axes::stopped_by_user() {
     driver_.SlowStop(all_axes);
     while (driver_.status().driving(all_axes)) driver_.interrupt().pass(microseconds(100));
     chain_running_ = false;
-    return fail(Trouble::stopped, fmt::format("Stopped on request in line {}; the axes came to rest along the path at {}.", current_line_,
-                                              place_text()),
-                {current_line_, 1});
+    return control::stopped_on_request(current_line_, commanded_position(), map_.limits);
 }
 
 // ---- looking --------------------------------------------------------------------------------------------------------------------

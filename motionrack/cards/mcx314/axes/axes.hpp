@@ -60,14 +60,15 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     Result<void> wait_until_all_stand();
     Result<void> take_companion(int channel, std::int64_t at);
     Result<void> steer_companion(const Segment& segment);
-    Result<void> drive_companion(std::int64_t from, std::int64_t to, std::int32_t v);
+    Result<void> steer_evenly(const Segment& segment, bool driving, std::int64_t at);
+    std::int32_t companion_speed(double v) const;
+    Result<void> drive_companion(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes = true);
     Result<void> finish_companion();
     std::int64_t companion_fall_from(std::int64_t pulses, std::int32_t v) const;
     double segment_seconds(const Segment& segment);
     tl::unexpected<Error> stopped_by_machine();
     tl::unexpected<Error> stopped_by_user();
     void clear_interrupts();
-    std::string place_text();
 
     Driver& driver_;
     AxisMap map_;
@@ -85,6 +86,7 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     int generator_ = 0;
     std::int32_t rest_speed_ = 1;    ///< of the running segment
     bool s_curve_ = false;           ///< of the running chain
+    bool even_ = false;              ///< of the running chain
     bool braking_ = false;           ///< on a wish to stop
     bool chain_running_ = false;
     std::int64_t segments_ = 0;

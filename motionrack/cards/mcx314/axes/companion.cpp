@@ -35,12 +35,25 @@ Result<void> Axes::take_companion(int channel, std::int64_t at) {
     return {};
 }
 
+namespace {
+
+/// From the look at its place to the speed that comes of it.
+constexpr double accesses_to_speed = 11;
+/// The chip's slopes are whole steps of whole clocks: one that must have fallen at a place falls by so much more.
+constexpr double sure = 1.02;
+
+/// Of the longest axis.
+double basic_pulses(const Segment& segment) {
+    std::int64_t pulses = 0;
+    for (std::size_t i = 0; i < segment.axis_count; ++i) pulses = std::max<std::int64_t>(pulses, std::llabs(segment.finish[i]));
+    return static_cast<double>(pulses);
+}
+
+}  // namespace
+
 /// About how long the segment takes: from the present speed to its own, then on.
 double Axes::segment_seconds(const Segment& segment) {
-    std::int64_t pulses = 0;
-    for (std::size_t i = 0; i < segment.axis_count; ++i)
-        pulses = std::max<std::int64_t>(pulses, segment.finish[i] < 0 ? -segment.finish[i] : segment.finish[i]);
-    const double length = static_cast<double>(pulses) * range_ / 8e6;  // in V units * seconds
+    const double length = basic_pulses(segment) * range_ / 8e6;  // in V units * seconds
     const double v0 = std::max(1, driver_.ReadCV(generator_)), v1 = segment.speed, slope = 125.0 * segment.acceleration;
     const double ramp = std::fabs(v1 - v0) / slope, ramp_length = ramp * (v0 + v1) / 2;
     if (ramp_length <= length) return ramp + (length - ramp_length) / v1;
@@ -55,14 +68,14 @@ Result<void> Axes::steer_companion(const Segment& segment) {
     companion_target_ += segment.companion_pulses;
     expected_[static_cast<std::size_t>(c)] = companion_target_;
     const bool driving = driver_.status().driving(1u << c);
+    if (segment.even) return steer_evenly(segment, driving, at);
     const std::int64_t left = companion_target_ - at;
     if (!driving && left != 0) companion_negative_ = left < 0;  // it turns round only at a standstill
     const int direction = companion_negative_ ? -1 : 1;
     const std::int64_t goal = companion_target_ + segmenter_->companion_pulses_ahead(c, direction);
     if (direction * (goal - at) <= 0) return {};
-    const double hertz = std::max(0.0, static_cast<double>(direction * left)) / segment_seconds(segment);
-    const auto top = static_cast<double>(companion_top_speed_);
-    const auto v = static_cast<std::int32_t>(std::clamp(std::floor(hertz * range_ / 8e6 + 0.5), 1.0, top));
+    const double mean = std::max(0.0, static_cast<double>(direction * left)) / segment_seconds(segment) * range_ / 8e6;
+    const std::int32_t v = companion_speed(mean);
     if (!driving) return drive_companion(at, goal, v);
     // Once it brakes it goes on to the end that it had; what is left is driven from there.
     if (std::llabs(at - companion_from_) >= companion_brakes_at_) return {};
@@ -71,6 +84,40 @@ Result<void> Axes::steer_companion(const Segment& segment) {
     MOTIONRACK_CHECK(driver_.Pulse(1u << c, pulses));
     MOTIONRACK_CHECK(driver_.SetDecPoint(1u << c, companion_brakes_at_));
     return driver_.SetV(1u << c, v);
+}
+
+std::int32_t Axes::companion_speed(double v) const {
+    return static_cast<std::int32_t>(std::clamp(std::floor(v + 0.5), 1.0, static_cast<double>(companion_top_speed_)));
+}
+
+/// Its speed changes as evenly as theirs: to what the plan has at the segment's end, and by as much more as it lacks pulses. The ride slows
+/// down for its rests, so the chip need not. One that is too fast for its place stands a little beyond it, and comes back when all stand.
+Result<void> Axes::steer_evenly(const Segment& segment, bool driving, std::int64_t at) {
+    const unsigned axis = 1u << companion_;
+    if (!driving && segment.companion_pulses != 0) companion_negative_ = segment.companion_pulses < 0;
+    const int direction = companion_negative_ ? -1 : 1;
+    const std::int64_t ahead = direction * segmenter_->companion_pulses_ahead(companion_, direction);
+    const double pulses_per_v = 8e6 / range_, most = 125.0 * companion_acceleration_, start = companion_start_speed_;
+    const double from = driving ? driver_.ReadCV(companion_) : start;
+    const auto left = static_cast<double>(direction * (companion_target_ - at));
+    if (!driving && left + static_cast<double>(ahead) <= 0) return {};  // it is there already
+    const double seconds = segment_seconds(segment), late = accesses_to_speed * to_seconds(access_);
+    const double way = std::max(0.0, left / pulses_per_v - from * late);  // V units * seconds
+    const double planned = segment.companion_speed / pulses_per_v;
+    double wished = planned + way / seconds - (from + planned) / 2, end = std::max(planned, start);
+    if (ahead <= 0) end = wished = start;
+    const std::int32_t v = companion_speed(wished);
+    double slope = std::fabs(v - from) / seconds;
+    if (v < from && from > end)
+        slope = way > 0 ? std::max(slope, sure * (from * from - end * end) / (2 * way)) : most;  // one that is ahead is there before its time
+    MOTIONRACK_CHECK(driver_.SetA(axis, static_cast<std::int32_t>(std::ceil(std::clamp(slope, 125.0, most) / 125))));
+    const double falls_in = std::max(0.0, from * from - start * start) / (2 * most) * pulses_per_v;
+    const std::int64_t goal = at + direction * std::max(static_cast<std::int64_t>(left) + ahead, static_cast<std::int64_t>(std::ceil(falls_in)));
+    if (!driving) return drive_companion(at, goal, v, false);
+    MOTIONRACK_CHECK(driver_.SetV(axis, v));
+    companion_brakes_at_ = std::llabs(goal - companion_from_);
+    MOTIONRACK_CHECK(driver_.Pulse(axis, goal - companion_from_));
+    return driver_.SetDecPoint(axis, companion_brakes_at_);
 }
 
 /// The pulse from which its speed must fall to have the start speed at the end.
@@ -83,13 +130,13 @@ std::int64_t Axes::companion_fall_from(std::int64_t pulses, std::int32_t v) cons
 }
 
 /// From where it stands.
-Result<void> Axes::drive_companion(std::int64_t from, std::int64_t to, std::int32_t v) {
+Result<void> Axes::drive_companion(std::int64_t from, std::int64_t to, std::int32_t v, bool brakes) {
     const unsigned axis = 1u << companion_;
     const std::int64_t pulses = to - from;
     if (pulses == 0) return {};
     companion_from_ = from;
     companion_negative_ = pulses < 0;
-    companion_brakes_at_ = companion_fall_from(pulses, v);
+    companion_brakes_at_ = brakes ? companion_fall_from(pulses, v) : std::llabs(pulses);
     MOTIONRACK_CHECK(driver_.SetV(axis, v));
     MOTIONRACK_CHECK(driver_.ManualDec(axis, companion_brakes_at_));
     MOTIONRACK_CHECK(driver_.Pulse(axis, pulses));
@@ -101,7 +148,11 @@ Result<void> Axes::drive_companion(std::int64_t from, std::int64_t to, std::int3
 Result<void> Axes::finish_companion() {
     const std::int64_t at = driver_.ReadLPS(companion_);
     if (driver_.status().error(1u << companion_)) return {};
-    return drive_companion(at, expected_[static_cast<std::size_t>(companion_)], companion_start_speed_);
+    const std::int64_t target = expected_[static_cast<std::size_t>(companion_)];
+    const double start = companion_start_speed_, slope = 125.0 * companion_acceleration_;
+    const double half = 0.5 * static_cast<double>(std::llabs(target - at)) * range_ / 8e6;  // V units * seconds
+    MOTIONRACK_CHECK(driver_.SetA(1u << companion_, companion_acceleration_));
+    return drive_companion(at, target, companion_speed(std::sqrt(start * start + 2 * slope * half)));
 }
 
 }  // namespace motionrack::mcx314

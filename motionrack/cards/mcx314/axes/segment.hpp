@@ -19,6 +19,7 @@ struct Segment {
     bool starts_chain = false;                 ///< begins from standstill
     bool ends_chain = false;                   ///< stands still at its end
     bool s_curve = false;                      ///< alone in its chain, S-curve with automatic deceleration
+    bool even = false;                         ///< its speed changes evenly from the one before to its own
     std::array<std::uint8_t, 3> axes = {};     ///< channels 0..3
     std::array<std::int32_t, 3> finish = {};   ///< pulses
     std::array<std::int32_t, 2> centre = {};   ///< pulses, arcs only
@@ -32,6 +33,7 @@ struct Segment {
     std::int32_t offset = 0;                   ///< AO, s_curve only: what falling takes more than rising
     std::int32_t companion_pulses = 0;         ///< pulses of the fourth axis that belong to this segment, signed
     std::int32_t companion_channel = -1;       ///< its channel, -1: none
+    double companion_speed = 0;                ///< pulses/s that it should have at the end; even ones only
     std::int32_t block = 0;                    ///< number of the planned move, from 0
     std::int32_t line = 0;                     ///< line of the part program
     double seconds = 0;                        ///< pause only

@@ -307,6 +307,7 @@ void Segmenter::emit_line(const Work& work, const Pulses4& to, std::int32_t v, s
     const Most most = most_on(way, segment.constant_vector);
     segment.speed = std::min(segment.speed, most.speed);
     segment.acceleration = std::min(segment.acceleration, most.acceleration);
+    segment.even = work.move.even;
     if (work.move.even) segment.braking = most.acceleration;
     append(segment, work, to);
 }
@@ -348,6 +349,9 @@ void Segmenter::append(Segment segment, const Work& work, const Pulses4& to) {
         const auto c = static_cast<std::size_t>(work.companion);
         segment.companion_channel = work.companion;
         segment.companion_pulses = static_cast<std::int32_t>(to[c] - at_[c]);
+        for (std::size_t i = 0; i < map_.channel.size(); ++i)
+            if (map_.channel[i] == work.companion)
+                segment.companion_speed = work.move.exit * std::fabs(work.path.tangent_out[i]) * map_.limits[i].pulses_per_unit;
     }
     at_ = to;
     ready_.push_back(segment);
