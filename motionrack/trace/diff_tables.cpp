@@ -20,17 +20,22 @@ struct Column {
     bool differs = false;
 };
 
+/// By their names; of several with one name the first belongs to the first, and so on.
 std::vector<Column> common_columns(const CsvRows& a, const CsvRows& b, Diff& diff) {
     std::vector<Column> out;
+    std::vector<bool> taken(b.head().size());
     for (std::size_t i = 0; i < a.head().size(); ++i) {
-        const auto found = std::find(b.head().begin(), b.head().end(), a.head()[i]);
-        if (found == b.head().end())
+        std::size_t other = 0;
+        while (other < taken.size() && (taken[other] || b.head()[other] != a.head()[i])) ++other;
+        if (other == taken.size()) {
             diff.only_a.push_back(a.head()[i]);
-        else
-            out.push_back({a.head()[i], i, static_cast<std::size_t>(found - b.head().begin()), false});
+            continue;
+        }
+        taken[other] = true;
+        out.push_back({a.head()[i], i, other, false});
     }
-    for (const std::string& name : b.head())
-        if (std::find(a.head().begin(), a.head().end(), name) == a.head().end()) diff.only_b.push_back(name);
+    for (std::size_t i = 0; i < taken.size(); ++i)
+        if (!taken[i]) diff.only_b.push_back(b.head()[i]);
     return out;
 }
 

@@ -185,6 +185,10 @@ TEST(DiffOfTables, FindsTheFirstFieldOfEachColumnThatDiffers) {
     EXPECT_THAT(diff->only_b, ElementsAre("more"));
 }
 
+TEST(DiffOfTables, PairsColumnsOfOneNameInTheirOrder) {
+    EXPECT_TRUE(diff_of_texts("a,a,b\n1,2,3\n", "a,b,a\n1,3,2\n", "csv")->same());
+}
+
 TEST(DiffOfTables, TellsWhichOneEndsFirst) {
     const auto diff = diff_of_texts("time_s,a\n0,1\n0.001,2\n", "time_s,a\n0,1\n", "csv");
     ASSERT_TRUE(diff);
