@@ -97,7 +97,7 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"flex2pos", {"base", "calls", "rack", "frontends", "flex2pos.h", "ioflex02/map", "ioflex02/driver"}},
     {"mcx314lib", {"base", "calls", "rack", "mcx314/map", "mcx314/driver"}},
     {"rtc5sim", {"base", "calls", "rack", "rtc5/map", "rtc5/model"}},
-    {"python", {"base", "sim", "control", "trace", "rack", "mcx314/driver", "databoard4002/driver", "ioflex02/driver", "grating_bus/model", "grating_bus/driver",
+    {"python", {"base", "sim", "control", "trace", "rack", "operate", "mcx314/driver", "databoard4002/driver", "ioflex02/driver", "grating_bus/model", "grating_bus/driver",
                 "rtc5/model"}},
 };
 

@@ -18,6 +18,7 @@ from ._core import Databoard4002, GratingCard, Ioflex02, Mcx314, Rtc5, SlopeTabl
 from ._version import __version__
 from .cards import Card, Cards, Channel, Register, Word
 from .errors import BadInput, Error, FileTrouble, MachineFault, NoSuchName, Refused, Stopped, Timeout
+from .machine import Alarm, AxisStatus, Machine, Status
 from .outcome import AxisOutcome, Block, Homing, Outcome, ProgramEvent, Warning, Worst
 from .parts import Part, Parts, Wires
 from .rack import Rack, Snapshot
@@ -36,8 +37,8 @@ def template_text(name: str = "router") -> str:
 
 
 __all__ = [
-    "AxisOutcome", "BadInput", "Block", "Card", "Cards", "Channel", "Databoard4002", "Error", "FileTrouble", "GratingCard", "Homing",
-    "Ioflex02", "MachineFault", "Mcx314", "NoSuchName", "Outcome", "Part", "Parts", "ProgramEvent", "Rack", "Recording", "Refused", "Register", "Rtc5",
-    "SlopeTable", "Snapshot", "SpeedMeter", "SpeedScale", "Stopped", "Timeout", "Trace", "Warning", "Waves", "Wires", "Word", "Worst",
+    "Alarm", "AxisOutcome", "AxisStatus", "BadInput", "Block", "Card", "Cards", "Channel", "Databoard4002", "Error", "FileTrouble", "GratingCard", "Homing",
+    "Ioflex02", "Machine", "MachineFault", "Mcx314", "NoSuchName", "Outcome", "Part", "Parts", "ProgramEvent", "Rack", "Recording", "Refused", "Register", "Rtc5",
+    "SlopeTable", "Snapshot", "SpeedMeter", "SpeedScale", "Status", "Stopped", "Timeout", "Trace", "Warning", "Waves", "Wires", "Word", "Worst",
     "__version__", "template_text", "templates",
 ]

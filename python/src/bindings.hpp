@@ -11,6 +11,7 @@ void bind_errors(py::module_& m);
 void bind_world(py::module_& m);
 void bind_job(py::module_& m);
 void bind_homing(py::module_& m);
+void bind_machine(py::module_& m);
 void bind_cards(py::module_& m);
 void bind_pictures(py::module_& m);
 void bind_mcx314(py::module_& m);

@@ -8,6 +8,7 @@ PYBIND11_MODULE(_core, m) {
     bind_world(m);
     bind_job(m);
     bind_homing(m);
+    bind_machine(m);
     bind_cards(m);
     bind_pictures(m);
     bind_mcx314(m);

@@ -1,0 +1,214 @@
+"""A machine that is operated while it runs: step by step, from order to order."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from types import TracebackType
+
+from . import _core
+from ._time import ticks_of
+from .errors import Refused, Timeout
+from .rack import Rack
+
+
+@dataclass(frozen=True)
+class AxisStatus:
+    """One axis: places in ``unit`` (mm or deg), speed per s. ``place`` is where the table really is, whatever any counter says."""
+
+    unit: str
+    trusted: bool  #: the positions mean places of the machine
+    enabled: bool
+    commanded: float
+    actual: float
+    place: float
+    speed: float
+    pulses: int
+    counts: int
+
+
+@dataclass(frozen=True)
+class Alarm:
+    """It is there until it was acknowledged and its cause is gone; ``seconds`` since the start."""
+
+    number: int
+    seconds: float
+    source: str
+    text: str
+    active: bool
+    acknowledged: bool
+
+
+@dataclass(frozen=True)
+class Status:
+    """A machine at one instant."""
+
+    seconds: float
+    ticks: int
+    state: str  #: disabled, standstill, homing, moving, jogging, hold, stopping or error stop
+    why: str  #: the sentence that stopped it last, or why it holds
+    axes: dict[str, AxisStatus]
+    program: str
+    line: int
+    lines: int
+    program_runs: bool
+    feed_override: float
+    rapid_override: float
+    homing: str
+    alarms: list[Alarm]
+
+
+class Machine:
+    """A rack that is operated while it runs: programs with hold and resume, jogs, homing, alarms, as on the operator panel.
+
+    Time passes in :meth:`advance` and :meth:`wait` only, in slices of 2 ms; orders are taken between two slices, often in the middle of a drive.
+    The same orders at the same times give the same history. Axes with a home switch are not trusted before they are homed or declared.
+    """
+
+    def __init__(self, rack: Rack) -> None:
+        """Of the same file as ``rack``, at time 0, disabled. Refused where no program can run on it."""
+        self._core: _core.Operated | None = _core.Operated(rack._world)
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> Machine:
+        """See :meth:`Rack.from_file`."""
+        return cls(Rack.from_file(path))
+
+    @classmethod
+    def from_text(cls, text: str) -> Machine:
+        """See :meth:`Rack.from_text`."""
+        return cls(Rack.from_text(text))
+
+    @classmethod
+    def template(cls, name: str = "router") -> Machine:
+        """See :meth:`Rack.template`."""
+        return cls(Rack.template(name))
+
+    def _operated(self) -> _core.Operated:
+        if self._core is None:
+            raise Refused("The machine was closed; nothing was done. Make another one.")
+        return self._core
+
+    def close(self) -> None:
+        """Stops what moves and ends the machine."""
+        self._core = None
+
+    def __enter__(self) -> Machine:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+    # ---- time ----
+
+    def advance(self, seconds: float = 0.0, *, ms: float = 0) -> None:
+        """Lets the machine run for so long, in whole slices of 2 ms."""
+        self._operated().advance(ticks_of(seconds, ms))
+
+    def wait(self, until: str | Callable[[Status], object], timeout: float, every: float = 2e-3) -> Status:
+        """Runs until the machine has that state, or ``until(status)`` is true, asked every ``every`` s (at least a slice, 0.002); Timeout."""
+        end = self.status.ticks + ticks_of(timeout)
+        while True:
+            status = self.status
+            if status.state == until if isinstance(until, str) else until(status):
+                return status
+            if status.ticks >= end:
+                raise Timeout(f"The machine did not come to it within {timeout:g} s; it is {status.state} at {status.seconds:.9g} s. {status.why}".rstrip())
+            self.advance(max(every, 2e-3))
+
+    # ---- looking ----
+
+    @property
+    def status(self) -> Status:
+        """The machine at this instant."""
+        data = dict(self._operated().status())
+        axes = {letter: AxisStatus(**axis) for letter, axis in data.pop("axes").items()}
+        return Status(axes=axes, alarms=[Alarm(*alarm) for alarm in data.pop("alarms")], **data)
+
+    @property
+    def state(self) -> str:
+        """disabled, standstill, homing, moving, jogging, hold, stopping or error stop."""
+        return self.status.state
+
+    def trace_hash(self) -> str:
+        """The hash of the history so far; see :meth:`Trace.hash`."""
+        return self._operated().trace_hash()
+
+    def get(self, name: str) -> float:
+        """A quantity of a part, ``"X.position_mm"``; see :meth:`Rack.get`."""
+        return self._operated().quantity(name)
+
+    # ---- orders; refused ones change nothing ----
+
+    def enable(self, axes: str = "") -> None:
+        """Enables these axes; ``""``: all."""
+        self._operated().enable(True, axes)
+
+    def disable(self, axes: str = "") -> None:
+        """Stops whatever moves, then disables these axes; ``""``: all."""
+        self._operated().enable(False, axes)
+
+    def begin(self, program: str, name: str = "") -> None:
+        """Checks a program whole, then begins it: BadInput with line and column, Refused unless the machine stands enabled and trusted."""
+        self._operated().begin(program, name)
+
+    def hold(self) -> None:
+        """Comes to rest along the path."""
+        self._operated().hold()
+
+    def resume(self) -> None:
+        """Goes on after a hold."""
+        self._operated().resume()
+
+    def stop(self) -> None:
+        """Decelerates whatever moves, and forgets programs. Never refused."""
+        self._operated().stop()
+
+    def reset(self) -> None:
+        """Ends an error stop."""
+        self._operated().reset()
+
+    def home(self, axes: str = "") -> None:
+        """Homes these axes; ``""``: all that have a home switch."""
+        self._operated().home(axes)
+
+    def jog(self, axis: str, speed: float) -> None:
+        """Jogs at ``speed`` (mm/s or deg/s, the sign is the direction) for as long as it is called again within 0.25 s."""
+        self._operated().jog(axis, speed)
+
+    def jog_by(self, axis: str, distance: float, speed: float) -> None:
+        """Jogs by a distance, mm or deg, at ``speed`` per s (> 0)."""
+        self._operated().jog_by(axis, distance, speed)
+
+    def declare_position(self, axis: str, position: float) -> None:
+        """Says where an axis stands, mm or deg; it is trusted then. Refused while something moves."""
+        self._operated().declare_position(axis, position)
+
+    def set_overrides(self, feed: float = 1.0, rapid: float = 1.0) -> None:
+        """Parts of the programmed speeds: feed more than 0 up to 2, rapid more than 0 up to 1."""
+        self._operated().set_overrides(feed, rapid)
+
+    def acknowledge(self, alarm: int) -> bool:
+        """Acknowledges an alarm by its number; False if there is none."""
+        return self._operated().acknowledge(alarm)
+
+    # ---- the machine ----
+
+    def wire(self, name: str) -> float:
+        """The level of a wire; see :class:`Wires`."""
+        return self._operated().wire(name)
+
+    def set_wire(self, name: str, value: float | None) -> None:
+        """Drives a wire; None releases it. See :class:`Wires`."""
+        self._operated().set_wire(name, value)
+
+    def fault(self, target: str, fault: str, value: float | None = None) -> None:
+        """Breaks something at this instant, or mends it; see :meth:`Rack.fault`."""
+        self._operated().fault(fault if value is None else f"{fault}={value:.17g}", target)
+
+    def __repr__(self) -> str:
+        if self._core is None:
+            return "<machine, closed>"
+        status = self.status
+        return f"<machine: {status.state}; {status.seconds:.9g} s>"

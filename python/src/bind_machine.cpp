@@ -1,0 +1,149 @@
+// A machine operated step by step: programs with hold and resume, jogs, homing, alarms.
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <limits>
+#include <motionrack/rack/faults.hpp>
+#include <motionrack/rack/quantities.hpp>
+#include <python/src/bindings.hpp>
+#include <python/src/operated.hpp>
+#include <python/src/turn.hpp>
+
+namespace motionrack::python {
+
+namespace {
+
+using operate::Machine;
+using Class = py::class_<Operated>;
+using Done = Result<void>;
+
+/// An order without Python's lock.
+template <class Work>
+auto ordered(Operated& self, Work work) {
+    auto result = [&] {
+        const py::gil_scoped_release free;
+        return self.order(work);
+    }();
+    return value_of(std::move(result));
+}
+
+char letter(const std::string& axis) {
+    if (axis.size() != 1) refuse(fmt::format("An axis is one letter, X to Z or A to C, not \"{}\". Nothing was done.", axis));
+    return axis[0];
+}
+
+void advance(Operated& self, std::int64_t time) {
+    if (time < 0) refuse("Time does not run backwards; nothing was run.");
+    std::optional<py::error_already_set> raised;
+    {
+        const py::gil_scoped_release free;
+        self.advance(ticks(time), [&] {
+            const py::gil_scoped_acquire lock;
+            if (!raised && PyErr_CheckSignals() != 0) raised.emplace();
+            return raised.has_value();
+        });
+    }
+    if (raised) throw py::error_already_set(*raised);
+}
+
+py::dict dict_of(const operate::AxisStatus& axis) {
+    py::dict out;
+    out["unit"] = axis.rotary ? "deg" : "mm";
+    out["trusted"] = axis.trusted;
+    out["enabled"] = axis.enabled;
+    out["commanded"] = axis.commanded;
+    out["actual"] = axis.actual;
+    out["place"] = axis.place;
+    out["speed"] = axis.speed;
+    out["pulses"] = axis.pulses;
+    out["counts"] = axis.counts;
+    return out;
+}
+
+py::dict dict_of(const operate::Status& status) {
+    py::dict out, axes;
+    for (const operate::AxisStatus& axis : status.axes) axes[py::str(std::string(1, axis.letter))] = dict_of(axis);
+    py::list alarms;
+    for (const operate::Alarm& alarm : status.alarms)
+        alarms.append(py::make_tuple(alarm.number, to_seconds(alarm.at), alarm.source, alarm.text, alarm.active, alarm.acknowledged));
+    out["seconds"] = to_seconds(status.at);
+    out["ticks"] = status.at.count();
+    out["state"] = std::string(operate::name_of(status.state));
+    out["why"] = status.why;
+    out["axes"] = axes;
+    out["program"] = status.program;
+    out["line"] = status.line;
+    out["lines"] = status.lines;
+    out["program_runs"] = status.program_runs;
+    out["feed_override"] = status.feed_override;
+    out["rapid_override"] = status.rapid_override;
+    out["homing"] = status.homing;
+    out["alarms"] = alarms;
+    return out;
+}
+
+void bind_orders(Class& c) {
+    const auto plain = [&](const char* name, auto order) {
+        c.def(name, [order](Operated& self) { ordered(self, [order](Machine& machine) -> Done { return order(machine); }); });
+    };
+    plain("hold", [](Machine& machine) { return machine.hold(); });
+    plain("resume", [](Machine& machine) { return machine.resume(); });
+    plain("stop", [](Machine& machine) { return machine.stop(), Done(); });
+    plain("reset", [](Machine& machine) { return machine.reset(), Done(); });
+    c.def("enable", [](Operated& self, bool on, const std::string& axes) { ordered(self, [&](Machine& machine) { return machine.enable(on, axes); }); },
+          py::arg("on"), py::arg("axes"));
+    c.def("begin", [](Operated& self, const std::string& program, const std::string& name) {
+        ordered(self, [&](Machine& machine) { return machine.begin_program(program, name); });
+    }, py::arg("program"), py::arg("name"));
+    c.def("home", [](Operated& self, const std::string& axes) { ordered(self, [&](Machine& machine) { return machine.home(axes); }); }, py::arg("axes"));
+    c.def("jog", [](Operated& self, const std::string& axis, double speed) {
+        ordered(self, [&, which = letter(axis)](Machine& machine) { return machine.jog(which, speed); });
+    }, py::arg("axis"), py::arg("speed"));
+    c.def("jog_by", [](Operated& self, const std::string& axis, double distance, double speed) {
+        ordered(self, [&, which = letter(axis)](Machine& machine) { return machine.jog_by(which, distance, speed); });
+    }, py::arg("axis"), py::arg("distance"), py::arg("speed"));
+    c.def("declare_position", [](Operated& self, const std::string& axis, double position) {
+        ordered(self, [&, which = letter(axis)](Machine& machine) { return machine.declare_position(which, position); });
+    }, py::arg("axis"), py::arg("position"));
+    c.def("set_overrides", [](Operated& self, double feed, double rapid) {
+        if (!(feed > 0 && feed <= 2 && rapid > 0 && rapid <= 1)) refuse(fmt::format("The overrides are {} and {}; feed is more than 0 up to 2, rapid up to 1. Nothing was changed.", feed, rapid));
+        ordered(self, [&](Machine& machine) { return machine.set_overrides(feed, rapid), Done(); });
+    }, py::arg("feed"), py::arg("rapid"));
+    c.def("acknowledge", [](Operated& self, std::int64_t alarm) {
+        return ordered(self, [&](Machine& machine) { return Result<bool>(machine.acknowledge(alarm)); });
+    }, py::arg("alarm"));
+}
+
+void bind_rest(Class& c) {
+    c.def("advance", &advance, py::arg("ticks"));
+    c.def("status", [](Operated& self) {
+        ordered(self, [](Machine&) { return Done(); });  // the loop takes a picture after it has heard
+        return dict_of(ordered(self, [](Machine& machine) { return Result<operate::Status>(machine.status()); }));
+    });
+    c.def("trace_hash", [](Operated& self) {
+        return ordered(self, [](Machine& machine) { return Result<std::string>(fmt::format("{:016x}", machine.rack().kernel().trace_hash())); });
+    });
+    c.def("wire", [](Operated& self, const std::string& name) { return ordered(self, [&](Machine& machine) { return machine.wires().get(name); }); }, py::arg("name"));
+    c.def("set_wire", [](Operated& self, const std::string& name, std::optional<double> value) {
+        ordered(self, [&](Machine& machine) { return machine.wires().set(name, value.value_or(std::numeric_limits<double>::quiet_NaN())); });
+    }, py::arg("name"), py::arg("value"));
+    c.def("quantity", [](Operated& self, const std::string& name) { return ordered(self, [&](Machine& machine) { return rack::get_quantity(machine.rack(), name); }); },
+          py::arg("name"));
+    c.def("fault", [](Operated& self, const std::string& fault, const std::string& target) {
+        ordered(self, [&](Machine& machine) { return rack::inject_fault(machine.rack(), fault, target); });
+    }, py::arg("fault"), py::arg("target"));
+}
+
+}  // namespace
+
+void bind_machine(py::module_& m) {
+    Class c(m, "Operated", "A machine; motionrack.Machine is what people use.");
+    c.def(py::init([](World& world) {
+        const Turn turn(world, Turn::For::moving);
+        return value_of(Operated::make(world.config()));
+    }), py::arg("world"));
+    bind_orders(c);
+    bind_rest(c);
+}
+
+}  // namespace motionrack::python

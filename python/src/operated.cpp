@@ -1,0 +1,66 @@
+// The gate.
+#include <python/src/operated.hpp>
+
+#include <chrono>
+
+namespace motionrack::python {
+
+namespace {
+constexpr auto hear_every = std::chrono::milliseconds(2);   // of real time, what was posted
+constexpr auto look_every = std::chrono::milliseconds(50);
+}
+
+Result<std::unique_ptr<Operated>> Operated::make(const rack::RackConfig& config) {
+    std::unique_ptr<Operated> out(new Operated);
+    operate::MachineSettings settings;
+    settings.pace = [self = out.get()](Instant now) { return self->pace(now); };
+    MOTIONRACK_TRY(std::unique_ptr<operate::Machine> machine, operate::Machine::make(config, std::move(settings)));
+    out->begin(std::move(machine));
+    return out;
+}
+
+void Operated::begin(std::unique_ptr<operate::Machine> machine) {
+    machine_ = std::move(machine);
+    motion_ = std::thread([this] { machine_->run(); });
+    std::unique_lock<std::mutex> alone(lock_);
+    changed_.wait(alone, [this] { return parked_; });
+}
+
+Operated::~Operated() {
+    if (!motion_.joinable()) return;
+    {
+        const std::lock_guard<std::mutex> alone(lock_);
+        quitting_ = true;
+        changed_.notify_all();
+    }
+    machine_->post([this] { machine_->quit(); });
+    motion_.join();
+}
+
+bool Operated::pace(Instant now) {
+    std::unique_lock<std::mutex> alone(lock_);
+    reached_ = now;
+    if (quitting_ || now < allowed_) return parked_ = false, true;
+    parked_ = true;
+    changed_.notify_all();
+    changed_.wait_for(alone, hear_every);
+    parked_ = !(quitting_ || now < allowed_);
+    return !parked_;
+}
+
+void Operated::advance(Duration time, const std::function<bool()>& look) {
+    std::unique_lock<std::mutex> alone(lock_);
+    changed_.wait(alone, [this] { return parked_; });
+    allowed_ = later(reached_, time);
+    if (allowed_ <= reached_) return;
+    parked_ = false;
+    changed_.notify_all();
+    while (!changed_.wait_for(alone, look_every, [this] { return parked_; })) {
+        alone.unlock();
+        const bool enough = look();
+        alone.lock();
+        if (enough) allowed_ = reached_;
+    }
+}
+
+}  // namespace motionrack::python

@@ -1,0 +1,61 @@
+// A machine that is operated step by step: its motion thread runs as far as it was told and waits at a gate meanwhile.
+//
+//   Python ──order──► [ inbox ] ──► motion thread: Machine::run ──► pace: gate open until `allowed_`
+//   Python ──advance──► allowed_ ─────────────────────────────────────┘   at the gate: parked_, Python goes on
+//
+// Python and the motion thread are never at work at the same time, so what is ordered happens at a slice that is the same in every run.
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <motionrack/operate/machine.hpp>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace motionrack::python {
+
+class Operated {
+  public:
+    static Result<std::unique_ptr<Operated>> make(const rack::RackConfig& config);
+    ~Operated();
+    Operated(const Operated&) = delete;
+    Operated& operator=(const Operated&) = delete;
+
+    /// Lets so much time pass, in whole slices of 2 ms. `look` is called every 50 ms of real time meanwhile, and ends the wait where it is
+    /// true: the machine stands at the gate then, in the midst of what it does.
+    void advance(Duration time, const std::function<bool()>& look);
+    /// Runs `work` on the motion thread while it waits at the gate, and gives what it gives.
+    template <class Work>
+    auto order(Work work) {
+        using Value = decltype(work(*machine_));
+        std::optional<Value> out;
+        bool done = false;
+        machine_->post([&] {
+            Value value = work(*machine_);
+            const std::lock_guard<std::mutex> alone(lock_);
+            out.emplace(std::move(value));
+            done = true;
+            changed_.notify_all();
+        });
+        std::unique_lock<std::mutex> alone(lock_);
+        changed_.notify_all();
+        changed_.wait(alone, [&] { return done; });
+        changed_.wait(alone, [this] { return parked_; });
+        return std::move(*out);
+    }
+
+  private:
+    Operated() = default;
+    bool pace(Instant now);
+    void begin(std::unique_ptr<operate::Machine> machine);
+
+    std::unique_ptr<operate::Machine> machine_;
+    std::thread motion_;
+    std::mutex lock_;
+    std::condition_variable changed_;
+    Instant allowed_{}, reached_{};
+    bool parked_ = false, quitting_ = false;
+};
+
+}  // namespace motionrack::python

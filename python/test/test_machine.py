@@ -1,0 +1,125 @@
+"""A machine operated step by step: hold and resume, jogs, homing, alarms; the same orders give the same history."""
+
+from __future__ import annotations
+
+import gc
+import os
+import signal
+import threading
+import unittest
+from pathlib import Path
+
+import motionrack
+from motionrack import Machine, Refused, Timeout
+
+TEXT = "G21 G90\nG1 X40 F2400\nG1 X0\nM2\n"
+HOMING = Path(__file__).resolve().parents[2] / "examples" / "08_homing" / "machine.toml"
+
+
+def ready() -> Machine:
+    machine = Machine.template("router")
+    machine.enable()
+    for letter, axis in machine.wait("standstill", timeout=1).axes.items():
+        if not axis.trusted:
+            machine.declare_position(letter, axis.commanded)
+    machine.wait(lambda status: status.state == "standstill" and all(axis.trusted for axis in status.axes.values()), timeout=1)
+    return machine
+
+
+def operated() -> tuple[str, float, str]:
+    """A program with a hold, and a jog."""
+    with ready() as machine:
+        machine.begin(TEXT, "there.ngc")
+        machine.advance(0.5)
+        machine.hold()
+        machine.wait("hold", timeout=1)
+        place = machine.get("X.position_mm")
+        machine.advance(1)
+        assert machine.get("X.position_mm") == place
+        machine.resume()
+        machine.wait("standstill", timeout=10)
+        machine.jog_by("Y", 5, 10)
+        machine.wait(lambda status: status.axes["Y"].place > 4.999, timeout=5)
+        status = machine.wait("standstill", timeout=1)
+        return machine.trace_hash(), place, f"{status.axes['Y'].place:.3f} {status.ticks}"
+
+
+class Operating(unittest.TestCase):
+    def test_the_same_orders_at_the_same_times_give_the_same_history(self) -> None:
+        first = operated()
+        self.assertTrue(0 < first[1] < 40)
+        for _ in range(3):
+            self.assertEqual(operated(), first)
+
+    def test_time_passes_in_whole_slices_and_only_when_it_is_let(self) -> None:
+        machine = Machine.template("router")
+        self.assertEqual(machine.status.ticks, machine.status.ticks)
+        before = machine.status.ticks
+        machine.advance(ms=20)
+        self.assertEqual(machine.status.ticks - before, 200_000_000)
+        with self.assertRaises(Timeout):
+            machine.wait("moving", timeout=0.1)
+
+    def test_orders_that_do_not_fit_are_refused(self) -> None:
+        machine = Machine.template("router")
+        for act in (lambda: machine.begin(TEXT), lambda: machine.resume(), lambda: machine.jog("X", 5), lambda: machine.set_overrides(9), lambda: machine.jog_by("XY", 1, 1)):
+            with self.assertRaises(Refused):
+                act()
+        machine = ready()
+        with self.assertRaises(motionrack.Error) as caught:
+            machine.begin("G21\nG1 X999 F100\n", "bad.ngc")
+        self.assertEqual(caught.exception.line, 2)
+        with self.assertRaises(motionrack.BadInput):
+            machine.wire("no.such")
+
+    def test_a_limit_switch_is_an_error_stop_with_an_alarm(self) -> None:
+        machine = ready()
+        machine.begin(TEXT, "there.ngc")
+        machine.advance(0.5)
+        machine.set_wire("X.limit_plus", 0)
+        status = machine.wait("error stop", timeout=2)
+        self.assertIn("limit", status.why + " ".join(alarm.text for alarm in status.alarms))
+        machine.set_wire("X.limit_plus", None)
+        machine.acknowledge(status.alarms[-1].number)
+        machine.reset()
+        machine.wait(lambda status: status.state in ("standstill", "disabled"), timeout=2)
+
+    def test_homing_makes_positions_trusted(self) -> None:
+        with Machine.from_file(HOMING) as machine:
+            self.assertFalse(all(axis.trusted for axis in machine.status.axes.values()))
+            machine.enable()
+            machine.home()
+            machine.wait(lambda status: status.state == "standstill" and all(axis.trusted for axis in status.axes.values()), timeout=60)
+
+    def test_a_machine_may_end_in_the_midst_of_a_drive(self) -> None:
+        machine = ready()
+        machine.begin(TEXT)
+        machine.advance(0.3)
+        machine.close()
+        machine.close()
+        with self.assertRaises(Refused):
+            machine.advance(1)
+        left = ready()
+        left.begin(TEXT)
+        left.advance(0.3)
+        del left
+        gc.collect()
+
+    def test_ctrl_c_ends_a_wait_and_the_machine_goes_on(self) -> None:
+        machine = ready()
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                machine.advance(1e6)
+        finally:
+            timer.join()
+            signal.signal(signal.SIGINT, before)
+        at = machine.status.ticks
+        machine.advance(ms=10)
+        self.assertEqual(machine.status.ticks - at, 100_000_000)
+
+
+if __name__ == "__main__":
+    unittest.main()
