@@ -12,10 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-class CanonCommand : public InFolder {
-  protected:
-    void write(const std::string& name, const std::string& text) { std::ofstream(folder / name) << text; }
-};
+class CanonCommand : public InFolder {};
 
 TEST_F(CanonCommand, PrintsOneCallALine) {
     write("part.ngc", "G21 G90 G10 L2 P1 X1 R90\n#1 = 2.5\nG0 X#1 Y[#1 * 2]\nG1 F60 X0\nG4 P.5\nM2\n");

@@ -27,6 +27,9 @@ Outcome<const Step*> Reader::next_from_lines() {
 
 namespace {
 
+/// Problems that were told before, until a check is given up.
+constexpr int most_repeated = 10'000;
+
 /// What goes wrong in a loop or a subprogram goes wrong often.
 bool is_known(const std::vector<Problem>& problems, const Problem& one) {
     return std::any_of(problems.begin(), problems.end(), [&](const Problem& other) {
@@ -41,10 +44,15 @@ Check check_program(std::string_view text, const Settings& settings, std::size_t
     Check check;
     check.least = check.greatest = settings.start;
     Reader reader(text, settings, file);
+    int repeated = 0;
     for (;;) {
         const auto step = reader.next();
         if (!step) {
-            if (is_known(check.problems, step.error())) continue;
+            if (is_known(check.problems, step.error())) {
+                if (++repeated < most_repeated) continue;
+                check.more_problems = true;
+                break;
+            }
             check.problems.push_back(step.error());
             if (check.problems.size() < most_problems) continue;
             check.more_problems = true;

@@ -29,7 +29,7 @@ struct Settings {
     Point g28 = {};                                          ///< where G28 goes, machine coordinates
     Point g30 = {};                                          ///< where G30 goes, machine coordinates
     ToolTable tools = {};                                    ///< empty: any tool number will do, and G43 has no lengths
-    std::int64_t most_lines = 10'000'000;  ///< that loops and calls may go through, beside the program's own; >= 0
+    std::int64_t most_lines = 5'000'000;   ///< that loops and calls may go through, beside the program's own; >= 0
     SubprogramSource subprogram = {};      ///< none: a program has the subs that are in its text
 };
 
