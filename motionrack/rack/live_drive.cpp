@@ -1,6 +1,7 @@
 // Lines go in while there is room, and the stream drives.
 #include <fmt/format.h>
 
+#include <motionrack/control/gcode/language/walk.hpp>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/rack/live_drive.hpp>
 #include <utility>
@@ -47,33 +48,30 @@ namespace {
 /// Lines of a program as far as the stream takes them.
 class Feeder {
   public:
-    Feeder(std::string_view text, const std::string& file, control::ProgramRun& run) : lines_(text), file_(file), run_(run) {}
+    Feeder(std::string_view text, const control::gcode::Settings& settings, const std::string& file, control::ProgramRun& run)
+        : walk_(text, settings, file), run_(run) {}
 
     void feed(control::Stream& stream) {
         std::string_view text;
         while (more_ && stream.has_room()) {
-            more_ = lines_.next(text);
-            if (!more_) return;
-            run_.lines = lines_.number();
-            if (auto read = stream.line(text, lines_.number()); !read) {
+            more_ = walk_.next(text);
+            if (!more_) break;
+            if (auto read = stream.line(text, walk_.number(), walk_); !read) {
                 problem_ = read.error();
-                problem_->file = file_;
                 more_ = false;
                 return;
             }
-            if (end_.at(stream.interpreter().block())) {
-                more_ = false;
-                run_.ended = true;
-            }
+            run_.lines = walk_.furthest();
+            const control::gcode::Block& block = stream.interpreter().block();
+            if (block.has_m(control::gcode::m_stop)) run_.ended = run_.ended || block.m[control::gcode::m_stop] == 2 || block.m[control::gcode::m_stop] == 30;
         }
+        if (!more_ && !problem_ && walk_.has_faults()) problem_ = walk_.take_fault();
     }
     bool more() const { return more_; }
     Result<void> outcome() const { return problem_ ? Result<void>(tl::unexpected<Error>(*problem_)) : Result<void>(); }
 
   private:
-    control::gcode::Lines lines_;
-    control::gcode::ProgramEnd end_;
-    const std::string& file_;
+    control::gcode::Walk walk_;
     control::ProgramRun& run_;
     bool more_ = true;
     std::optional<Error> problem_;
@@ -107,7 +105,8 @@ Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& or
 
 }  // namespace
 
-Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text, const std::string& file, control::ProgramRun& run) {
+Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text, const control::gcode::Settings& settings,
+                        const std::string& file, control::ProgramRun& run) {
     // What is left of a move after a hold is planned again: what was programmed counts.
     double path_mm = 0;
     stream.on_move([&](const control::Move& move, const control::Point& start) {
@@ -115,7 +114,7 @@ Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPla
         const bool linear = start[0] != move.end[0] || start[1] != move.end[1] || start[2] != move.end[2] || move.kind == control::MoveKind::arc;
         if (linear) path_mm += control::geometry_of(move, start).length;
     });
-    Feeder feeder(text, file, run);
+    Feeder feeder(text, settings, file, run);
     const Result<void> ended = drive(stream, host, orders, feeder, file);
     stream.on_move({});
     run.plan.moves = run.moves;
