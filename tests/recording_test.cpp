@@ -265,6 +265,30 @@ TEST_F(Recordings, AreComparedAndRunAgainWithTheirExitCodes) {
     EXPECT_EQ(motionrack("run --record /nowhere/a.h5 -q").code, 5);
 }
 
+TEST_F(Recordings, NeverGoOverAFileThatIsRead) {
+    write("a.ngc", "G1 X1 F600\n");
+    write("r.toml", *rack::rack_template("router"));
+    ASSERT_EQ(motionrack("run a.ngc -q --no-report --record a.h5").code, 0);
+    for (const char* command : {"run a.ngc --record a.ngc", "run a.ngc --report ./a.ngc", "run a.ngc --rack r.toml --csv r.toml", "run a.ngc --record x.h5 --vcd x.h5",
+                                "report a.h5 --report a.h5"}) {
+        const Ran refused = motionrack(command);
+        EXPECT_EQ(refused.code, 3) << command;
+        EXPECT_THAT(refused.out, HasSubstr("Nothing was done")) << command;
+    }
+    EXPECT_EQ(text_of(folder / "a.ngc"), "G1 X1 F600\n");
+    EXPECT_EQ(motionrack("replay a.h5").code, 0);
+}
+
+TEST_F(Recordings, AreMadeOfProgramsWithLoopsToolsAndOrders) {
+    write("part.ngc", "o1 repeat [3]\no<side> call [4]\no1 endrepeat\nT1 M6 G43 H1\nG0 Z50\nM2\n");
+    write("side.ngc", "o<side> sub\nG91 G1 X#1 F1200\nG90\no<side> endsub\n");
+    write("tools.tbl", "T1 P1 Z0.00005 D3\n");
+    ASSERT_EQ(motionrack("run part.ngc --tools tools.tbl -q --no-report --record a.h5 --at feed=0.5@0.3s").code, 0);
+    std::filesystem::remove(folder / "side.ngc");
+    std::filesystem::remove(folder / "tools.tbl");
+    EXPECT_EQ(motionrack("replay a.h5").code, 0) << "it has all with it";
+}
+
 TEST_F(Recordings, DoWhatTheirPageSays) {
     write("part.ngc", text_of(root / "examples/01_first_move/first_move.ngc"));
     motionrack("run part.ngc -q --no-report --record before.h5 --at feed=1@0.2s");

@@ -173,7 +173,7 @@ TEST(GcodeFlow, ThatNeverEndsIsStopped) {
     for (const char* program : {"o1 while [1]\no1 endwhile", "o1 do\no1 while [1]", "o1 repeat [1000000000]\no1 endrepeat", "o1 while [1]\nX1\nX2\no1 endwhile"}) {
         const auto found = problems(program, settings);
         ASSERT_EQ(found.size(), 1u) << program;
-        EXPECT_THAT(found[0].message, HasSubstr("1000 lines"));
+        EXPECT_THAT(found[0].message, ::testing::ContainsRegex("gone through 100[0-9] lines"));
     }
     const auto deep = problems("o1 sub\no1 call\no1 endsub\no1 call", settings);
     ASSERT_EQ(deep.size(), 1u);
@@ -192,6 +192,7 @@ TEST(GcodeFlow, IsCheckedOnceHoweverOftenALineIsGoneThrough) {
 
 TEST(GcodeFlow, MayStandBehindLineNumbersAndSlashes) {
     EXPECT_THAT(xs("N10 o1 if [1] (comment)\nX1\nN20 o1 endif ; over\n/o2 repeat [2]\nX2\n/o2 endrepeat\n"), ElementsAre(1, 2, 2));
+    EXPECT_THAT(xs("(pocket) o1 repeat [2] (twice)\nX1\n(so much)N5(for that) o1 endrepeat\n"), ElementsAre(1, 1));
     Settings settings = testing::machine();
     settings.block_delete = true;
     EXPECT_THAT(xs("/o2 repeat [2]\nX2\n/o2 endrepeat\n", settings), ElementsAre(2));

@@ -54,6 +54,11 @@ TEST(GcodeTools, AreReadFromATable) {
     EXPECT_EQ(table.find(3), nullptr);
     EXPECT_EQ(table.find(99999)->offset[2], -1.5);
     EXPECT_EQ(to_text(tool), "T2 P7 X1 Z20 D6 I90 J30 Q2");
+    Tool fine{3, 3, {0, 0, 1e-7}, 5e-5};
+    const auto again = read_tool_table(to_text(fine));
+    ASSERT_TRUE(again) << again.error().text();
+    EXPECT_EQ(again->tools()[0].offset[2], 1e-7);
+    EXPECT_EQ(again->tools()[0].diameter_mm, 5e-5);
 }
 
 TEST(GcodeTools, FaultyTablesAreRefusedWithTheirPlace) {

@@ -134,6 +134,7 @@ const Refused refused[] = {
     {"F100 G83 X1 R1 Z-1", 6, "G83", 28, "Q word missing"},
     {"F100 G83 X1 R1 Z-1 Q0", 20, "Q0", 33, "above 0"},
     {"F100 G83 X1 R1 Z-1 Q.00001", 20, "Q.00001", 33, "at most 100000 pecks"},
+    {"G91 F100 G83 X1 R-1 Z-1 Q.001 L1000", 25, "Q.001", 33, "1000 holes"},
     {"F100 G81 X1 R-2 Z-1", 13, "R-2", 33, "below the bottom"},
     {"F100 G81 X1 R1 Z-1 L0", 20, "L0", 38, "from 1"},
     {"F100 G81 X1 R1 Z-1 L1.5", 20, "L1.5", 23, "integer"},
