@@ -43,6 +43,13 @@ gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number) {
     return {};
 }
 
+gcode::Outcome<void> Stream::program_over() {
+    if (gcode::Outcome<void> done = interpreter_.finish(); !done) return done;
+    unpulled_ = true;
+    pull_steps();
+    return {};
+}
+
 void Stream::move(const Move& move) {
     Step step;
     step.line = move.line;

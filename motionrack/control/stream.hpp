@@ -57,6 +57,9 @@ class Stream {
     bool has_room() const { return entries_.size() < settings_.most_entries && !unpulled_ && wish_ != Wish::stop; }
     /// Reads and checks a line and puts its moves behind the others. Needs has_room(). Errors: it had no effect.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number);
+    /// No more lines of the program come: what waits for the next one (see gcode::Interpreter::finish) is put behind the others. Needs
+    /// has_room().
+    gcode::Outcome<void> program_over();
     /// Puts a move behind the others that no line has asked for: modes stay, the feed override does not count, and the lines after it
     /// begin where it ends. It must be one that the axes can do. Needs has_room().
     void move(const Move& move);

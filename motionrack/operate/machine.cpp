@@ -112,6 +112,7 @@ Result<void> Machine::begin_program(std::string text, std::string name) {
     program_ = std::move(text);
     program_name_ = std::move(name);
     lines_.emplace(program_);
+    over_ = false;
     end_ = {};
     line_count_ = static_cast<std::int32_t>(check.lines);
     program_runs_ = true;
@@ -154,6 +155,7 @@ Result<void> Machine::resume() {
 
 void Machine::stop() {
     lines_.reset();
+    over_ = false;
     program_runs_ = false;
     stream_->stop();
     home_stop_ = true;

@@ -183,6 +183,7 @@ class Machine {
     // the program, or lines one by one
     std::string program_, program_name_;
     std::optional<control::gcode::Lines> lines_;
+    bool over_ = false;  ///< the last line was read, and what may wait for the next one still waits
     control::gcode::ProgramEnd end_;
     std::int32_t line_count_ = 0;
     bool program_runs_ = false, single_step_ = false;

@@ -21,7 +21,7 @@ enum GroupG : std::uint8_t {
     g_arc_distance,  ///< G90.1 G91.1
     g_feed_mode,     ///< G93 G94
     g_units,         ///< G20 G21
-    g_cutter,        ///< G40
+    g_cutter,        ///< G40 G41 G41.1 G42 G42.1
     g_tool_length,   ///< G43.1 G49
     g_retract,       ///< G98 G99
     g_system,        ///< G54 .. G59

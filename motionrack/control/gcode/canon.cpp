@@ -44,7 +44,7 @@ void CanonPrinter::call(std::string_view text) {
 
 void CanonPrinter::begin(const Interpreter& interpreter) {
     path_ = interpreter.modes().path;
-    position_ = interpreter.position();
+    note(interpreter);
     call("USE_LENGTH_UNITS(CANON_UNITS_MM)");
     offsets(interpreter);
 }
@@ -67,20 +67,37 @@ void CanonPrinter::line(Interpreter& interpreter) {
     };
     std::size_t comments = 0;
     while (const Step* step = interpreter.pull()) {
+        late_ = step->line != interpreter.line_number();
+        if (late_) {
+            event(*step, interpreter);
+            continue;
+        }
         const bool dwell = step->kind == StepKind::move && step->move.kind == MoveKind::dwell;
         before(step->kind, dwell);
         if (step->kind == StepKind::move) {
             if (!dwell && straight_home(block)) here(interpreter);
-            move(step->move, interpreter);
+            event(*step, interpreter);
         } else if (step->kind != StepKind::comment || !block.comments[comments].rest_of_line) {
             event(*step, interpreter);
         }
         if (step->kind == StepKind::comment || step->kind == StepKind::message) ++comments;
     }
+    late_ = false;
     before(StepKind::move, false);
-    position_ = interpreter.position();
+    note(interpreter);
     if (path_ != interpreter.modes().path)
         path(interpreter.modes().path, interpreter.modes().tolerance_mm, interpreter);
+}
+
+void CanonPrinter::rest(Interpreter& interpreter) {
+    late_ = true;
+    while (const Step* step = interpreter.pull()) event(*step, interpreter);
+}
+
+void CanonPrinter::note(const Interpreter& interpreter) {
+    position_ = interpreter.position();
+    offset_ = interpreter.frame().offset;
+    inch_ = interpreter.modes().inch;
 }
 
 void CanonPrinter::feed(const Interpreter& interpreter) {
@@ -147,9 +164,9 @@ void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
                         : step.spindle == Spindle::counter_clockwise ? "START_SPINDLE_COUNTERCLOCKWISE(0)"
                                                                      : "STOP_SPINDLE_TURNING(0)");
         case StepKind::coolant:
-            if (interpreter.block().has_m(m_mist)) call("MIST_ON()");
-            if (interpreter.block().has_m(m_flood)) call("FLOOD_ON()");
-            if (!interpreter.block().has_m(m_coolant_off)) return;
+            if (late_ ? step.mist : interpreter.block().has_m(m_mist)) call("MIST_ON()");
+            if (late_ ? step.flood : interpreter.block().has_m(m_flood)) call("FLOOD_ON()");
+            if (late_ ? step.mist || step.flood : !interpreter.block().has_m(m_coolant_off)) return;
             call("MIST_OFF()");
             return call("FLOOD_OFF()");
         case StepKind::tool_select:
@@ -170,14 +187,14 @@ void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
             call("STOP_SPINDLE_TURNING(0)");
             return call("PROGRAM_END()");
         case StepKind::move:
-            return;
+            return move(step.move, interpreter);
     }
 }
 
 double CanonPrinter::shown(const Interpreter& interpreter, int axis, double machine) const {
     if (options_.coordinates == Coordinates::machine) return machine;
-    const double scale = axis < 3 && interpreter.modes().inch ? 25.4 : 1.0;
-    return (machine - interpreter.frame().offset[axis]) / scale;
+    const double scale = axis < 3 && (late_ ? inch_ : interpreter.modes().inch) ? 25.4 : 1.0;
+    return (machine - (late_ ? offset_ : interpreter.frame().offset)[axis]) / scale;
 }
 
 void CanonPrinter::here(const Interpreter& interpreter) {
@@ -222,7 +239,10 @@ Outcome<void> print_canon(std::string_view text, const Settings& settings, Canon
         printer.line(interpreter);
         if (over) break;
     }
-    return {};
+    auto done = interpreter.finish();
+    if (!done) done.error().file = file;
+    printer.rest(interpreter);
+    return done;
 }
 
 }  // namespace motionrack::control::gcode

@@ -23,8 +23,8 @@ constexpr CodeG known_g[] = {
     {400, g_cutter},       {431, g_tool_length}, {490, g_tool_length}, {980, g_retract},  {990, g_retract},
     {540, g_system},       {550, g_system},      {560, g_system},      {570, g_system},   {580, g_system},
     {590, g_system},       {610, g_path},        {611, g_path},        {640, g_path},     {382, g_refused},
-    {383, g_refused},      {384, g_refused},     {385, g_refused},     {410, g_refused},  {411, g_refused},
-    {420, g_refused},      {421, g_refused},     {430, g_refused},     {432, g_refused},  {591, g_refused},
+    {383, g_refused},      {384, g_refused},     {385, g_refused},     {410, g_cutter},   {411, g_cutter},
+    {420, g_cutter},       {421, g_cutter},      {430, g_refused},     {432, g_refused},  {591, g_refused},
     {592, g_refused},      {593, g_refused},     {950, g_refused},     {330, g_refused},  {331, g_refused},
     {760, g_refused},      {960, g_refused},     {970, g_refused}};
 
@@ -86,11 +86,6 @@ std::string why_not_g(int tenths) {
         return name +
                " probes, but this machine has no probe input; take the probing out of the program and set the work "
                "offset with G10 L20 instead";
-    }
-    if (tenths >= 410 && tenths <= 421) {
-        return name +
-               ": cutter radius compensation is not supported; let the CAM program put out the path of the tool's "
-               "centre (only G40 is taken)";
     }
     if (tenths == 430 || tenths == 432) {
         return name + ": there is no tool table; write the tool's length itself, e.g. G43.1 Z12.5";

@@ -35,6 +35,7 @@ Interpreter::Interpreter(const Settings& settings) : settings_(settings) {
 
 Outcome<void> Interpreter::line(std::string_view text, std::int32_t number) {
     todo_ = 0;
+    held_.drop_ready();
     line_ = number;
     if (end_pending_) apply_end();
     if (!scan_line(text, settings_.block_delete, block_, problem_) || !evaluate()) {
@@ -49,15 +50,18 @@ bool Interpreter::evaluate() {
     next_ = modes_;
     frame_edited_ = false;
     axis_words_taken_ = false;
+    cutter_plan_.clear();
     used_ = letter_bit('F') | letter_bit('N') | letter_bit('S') | letter_bit('T');
     end_ = position_;
     if (!check_values()) return false;
     if ((block_.g_groups & ~(1u << g_motion)) != 0 && !apply_modes()) return false;
+    if (next_.cutter != CutterSide::off && !cutter_allows()) return false;
     if (block_.has('F')) apply_feed();
     if ((block_.m_groups | (block_.words & (letter_bit('S') | letter_bit('T')))) != 0 && !apply_machine_words())
         return false;
     if (block_.has_g(g_nonmodal) && !nonmodal()) return false;
     if (!motion()) return false;
+    if ((todo_ & todo_stop) != 0 && stop_code_ >= 2 && next_.cutter != CutterSide::off && !end_cutter()) return false;
     if ((block_.words & ~used_) != 0) return unused();
     if (!block_.comments.empty()) {
         todo_ |= todo_comments;
@@ -113,6 +117,7 @@ bool Interpreter::apply_modes() {
     if (block_.has_g(g_distance)) next_.incremental = block_.g[g_distance] == 910;
     if (block_.has_g(g_arc_distance)) next_.arc_absolute = block_.g[g_arc_distance] == 901;
     if (block_.has_g(g_retract)) next_.retract_to_r = block_.g[g_retract] == 990;
+    if (block_.has_g(g_cutter) && !cutter()) return false;
     if (block_.has_g(g_tool_length) && !tool_length()) return false;
     if (block_.has_g(g_system)) {
         next_.system = static_cast<std::uint8_t>((block_.g[g_system] - 540) / 10);
@@ -158,6 +163,7 @@ bool Interpreter::apply_machine_words() {
             return fail_at(block_.m_column[m_tool], GrblStatus::word_missing,
                            "M6 changes to the tool that a T word has selected, and there was none; write e.g. T1 M6");
         }
+        next_.tool_loaded = next_.tool_selected;
         todo_ |= todo_tool_change;
     }
     if (block_.has_m(m_spindle)) {
@@ -188,22 +194,29 @@ void Interpreter::apply_end() {
     next_.spindle = Spindle::off;
     next_.mist = next_.flood = false;
     next_.ended = true;
+    next_.cutter = CutterSide::off;
     next_.system = 0;
     sum_offsets(frame_);
     modes_ = next_;
 }
 
 void Interpreter::commit() {
-    if ((todo_ & todo_dwell) != 0) dwell_at_ = position_;
+    if ((todo_ & todo_dwell) != 0) dwell_at_ = position();
     end_pending_ = (todo_ & todo_stop) != 0 && stop_code_ >= 2;
     position_ = end_;
     modes_ = next_;
     if (frame_edited_) frame_ = next_frame_;
+    if (modes_.cutter != CutterSide::off || astray_) commit_cutter();
 }
 
 const Step* Interpreter::pull_next() {
     const std::uint32_t what = todo_ & (0 - todo_);
     if (what == todo_motion) return pull_motion();
+    if (what == todo_held) {
+        if (const Step* step = held_.next()) return step;
+        todo_ &= ~what;
+        return pull();
+    }
     if (what == todo_comments) return pull_comment();
     todo_ &= ~what;
     event_ = Step{};
@@ -337,6 +350,8 @@ bool Interpreter::unused() {
         use = "; it goes with G4, G10, G64 and G82, and with arcs that have an end or offsets on the same line";
     } else if (letter == 'L') {
         use = "; it goes with G10 and the drilling cycles (G81 G82 G83)";
+    } else if (letter == 'D') {
+        use = "; it goes with G41, G42 (a tool's number), G41.1 and G42.1 (a diameter)";
     } else if (letter == 'Q') {
         use = "; it is the peck depth of G83";
     }

@@ -21,7 +21,10 @@
 //   (LinuxCNC). Between holes the drill stays at the height where it left the last one, after rising to R where that is
 //   higher; after a change from G99 to G98, LinuxCNC rises to the first level on the slant. A peck thinner than the
 //   clearance never rapids above R.
-// - G38.x, G41, G42, G43, M56, O words, variables and expressions are refused with a sentence. M0, M1, M2 and M30 are
+// - With cutter compensation a move waits for the next one, on which its end depends (motion_cutter.cpp, held.hpp); G40
+// and the
+//   program's end let it go. A joint that is tangent within 0.001 mm gets no arc; LinuxCNC: within 2.9 degrees.
+// - G38.x, G43, M56, O words, variables and expressions are refused with a sentence. M0, M1, M2 and M30 are
 // events.
 // - A program may end without M2 (Grbl); LinuxCNC wants M2 or %.
 // - Ends and bulges past the axis limits are errors of the line (Grbl raises alarm 2).
@@ -30,6 +33,7 @@
 #include <motionrack/control/gcode/arc.hpp>
 #include <motionrack/control/gcode/block.hpp>
 #include <motionrack/control/gcode/cycle.hpp>
+#include <motionrack/control/gcode/held.hpp>
 #include <motionrack/control/gcode/settings.hpp>
 #include <motionrack/control/gcode/step.hpp>
 
@@ -39,6 +43,9 @@ namespace motionrack::control::gcode {
 inline constexpr double limit_slack = 1e-6;
 
 inline constexpr std::int16_t no_motion = -1;
+
+/// Of the contour, seen along it from the positive third axis.
+enum class CutterSide : std::uint8_t { off, left, right };
 
 /// Modal state that is only numbers.
 struct Modes {
@@ -51,11 +58,14 @@ struct Modes {
     bool inverse_time = false;        ///< G93
     bool retract_to_r = false;        ///< G99
     PathControl path = PathControl::continuous;
+    CutterSide cutter = CutterSide::off;  ///< G40 G41 G42
     Spindle spindle = Spindle::off;
     bool mist = false;
     bool flood = false;
     bool ended = false;               ///< after M2, M30
     std::int32_t tool_selected = -1;  ///< by T; -1: none yet
+    std::int32_t tool_loaded = -1;    ///< by M6; -1: none yet
+    double cutter_radius_mm = 0;      ///< where `cutter` is not off
     double tolerance_mm = 0;
     double feed = 0;         ///< G94: mm/s, G93: 1/s; 0: none yet
     double feed_rotary = 0;  ///< G94: degrees/s, where no linear axis moves
@@ -79,6 +89,19 @@ struct Frame {
     Point offset = {};  ///< sum of the active ones
 };
 
+/// What a line does to the move that waits before it, and the move that waits after it.
+struct CutterPlan {
+    bool joins = false;   ///< the move that waits goes along `last`
+    bool around = false;  ///< then along `arc`
+    bool begins = false;  ///< a move begins at `from` and waits along `path`
+    CutterPath last;
+    CutterPath path;
+    Planar from;
+    Move arc;
+
+    void clear() { joins = around = begins = false; }
+};
+
 /// Give it lines, take the steps of each: `if (auto done = interpreter.line(text, 7); done) while (auto* step =
 /// interpreter.pull()) ...`
 class Interpreter {
@@ -96,9 +119,16 @@ class Interpreter {
         return pull_next();
     }
 
-    const Point& position() const { return position_; }  ///< machine coordinates after the last line
-    /// The machine was moved otherwise: the next line begins there.
-    void stand_at(const Point& position) { position_ = position; }
+    /// After the last line: with cutter compensation a move may wait for the next one, on which its end depends. This
+    /// makes it and what is behind it final; take the steps as after a line. Compensation is off then. A problem is
+    /// that of the line that waited.
+    Outcome<void> finish();
+
+    /// Machine coordinates after the last line; with cutter compensation where the cutter's centre is if it goes no
+    /// further.
+    const Point& position() const { return astray_ ? at_ : position_; }
+    /// The machine was moved otherwise: the next line begins there, without cutter compensation.
+    void stand_at(const Point& position);
     /// The operator has switched the coolant.
     void set_coolant(bool mist, bool flood) {
         modes_.mist = mist;
@@ -107,18 +137,20 @@ class Interpreter {
     const Modes& modes() const { return modes_; }
     const Frame& frame() const { return frame_; }
     const Block& block() const { return block_; }  ///< the words of the last line
+    std::int32_t line_number() const { return line_; }  ///< of the last line
 
   private:
     enum Todo : std::uint32_t {
-        todo_comments = 1,
-        todo_speed = 2,
-        todo_tool_select = 4,
-        todo_tool_change = 8,
-        todo_spindle = 16,
-        todo_coolant = 32,
-        todo_dwell = 64,
-        todo_motion = 128,
-        todo_stop = 256
+        todo_held = 1,
+        todo_comments = 2,
+        todo_speed = 4,
+        todo_tool_select = 8,
+        todo_tool_change = 16,
+        todo_spindle = 32,
+        todo_coolant = 64,
+        todo_dwell = 128,
+        todo_motion = 256,
+        todo_stop = 512
     };
     enum class Motion : std::uint8_t { single, by_way_of, cycle };
 
@@ -145,7 +177,22 @@ class Interpreter {
     bool arc_centre_of_radius(Planar start, Planar end, bool closed, bool counter_clockwise, Planar& centre);
     bool arc_centre_of_offsets(Planar start, Planar& centre);
     bool arc_radii_agree(Planar start, Planar end, Planar centre);
-    bool arc_within_limits(Planar centre, double radius);
+    bool arc_within_limits(Planar start, Planar end, Planar centre, std::int32_t turns);
+    bool cutter();
+    bool cutter_diameter(double& diameter);
+    bool cutter_allows();
+    bool compensates() const { return next_.cutter != CutterSide::off && next_.cutter_radius_mm > 0; }
+    bool compensate();
+    bool path_beside(Planar from, Planar to, CutterPath& path);
+    bool join(Planar corner);
+    bool end_waiting_path();
+    bool end_cutter();
+    bool gouges(std::int32_t line);
+    bool off_limits();
+    bool leaves_straight(std::int16_t code);
+    void commit_cutter();
+    void hold_steps();
+    void settle_joint();
     bool cycle(std::int16_t code);
     bool cycle_words(std::int16_t code);
     bool cycle_within_limits(CyclePlan& plan);
@@ -189,6 +236,16 @@ class Interpreter {
     Point end_ = {};
     std::uint32_t used_ = 0;
     bool axis_words_taken_ = false;
+
+    // Cutter compensation: the move that waits, and what the line being read makes of it.
+    HeldSteps held_;
+    bool beside_ = false;    // a move waits in held_; from the first one beside the contour to G40
+    bool astray_ = false;    // the machine is not at position_, but at at_
+    Point at_ = {};
+    CutterPath cutter_path_;
+    Planar cutter_from_;
+    std::int32_t cutter_line_ = 0;
+    CutterPlan cutter_plan_;
 
     Block block_;
     Problem problem_;

@@ -76,6 +76,8 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
 /// Ends of the axes that have words.
 bool Interpreter::targets(bool machine_coordinates) {
     const Point& offset = frame_now().offset;
+    const bool beside_contour = compensates();
+    const int third = next_.plane == 0 ? 2 : next_.plane == 1 ? 1 : 0;
     for (int axis = 0; axis < axis_count; ++axis) {
         const std::size_t index = axis_letter(axis);
         if ((block_.words >> index & 1) == 0) continue;
@@ -83,7 +85,7 @@ bool Interpreter::targets(bool machine_coordinates) {
         const double target = machine_coordinates ? value
                               : next_.incremental ? position_[axis] + value
                                                   : value + offset[axis];
-        if (!reach(axis, target, block_.column[index])) return false;
+        if (!(beside_contour && axis < 3 && axis != third) && !reach(axis, target, block_.column[index])) return false;
         end_[axis] = target;
     }
     return true;
@@ -103,7 +105,7 @@ bool Interpreter::straight(std::int16_t code) {
     moving_.line = line_;
     motion_ = Motion::single;
     todo_ |= todo_motion;
-    return true;
+    return !compensates() || compensate();
 }
 
 /// Where each axis positions by itself only one of them can move at a feed.
@@ -127,7 +129,7 @@ bool Interpreter::feed_of(Move& move) {
         return true;
     }
     if (next_.feed == 0) return no_feed();
-    const bool rotary_only = end_[0] == position_[0] && end_[1] == position_[1] && end_[2] == position_[2] &&
+    const bool rotary_only = !(astray_ && next_.cutter == CutterSide::off) && end_[0] == position_[0] && end_[1] == position_[1] && end_[2] == position_[2] &&
                              (block_.words & rotary_words) != 0 && move.kind == MoveKind::feed;
     move.feed_mode = FeedMode::units_per_second;
     move.feed = rotary_only ? next_.feed_rotary : next_.feed;

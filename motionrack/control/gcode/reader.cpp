@@ -85,7 +85,11 @@ Outcome<const Step*> Reader::next_from_lines() {
         if (const Step* step = interpreter_.pull()) return step;
     }
     over_ = true;
-    return nullptr;
+    if (auto done = interpreter_.finish(); !done) {
+        done.error().file = file_;
+        return tl::unexpected<Problem>(std::move(done.error()));
+    }
+    return interpreter_.pull();
 }
 
 Check check_program(std::string_view text, const Settings& settings, std::size_t most_problems,

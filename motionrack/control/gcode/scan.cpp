@@ -9,7 +9,7 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-constexpr std::uint32_t value_letters = axis_words | offset_words | letter_bit('F') | letter_bit('L') |
+constexpr std::uint32_t value_letters = axis_words | offset_words | letter_bit('D') | letter_bit('F') | letter_bit('L') |
                                         letter_bit('N') | letter_bit('P') | letter_bit('Q') | letter_bit('R') |
                                         letter_bit('S') | letter_bit('T');
 
@@ -262,7 +262,7 @@ bool Scanner::bad_letter(char letter, std::size_t column) {
                        "O words (program numbers, subprograms, loops) are not supported; write the lines out, and a "
                        "program's name as a comment");
     }
-    const char* hint = letter == 'D' || letter == 'H'                    ? "; there is no tool table"
+    const char* hint = letter == 'H'                                     ? "; there is no tool table"
                        : letter == 'E'                                   ? "; there is no extruder"
                        : letter == 'U' || letter == 'V' || letter == 'W' ? "; axes are X Y Z A B C"
                                                                          : "";

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <motionrack/base/result.hpp>
 #include <motionrack/control/limits.hpp>
+#include <optional>
 
 namespace motionrack::control::gcode {
 
@@ -21,6 +24,9 @@ struct Settings {
     std::array<Point, work_system_count> work_offsets = {};  ///< G54 .. G59 at the start, mm and degrees
     Point g28 = {};                                          ///< where G28 goes, machine coordinates
     Point g30 = {};                                          ///< where G30 goes, machine coordinates
+    /// For G41 and G42: the diameter (mm) of the tool of that number; none: the table has no such tool. Empty: there is
+    /// no tool table.
+    std::function<std::optional<double>(std::int32_t tool)> tool_diameter;
 };
 
 /// Refuses settings with numbers that are not finite, or larger than 1e9, or limits the wrong way round.
