@@ -14,7 +14,8 @@ struct CodeG {
 };
 
 constexpr CodeG known_g[] = {
-    {0, g_motion},         {10, g_motion},       {20, g_motion},       {30, g_motion},    {800, g_motion},
+    {0, g_motion},         {10, g_motion},       {20, g_motion},       {30, g_motion},    {50, g_motion},
+    {51, g_motion},        {52, g_refused},      {53, g_refused},      {800, g_motion},
     {810, g_motion},       {820, g_motion},      {830, g_motion},      {40, g_nonmodal},  {100, g_nonmodal},
     {280, g_nonmodal},     {281, g_nonmodal},    {300, g_nonmodal},    {301, g_nonmodal}, {530, g_nonmodal},
     {920, g_nonmodal},     {921, g_nonmodal},    {922, g_nonmodal},    {923, g_nonmodal}, {170, g_plane},
@@ -86,6 +87,9 @@ std::string why_not_g(int tenths) {
         return name +
                " probes, but this machine has no probe input; take the probing out of the program and set the work "
                "offset with G10 L20 instead";
+    }
+    if (tenths == 52 || tenths == 53) {
+        return name + ": NURBS are not supported; let the CAM program put out G5 (cubic) or G5.1 (quadratic) curves, or arcs";
     }
     if (tenths == 430 || tenths == 432) {
         return name + ": there is no tool table; write the tool's length itself, e.g. G43.1 Z12.5";

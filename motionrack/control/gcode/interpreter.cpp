@@ -78,6 +78,7 @@ bool Interpreter::check_values() {
         const int index = std::countr_zero(left);
         if (block_.value[index] >= 0) continue;
         const char letter = static_cast<char>('A' + index);
+        if ((letter == 'P' || letter == 'Q') && negative_handles()) continue;
         return fail_word(letter, GrblStatus::negative_value,
                          fmt::format("{} is negative; {} must be 0 or more", written(letter), letter));
     }
@@ -273,7 +274,7 @@ const Step* Interpreter::pull_motion() {
         on_the_way_ = true;
         return &moving_;
     }
-    if (cycle_.next(moving_.move)) return &moving_;
+    if (motion_ == Motion::spline ? pull_spline() : cycle_.next(moving_.move)) return &moving_;
     todo_ &= ~static_cast<std::uint32_t>(todo_motion);
     return pull();
 }
@@ -353,7 +354,7 @@ bool Interpreter::unused() {
     } else if (letter == 'D') {
         use = "; it goes with G41, G42 (a tool's number), G41.1 and G42.1 (a diameter)";
     } else if (letter == 'Q') {
-        use = "; it is the peck depth of G83";
+        use = "; it is the peck depth of G83, and a control point of G5";
     }
     return fail_word(letter, GrblStatus::unused_word,
                      fmt::format("{}: nothing on this line uses the {} word{}", written(letter), letter, use));

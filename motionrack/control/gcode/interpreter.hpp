@@ -35,6 +35,7 @@
 #include <motionrack/control/gcode/cycle.hpp>
 #include <motionrack/control/gcode/held.hpp>
 #include <motionrack/control/gcode/settings.hpp>
+#include <motionrack/control/gcode/spline.hpp>
 #include <motionrack/control/gcode/step.hpp>
 
 namespace motionrack::control::gcode {
@@ -49,7 +50,7 @@ enum class CutterSide : std::uint8_t { off, left, right };
 
 /// Modal state that is only numbers.
 struct Modes {
-    std::int16_t motion = no_motion;  ///< G code in tenths: 0, 10, 20, 30, 810, 820, 830; no_motion after G80
+    std::int16_t motion = no_motion;  ///< G code in tenths: 0, 10, 20, 30, 50, 51, 810, 820, 830; no_motion after G80
     std::uint8_t plane = 0;           ///< 0 G17, 1 G18, 2 G19
     std::uint8_t system = 0;          ///< 0 G54 .. 5 G59
     bool inch = false;                ///< G20
@@ -75,6 +76,8 @@ struct Modes {
     double cycle_z = 0;             ///< the drilling axis' word, as written, mm
     double cycle_q = 0;             ///< mm
     double cycle_p = 0;             ///< seconds
+    Planar spline_end;              ///< of the last G5: P and Q, mm
+    Planar spline_at;               ///< and where it ended
     double cycle_level = 0;         ///< G98: machine coordinate of the drilling axis before the first hole
 };
 
@@ -152,7 +155,7 @@ class Interpreter {
         todo_motion = 256,
         todo_stop = 512
     };
-    enum class Motion : std::uint8_t { single, by_way_of, cycle };
+    enum class Motion : std::uint8_t { single, by_way_of, cycle, spline };
 
     bool evaluate();
     bool check_values();
@@ -189,6 +192,7 @@ class Interpreter {
     bool end_cutter();
     bool gouges(std::int32_t line);
     bool off_limits();
+    bool reaches_contour();
     bool leaves_straight(std::int16_t code);
     void commit_cutter();
     void hold_steps();
@@ -196,6 +200,12 @@ class Interpreter {
     bool cycle(std::int16_t code);
     bool cycle_words(std::int16_t code);
     bool cycle_within_limits(CyclePlan& plan);
+    bool spline(std::int16_t code);
+    bool spline_allowed(std::int16_t code);
+    bool cubic_of_words(Planar start, Planar end, Cubic& curve);
+    bool quadratic_of_words(Planar start, Planar end, Cubic& curve);
+    bool pull_spline();
+    bool negative_handles() const;
     bool targets(bool machine_coordinates);
     bool feed_of(Move& move);
     bool reach(int axis, double value, std::size_t column) {
@@ -264,6 +274,7 @@ class Interpreter {
     Step event_;
     Step moving_;
     Cycle cycle_;
+    SplineMoves spline_;
 };
 
 }  // namespace motionrack::control::gcode

@@ -12,6 +12,9 @@ namespace {
 bool is_arc(std::int16_t code) {
     return code == 20 || code == 30;
 }
+bool is_spline(std::int16_t code) {
+    return code == 50 || code == 51;
+}
 bool is_cycle(std::int16_t code) {
     return code >= 810;
 }
@@ -24,7 +27,7 @@ bool Interpreter::motion() {
     if (code == 800) code = no_motion;
     next_.motion = code;
     const bool own_axis_words = !axis_words_taken_ && (block_.words & axis_words) != 0;
-    const bool own_offsets = is_arc(code) && (block_.words & offset_words) != 0;
+    const bool own_offsets = (is_arc(code) || is_spline(code)) && (block_.words & offset_words) != 0;
     const bool wants_motion = own_axis_words || (own_offsets && !axis_words_taken_);
     if (!wants_motion && !is_explicit && !block_.has_g(g_nonmodal)) return true;
     if (!motion_needs(code, wants_motion)) return false;
@@ -32,6 +35,7 @@ bool Interpreter::motion() {
     used_ |= axis_words;
     if (is_arc(code)) return arc(code);
     if (is_cycle(code)) return cycle(code);
+    if (is_spline(code)) return spline(code);
     return straight(code);
 }
 
@@ -63,6 +67,7 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
                          fmt::format("{}: no motion is active {}; write G0 (rapid) or G1 (feed) before it",
                                      written(letter), is_explicit ? "after G80" : "here"));
     }
+    if (is_explicit && !wants_motion && !axis_words_taken_ && is_spline(code)) return spline_allowed(code);
     if (is_explicit && !wants_motion && !axis_words_taken_ && (is_arc(code) || is_cycle(code))) {
         return fail_at(block_.g_column[g_motion], GrblStatus::no_axis_words,
                        is_arc(code) ? fmt::format("{} needs an end and a centre; write e.g. {} X10 Y0 I5 J0",
@@ -88,7 +93,7 @@ bool Interpreter::targets(bool machine_coordinates) {
         if (!(beside_contour && axis < 3 && axis != third) && !reach(axis, target, block_.column[index])) return false;
         end_[axis] = target;
     }
-    return true;
+    return beside_contour || !astray_ || reaches_contour();
 }
 
 bool Interpreter::straight(std::int16_t code) {

@@ -150,7 +150,7 @@ bool Interpreter::compensate() {
     const Planar from = {position_[axes[0]], position_[axes[1]]};
     const Planar to = {end_[axes[0]], end_[axes[1]]};
     if (move.kind != MoveKind::arc && from.first == to.first && from.second == to.second) {
-        if (!beside_) return true;
+        if (!beside_) return !astray_ || reaches_contour();
         move.end[axes[0]] = cutter_path_.end.first;
         move.end[axes[1]] = cutter_path_.end.second;
         return true;
@@ -166,6 +166,14 @@ bool Interpreter::compensate() {
     move.centre_second = path.centre.second;
     if (path.arc && !arc_within_limits(path.start, path.end, path.centre, path.turns)) return off_limits();
     return (reach(axes[0], path.end.first, blame()) && reach(axes[1], path.end.second, blame())) || off_limits();
+}
+
+/// From beside the contour back to it, which may lie where the machine cannot go.
+bool Interpreter::reaches_contour() {
+    for (int axis = 0; axis < 3; ++axis)
+        if (end_[axis] != position_[axis] || end_[axis] != at_[axis])
+            if (!reach(axis, end_[axis], blame())) return false;
+    return true;
 }
 
 bool Interpreter::off_limits() {

@@ -53,7 +53,7 @@ const Refused refused[] = {
     {"G0 X1 %", 7, "%", 20, "alone on its line"},
     // codes
     {"G1.5 X1", 1, "G1.5", 20, "not a known command"},
-    {"G5 X1", 1, "G5", 20, "not a known command"},
+    {"G6 X1", 1, "G6", 20, "not a known command"},
     {"G1.05", 1, "G1.05", 20, "not a known command"},
     {"G-1", 1, "G-1", 20, "not a known command"},
     {"G1000", 1, "G1000", 20, "not a known command"},
