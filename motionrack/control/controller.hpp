@@ -24,6 +24,13 @@ struct ProgramEvent {
     std::string text;  ///< "spindle clockwise at 12000 rpm", "message: clamp the part"
 };
 
+/// A probing move of the program.
+struct ProgramProbe {
+    int line = 0;
+    gcode::Probe probe = gcode::Probe::none;
+    ProbeOutcome outcome;
+};
+
 struct ControllerSettings {
     gcode::Settings gcode;          ///< limits, start position, offsets
     PlannerSettings planner;
@@ -39,6 +46,7 @@ struct ProgramRun {
     std::int64_t moves = 0;            ///< read, without dwells
     std::vector<ProgramEvent> events;
     std::int64_t events_left_out = 0;
+    std::vector<ProgramProbe> probes;  ///< as many as events are kept
     bool ended = false;                ///< by M2 or M30
 };
 
@@ -56,6 +64,9 @@ class Controller {
   private:
     Result<void> hand_over();
     Result<void> take(const gcode::Step& step, ProgramRun& run);
+    Result<void> probe(const gcode::Step& step, gcode::Reader& reader, ProgramRun& run);
+    void plan_from(const Point& start);
+    void note(ProgramEvent event, ProgramRun& run);
     void remember(const gcode::Step& step, ProgramRun& run);
 
     PathAxes& axes_;

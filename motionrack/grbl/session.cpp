@@ -166,7 +166,8 @@ int Session::gcode(const std::string& text) {
         if (ends) say("Pgm End");
         return error_none;
     }
-    if (!block.has_m(m_stop) && !(block.has_g(g_nonmodal) && block.g[g_nonmodal] == 40)) return error_none;
+    const bool probes = machine_.stream().probe_waits();
+    if (!probes && !block.has_m(m_stop) && !(block.has_g(g_nonmodal) && block.g[g_nonmodal] == 40)) return error_none;
     doing_ = Doing{Doing::What::moving};
     doing_->program_ends = ends;
     return answer_later;

@@ -26,6 +26,8 @@ Settings machine(std::uint8_t choice) {
     }
     settings.block_delete = (choice & 2) != 0;
     settings.start_in_g0 = (choice & 4) != 0;
+    settings.probe = (choice & 8) == 0;
+    settings.tool_diameter = [](std::int32_t tool) { return tool < 5 ? std::optional<double>(tool) : std::nullopt; };
     return settings;
 }
 

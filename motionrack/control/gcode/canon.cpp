@@ -76,7 +76,10 @@ void CanonPrinter::line(Interpreter& interpreter) {
         before(step->kind, dwell);
         if (step->kind == StepKind::move) {
             if (!dwell && straight_home(block)) here(interpreter);
-            event(*step, interpreter);
+            if (step->probe != Probe::none)
+                probe(step->move, interpreter);
+            else
+                event(*step, interpreter);
         } else if (step->kind != StepKind::comment || !block.comments[comments].rest_of_line) {
             event(*step, interpreter);
         }
@@ -202,6 +205,14 @@ void CanonPrinter::here(const Interpreter& interpreter) {
     still.path = path_;
     still.end = position_;
     move(still, interpreter);
+}
+
+void CanonPrinter::probe(const Move& move, const Interpreter& interpreter) {
+    Point end = {};
+    for (int axis = 0; axis < axis_count; ++axis) end[axis] = shown(interpreter, axis, move.end[axis]);
+    call("TURN_PROBE_ON()");
+    call(fmt::format("STRAIGHT_PROBE({})", six(end)));
+    call("TURN_PROBE_OFF()");
 }
 
 void CanonPrinter::move(const Move& move, const Interpreter& interpreter) {

@@ -40,6 +40,7 @@ class CanonPrinter {
     void call(std::string_view text);
     void event(const Step& step, const Interpreter& interpreter);
     void move(const Move& move, const Interpreter& interpreter);
+    void probe(const Move& move, const Interpreter& interpreter);
     void here(const Interpreter& interpreter);
     void note(const Interpreter& interpreter);
     void feed(const Interpreter& interpreter);

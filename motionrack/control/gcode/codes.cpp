@@ -23,8 +23,8 @@ constexpr CodeG known_g[] = {
     {911, g_arc_distance}, {930, g_feed_mode},   {940, g_feed_mode},   {200, g_units},    {210, g_units},
     {400, g_cutter},       {431, g_tool_length}, {490, g_tool_length}, {980, g_retract},  {990, g_retract},
     {540, g_system},       {550, g_system},      {560, g_system},      {570, g_system},   {580, g_system},
-    {590, g_system},       {610, g_path},        {611, g_path},        {640, g_path},     {382, g_refused},
-    {383, g_refused},      {384, g_refused},     {385, g_refused},     {410, g_cutter},   {411, g_cutter},
+    {590, g_system},       {610, g_path},        {611, g_path},        {640, g_path},     {382, g_motion},
+    {383, g_motion},      {384, g_motion},     {385, g_motion},     {410, g_cutter},   {411, g_cutter},
     {420, g_cutter},       {421, g_cutter},      {430, g_refused},     {432, g_refused},  {591, g_refused},
     {592, g_refused},      {593, g_refused},     {950, g_refused},     {330, g_refused},  {331, g_refused},
     {760, g_refused},      {960, g_refused},     {970, g_refused}};
@@ -83,11 +83,6 @@ std::string members_of_m(GroupM group) {
 
 std::string why_not_g(int tenths) {
     const std::string name = name_of_g(tenths);
-    if (tenths >= 382 && tenths <= 385) {
-        return name +
-               " probes, but this machine has no probe input; take the probing out of the program and set the work "
-               "offset with G10 L20 instead";
-    }
     if (tenths == 52 || tenths == 53) {
         return name + ": NURBS are not supported; let the CAM program put out G5 (cubic) or G5.1 (quadratic) curves, or arcs";
     }

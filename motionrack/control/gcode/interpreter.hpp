@@ -24,7 +24,8 @@
 // - With cutter compensation a move waits for the next one, on which its end depends (motion_cutter.cpp, held.hpp); G40
 // and the
 //   program's end let it go. A joint that is tangent within 0.001 mm gets no arc; LinuxCNC: within 2.9 degrees.
-// - G38.x, G43, M56, O words, variables and expressions are refused with a sentence. M0, M1, M2 and M30 are
+// - A probing move of any length is taken (LinuxCNC: 0.254 mm); the line after it begins where the machine stands.
+// - G43, M56, O words, variables and expressions are refused with a sentence. M0, M1, M2 and M30 are
 // events.
 // - A program may end without M2 (Grbl); LinuxCNC wants M2 or %.
 // - Ends and bulges past the axis limits are errors of the line (Grbl raises alarm 2).
@@ -50,7 +51,7 @@ enum class CutterSide : std::uint8_t { off, left, right };
 
 /// Modal state that is only numbers.
 struct Modes {
-    std::int16_t motion = no_motion;  ///< G code in tenths: 0, 10, 20, 30, 50, 51, 810, 820, 830; no_motion after G80
+    std::int16_t motion = no_motion;  ///< G code in tenths: 0, 10, 20, 30, 50, 51, 382 .. 385, 810, 820, 830; no_motion after G80
     std::uint8_t plane = 0;           ///< 0 G17, 1 G18, 2 G19
     std::uint8_t system = 0;          ///< 0 G54 .. 5 G59
     bool inch = false;                ///< G20
@@ -90,6 +91,8 @@ struct Frame {
     Point g28 = {};
     Point g30 = {};
     Point offset = {};  ///< sum of the active ones
+    Point probe = {};   ///< machine coordinates where the probe last touched or left, or where its move ended without
+    bool probe_hit = false;  ///< whether it did
 };
 
 /// What a line does to the move that waits before it, and the move that waits after it.
@@ -130,6 +133,9 @@ class Interpreter {
     /// Machine coordinates after the last line; with cutter compensation where the cutter's centre is if it goes no
     /// further.
     const Point& position() const { return astray_ ? at_ : position_; }
+    /// The probing move of the last line (Step::probe) has stopped: the edge was at `at` if `hit`, and the machine stands
+    /// at `stands`, where the next line begins. Without this call the move counts as gone to its end.
+    void probed(bool hit, const Point& at, const Point& stands);
     /// The machine was moved otherwise: the next line begins there, without cutter compensation.
     void stand_at(const Point& position);
     /// The operator has switched the coolant.
@@ -174,6 +180,8 @@ class Interpreter {
     bool motion();
     bool motion_needs(std::int16_t code, bool wants_motion);
     bool straight(std::int16_t code);
+    bool may_probe(std::int16_t code);
+    bool probing(std::int16_t code);
     bool by_itself(std::int16_t code);
     bool arc(std::int16_t code);
     bool arc_centre(bool counter_clockwise, Planar& centre);

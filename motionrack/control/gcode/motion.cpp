@@ -15,6 +15,9 @@ bool is_arc(std::int16_t code) {
 bool is_spline(std::int16_t code) {
     return code == 50 || code == 51;
 }
+bool is_probing(std::int16_t code) {
+    return code >= 382 && code <= 385;
+}
 bool is_cycle(std::int16_t code) {
     return code >= 810;
 }
@@ -68,9 +71,10 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
                                      written(letter), is_explicit ? "after G80" : "here"));
     }
     if (is_explicit && !wants_motion && !axis_words_taken_ && is_spline(code)) return spline_allowed(code);
-    if (is_explicit && !wants_motion && !axis_words_taken_ && (is_arc(code) || is_cycle(code))) {
+    if (is_explicit && !wants_motion && !axis_words_taken_ && (is_arc(code) || is_cycle(code) || is_probing(code))) {
         return fail_at(block_.g_column[g_motion], GrblStatus::no_axis_words,
-                       is_arc(code) ? fmt::format("{} needs an end and a centre; write e.g. {} X10 Y0 I5 J0",
+                       is_probing(code) ? fmt::format("{} needs a place to probe towards; write e.g. {} Z-10 F60", name_of_g(code), name_of_g(code))
+                       : is_arc(code) ? fmt::format("{} needs an end and a centre; write e.g. {} X10 Y0 I5 J0",
                                                   name_of_g(code), name_of_g(code))
                                     : fmt::format("{} needs a place and a depth; write e.g. {} X10 Y10 Z-5 R2",
                                                   name_of_g(code), name_of_g(code)));
@@ -97,6 +101,7 @@ bool Interpreter::targets(bool machine_coordinates) {
 }
 
 bool Interpreter::straight(std::int16_t code) {
+    if (is_probing(code) && !may_probe(code)) return false;
     if (!targets(block_.has_g(g_nonmodal) && block_.g[g_nonmodal] == 530)) return false;
     Move& move = moving_.move;
     move.kind = code == 0 ? MoveKind::traverse : MoveKind::feed;
@@ -107,6 +112,8 @@ bool Interpreter::straight(std::int16_t code) {
     move.feed = 0;
     move.feed_mode = FeedMode::units_per_second;
     if (code != 0 && (!by_itself(code) || !feed_of(move))) return false;
+    moving_.probe = Probe::none;
+    if (is_probing(code) && !probing(code)) return false;
     moving_.line = line_;
     motion_ = Motion::single;
     todo_ |= todo_motion;

@@ -54,6 +54,7 @@ bool Interpreter::arc(std::int16_t code) {
     move.end = end_;
     if (!feed_of(move)) return false;
     moving_.line = line_;
+    moving_.probe = Probe::none;
     motion_ = Motion::single;
     todo_ |= todo_motion;
     if (compensates()) return compensate();

@@ -113,6 +113,7 @@ bool Interpreter::cycle(std::int16_t code) {
     if (!cycle_within_limits(plan)) return false;
     cycle_.begin(plan);
     moving_.line = line_;
+    moving_.probe = Probe::none;
     motion_ = Motion::cycle;
     todo_ |= todo_motion;
     return true;

@@ -35,6 +35,7 @@ bool Interpreter::spline(std::int16_t code) {
     if (!feed_of(move)) return false;
     spline_.begin(curve, move);
     moving_.line = line_;
+    moving_.probe = Probe::none;
     motion_ = Motion::spline;
     todo_ |= todo_motion;
     return true;

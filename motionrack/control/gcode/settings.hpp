@@ -17,6 +17,7 @@ struct Settings {
     MachineLimits limits = {};  ///< axes present and how far they may go, machine coordinates
     bool block_delete = false;  ///< true: lines that begin with '/' are left out
     bool point_to_point = false;  ///< true: each axis positions by itself, so arcs and feeds of several axes are refused
+    bool probe = false;  ///< true: there is a probe; false: G38.2 .. G38.5 are refused
     bool start_in_g0 = false;  ///< true: axis words before any motion word are rapid moves, as in Grbl; false: an error
     double path_tolerance_mm = 0.01;   ///< of G64 without P, and at the start; >= 0
     double peck_clearance_mm = 0.254;  ///< G83 rapids back to this far above the depth already drilled; >= 0

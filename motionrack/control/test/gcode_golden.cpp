@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Programs, GcodeGolden,
                                            "marks", "cutter_outside", "cutter_pocket", "cutter_slot", "cutter_arc_corners",
                                            "cutter_arc_arc", "cutter_entry_arc", "cutter_helix", "cutter_plunge", "cutter_g18",
                                            "cutter_inch", "cutter_back", "cutter_exit", "cutter_sides", "cutter_rapid",
-                                           "cutter_offsets", "cutter_rotary", "cutter_radius"),
+                                           "cutter_offsets", "cutter_rotary", "cutter_radius", "probe"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
 TEST(GcodeCanon, PrintsEventsAndColumnsAsRs274Does) {

@@ -135,8 +135,10 @@ void add_canon(CLI::App& app, Action& chosen) {
             gcode::CanonOptions how;
             how.coordinates = options->machine ? gcode::Coordinates::machine : gcode::Coordinates::program;
             how.numbered = !options->plain;
+            gcode::Settings settings = reader_settings(*config, options->block_delete);
+            settings.probe = true;  // what a probing move means does not depend on the rack
             const auto done = gcode::print_canon(
-                *text, reader_settings(*config, options->block_delete), how,
+                *text, settings, how,
                 [](std::string_view line) { std::fwrite(line.data(), 1, line.size(), stdout); }, options->file);
             return done ? static_cast<int>(exit_done) : report(done.error());
         };
