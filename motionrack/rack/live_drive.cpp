@@ -9,6 +9,7 @@ namespace motionrack::rack {
 
 namespace {
 
+constexpr std::size_t most_probes = 2000;  // that are told of
 constexpr Duration look = milliseconds(1);  // of a host that has nothing to do
 
 }  // namespace
@@ -22,6 +23,11 @@ Result<void> PathWatch::begin() {
 Result<void> PathWatch::follow(const control::PlannedMove& move) {
     on_block_(blocks_++, move);
     return axes_.follow(move);
+}
+
+Result<control::ProbeOutcome> PathWatch::probe(const control::PlannedMove& move, bool release) {
+    on_block_(blocks_++, move);
+    return axes_.probe(move, release);
 }
 
 void PathWatch::pull() {
@@ -47,44 +53,56 @@ namespace {
 /// Lines of a program as far as the stream takes them.
 class Feeder {
   public:
-    Feeder(std::string_view text, const std::string& file, control::ProgramRun& run) : lines_(text), file_(file), run_(run) {}
+    Feeder(std::string_view text, const control::gcode::Settings& settings, const std::string& file, control::ProgramRun& run)
+        : walk_(text, settings, file), run_(run) {}
 
     void feed(control::Stream& stream) {
         std::string_view text;
         while (more_ && stream.has_room()) {
-            more_ = lines_.next(text);
-            if (!more_) return;
-            run_.lines = lines_.number();
-            if (auto read = stream.line(text, lines_.number()); !read) {
-                problem_ = read.error();
-                problem_->file = file_;
+            if (!walk_.next(text)) {
                 more_ = false;
+                if (auto over = stream.program_over(); !over) fault(over.error(), walk_.file());
                 return;
             }
-            if (end_.at(stream.interpreter().block())) {
-                more_ = false;
-                run_.ended = true;
+            if (auto read = stream.line(text, walk_.number(), walk_); !read) {
+                control::gcode::Problem problem = read.error();
+                if (problem.file.empty()) walk_.place(problem);
+                return fault(problem, problem.file);
             }
+            run_.lines = walk_.furthest();
+            const control::gcode::Block& block = stream.interpreter().block();
+            using control::gcode::m_stop;
+            run_.ended = run_.ended || (block.has_m(m_stop) && (block.m[m_stop] == 2 || block.m[m_stop] == 30));
         }
     }
     bool more() const { return more_; }
     Result<void> outcome() const { return problem_ ? Result<void>(tl::unexpected<Error>(*problem_)) : Result<void>(); }
 
   private:
-    control::gcode::Lines lines_;
-    control::gcode::ProgramEnd end_;
-    const std::string& file_;
+    void fault(const Error& error, const std::string& file) {
+        problem_ = error;
+        problem_->file = file;
+        more_ = false;
+    }
+
+    control::gcode::Walk walk_;
     control::ProgramRun& run_;
     bool more_ = true;
     std::optional<Error> problem_;
 };
 
-Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& orders, Feeder& feeder, const std::string& file) {
+Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& orders, Feeder& feeder, const std::string& file, control::ProgramRun& run) {
     using control::StreamState;
+    std::int64_t probes = stream.last_probe().count;
     while (true) {
         if (!orders.stopped()) feeder.feed(stream);
-        MOTIONRACK_TRY(const StreamState state, stream.drive(feeder.more()));
-        switch (state) {
+        const Result<StreamState> driven = stream.drive(feeder.more());
+        if (const control::ProbeReport& probe = stream.last_probe(); probe.begun && probe.count != probes) {
+            probes = probe.count;
+            if (run.probes.size() < most_probes) run.probes.push_back({probe.line, probe.probe, probe.outcome});
+        }
+        if (!driven) return tl::unexpected<Error>(driven.error());
+        switch (*driven) {
             case StreamState::waiting: host.pass(look); break;
             case StreamState::held:
                 if (!orders.holds())
@@ -115,8 +133,8 @@ Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPla
         const bool linear = start[0] != move.end[0] || start[1] != move.end[1] || start[2] != move.end[2] || move.kind == control::MoveKind::arc;
         if (linear) path_mm += control::geometry_of(move, start).length;
     });
-    Feeder feeder(text, file, run);
-    const Result<void> ended = drive(stream, host, orders, feeder, file);
+    Feeder feeder(text, stream.fresh_settings(), file, run);
+    const Result<void> ended = drive(stream, host, orders, feeder, file, run);
     stream.on_move({});
     run.plan.moves = run.moves;
     run.plan.path_mm = path_mm;
