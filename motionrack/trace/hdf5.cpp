@@ -218,6 +218,8 @@ Result<File> File::open(const std::string& path) {
     out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
     if (out.file_) return out;
     const std::string first = why();
+    // Beside a writer the library looks again at what does not fit together, waiting twice as long each time: 20 looks take a ms.
+    H5Pset_metadata_read_attempts(access.get(), 20);
     out.file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get()), H5Fclose);
     out.unfinished_ = true;
     if (out.file_) return out;

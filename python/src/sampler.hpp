@@ -9,6 +9,7 @@
 #include <motionrack/rack/rack.hpp>
 #include <motionrack/rack/wire_desk.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace motionrack::python {
@@ -28,10 +29,8 @@ class Sampler {
     static Result<Sampler> create(rack::Rack& rack, const rack::WireDesk& desk, const std::vector<std::string>& names,
                                   std::size_t most);
 
-    /// Between runs.
+    /// Between runs. Where there are more than `most`, every second one is dropped, and from then on only every second one is kept.
     void take(Instant now);
-    /// How many instants between two that are kept: doubled whenever there are more than `most`.
-    std::size_t every() const { return every_; }
     const std::vector<std::int64_t>& ticks() const { return ticks_; }
     const std::vector<Channel>& channels() const { return channels_; }
 

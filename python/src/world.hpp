@@ -92,8 +92,10 @@ class World {
     void stop() { stop_ = true; }
     bool stopped() const { return stop_; }
     void go_on() { stop_ = false; }
-    /// What reports and drains; for those who run the rack through a driver it is called by itself.
+    /// Between two runs of the kernel: does faults that are due, takes samples, drains recordings, lets Python look. While a driver or a job
+    /// runs the rack, its host calls this.
     void between();
+    /// After something else had the host's slices (a job, a homing).
     void listen_again();
 
     /// The thread that has the rack; see Turn.

@@ -225,6 +225,7 @@ class Interpreter {
     bool cycle(std::int16_t code);
     bool cycle_words(std::int16_t code);
     bool spindle_turns(std::int16_t code);
+    bool pecks_go(const CyclePlan& plan);
     bool cycle_within_limits(CyclePlan& plan);
     bool cycle_places(CyclePlan& plan);
     bool cycle_places_turned(CyclePlan& plan);

@@ -60,6 +60,15 @@ bool Interpreter::spindle_turns(std::int16_t code) {
                                code == 740 ? " counter-clockwise" : code == 840 ? " clockwise" : "", code == 740 ? "M4" : "M3"));
 }
 
+/// A peck that is too thin for its hole would go on for ever.
+bool Interpreter::pecks_go(const CyclePlan& plan) {
+    if (!is_pecking(plan.code) || (plan.peck * most_pecks >= plan.r - plan.bottom && plan.peck > 0)) return true;
+    return fail_at(block_.has('Q') ? block_.column[letter_index('Q')] : blame(), GrblStatus::bad_target,
+                   fmt::format("the peck depth Q is {:.6g} mm for a hole of {:.6g} mm; it must be above 0 and make at most 100000 "
+                               "pecks",
+                               plan.peck, plan.r - plan.bottom));
+}
+
 bool Interpreter::cycle(std::int16_t code) {
     if (next_.cutter != CutterSide::off) {
         return fail_at(blame(), GrblStatus::axis_conflict,
@@ -111,14 +120,7 @@ bool Interpreter::cycle(std::int16_t code) {
     plan.peck = next_.cycle_q;
     plan.clearance = settings_.peck_clearance_mm;
     plan.seconds = next_.cycle_p;
-    if (is_pecking(code) && !(plan.peck * most_pecks >= plan.r - plan.bottom && plan.peck > 0)) {
-        return fail_at(
-            block_.has('Q') ? block_.column[letter_index('Q')] : blame(), GrblStatus::bad_target,
-            fmt::format(
-                "the peck depth Q is {:.6g} mm for a hole of {:.6g} mm; it must be above 0 and make at most 100000 "
-                "pecks",
-                plan.peck, plan.r - plan.bottom));
-    }
+    if (!pecks_go(plan)) return false;
     plan.pattern.path = PathControl::exact_path;
     plan.pattern.line = line_;
     plan.pattern.kind = MoveKind::feed;

@@ -88,6 +88,17 @@ int check_program_file(const std::string& path, const CheckOptions& options, nlo
     return exit_done;
 }
 
+/// Six axes that go anywhere.
+control::MachineLimits boundless() {
+    control::MachineLimits limits = {};
+    for (control::AxisLimits& axis : limits) {
+        axis.present = true;
+        axis.min_position = -1e9;
+        axis.max_position = 1e9;
+    }
+    return limits;
+}
+
 int check(const CheckOptions& options) {
     int worst = exit_done;
     nlohmann::json json = nlohmann::json::array();
@@ -122,7 +133,7 @@ void add_canon(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("canon", "Print the canonical calls of a part program, one a line, as LinuxCNC's rs274 -g does");
     command->add_option("FILE", options->file, "part program ('-': standard input)")->required();
-    command->add_option("--rack", options->rack, "rack file whose axes and limits count (default: the built-in router)");
+    command->add_option("--rack", options->rack, "rack file whose axes, limits and start count (default: six axes without limits, at 0)");
     command->add_flag("--machine", options->machine, "machine coordinates in mm and degrees instead of the program's own");
     command->add_option("-t,--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43 and the diameters for G41, G42");
     command->add_flag("--numbered", options->numbered, "with the two columns of numbers that rs274 prints before each call");
@@ -132,7 +143,8 @@ void add_canon(CLI::App& app, Action& chosen) {
         chosen = [options]() -> int {
             namespace gcode = control::gcode;
             int code = exit_done;
-            const auto config = load_rack(options->rack, code);
+            std::optional<rack::RackConfig> config = rack::RackConfig();
+            if (!options->rack.empty()) config = load_rack(options->rack, code);
             if (!config) return code;
             const Result<std::string> text = read_text(options->file);
             if (!text) return report(text.error());
@@ -140,6 +152,7 @@ void add_canon(CLI::App& app, Action& chosen) {
             how.coordinates = options->machine ? gcode::Coordinates::machine : gcode::Coordinates::program;
             how.numbered = options->numbered;
             gcode::Settings settings = program_settings(*config, options->file, options->block_delete);
+            if (options->rack.empty()) settings.limits = boundless();
             if (!load_tools(options->tools, settings, code)) return code;
             settings.probe = true;  // what a probing move means does not depend on the rack
             const auto done = gcode::print_canon(

@@ -31,6 +31,23 @@ TEST(AMachine, TakesALonePercentSignAfterBlankLinesForTheBegin) {
     EXPECT_NEAR(o.x(), 30, 0.5 / 640);
 }
 
+TEST(AMachine, DrivesAProgramWithLoopsAndSubprogramsAndTakesPlainLinesAfterIt) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) {
+        EXPECT_TRUE(m.begin_program("o1 sub\nG1 X#1\no1 endsub\nG21 G90 F1200\n#1 = 10\no2 repeat [3]\n#1 = [#1 + 5]\no1 call [#1]\no2 endrepeat\nG10 L2 P1 R90\nM2\n", "p"));
+    });
+    o.at(6, [&](Machine& m) {
+        EXPECT_EQ(m.state(), MachineState::standstill);
+        EXPECT_NEAR(o.x(), 25, 0.5 / 640);
+        EXPECT_FALSE(m.line("G0 X#1", 1)) << "lines from a sender have no parameters";
+        EXPECT_FALSE(m.line("o1 call [1]", 2));
+        EXPECT_TRUE(m.line("G90 G1 X35 F1200", 3)) << "and no turned work system";
+    });
+    o.run(10);
+    EXPECT_NEAR(o.x(), 35, 0.5 / 640);
+    EXPECT_NEAR(o.y(), 0, 0.5 / 640);
+}
+
 TEST(AMachine, RefusesAProgramWithItsFirstProblemAndMovesNothing) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) {
