@@ -45,7 +45,11 @@ gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number) {
 
 gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number, gcode::Walk& walk) {
     text_ = text;
-    if (gcode::Outcome<void> read = interpreter_.line(text_, number, gcode::Language::program); !read) return read;
+    gcode::Outcome<void> read = interpreter_.line(text_, number, gcode::Language::program);
+    if (!read) {
+        walk.place(read.error());
+        return read;
+    }
     if (gcode::Outcome<void> taken = walk.took(interpreter_); !taken) return taken;
     unpulled_ = true;
     pull_steps();

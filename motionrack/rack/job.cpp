@@ -101,7 +101,7 @@ Result<void> Job::drive_by_stream(control::PathAxes& axes, const control::Contro
     rack_.on_slice(slice, [&] { listen(watch.heard()); });
     settings_.orders->attach(&stream);
     monitor_->begin();
-    const Result<void> ended = drive_live(stream, host, *settings_.orders, settings_.program, settings_.program_name, out.run);
+    const Result<void> ended = drive_live(stream, host, *settings_.orders, settings_.program, settings.gcode, settings_.program_name, out.run);
     out.time = rack_.kernel().now() - began_;
     listen(watch.heard());
     settings_.orders->attach(nullptr);

@@ -1,6 +1,7 @@
 // Lines go in while there is room, and the stream drives.
 #include <fmt/format.h>
 
+#include <motionrack/control/gcode/language/walk.hpp>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/rack/live_drive.hpp>
 #include <utility>
@@ -61,30 +62,27 @@ class Feeder {
         while (more_ && stream.has_room()) {
             if (!walk_.next(text)) {
                 more_ = false;
-                if (auto over = stream.program_over(); !over) fault(over.error(), walk_.file());
-                return;
+                if (auto over = stream.program_over(); !over) {
+                    problem_ = over.error();
+                    problem_->file = walk_.file();
+                }
+                break;
             }
             if (auto read = stream.line(text, walk_.number(), walk_); !read) {
-                control::gcode::Problem problem = read.error();
-                if (problem.file.empty()) walk_.place(problem);
-                return fault(problem, problem.file);
+                problem_ = read.error();
+                more_ = false;
+                return;
             }
             run_.lines = walk_.furthest();
             const control::gcode::Block& block = stream.interpreter().block();
-            using control::gcode::m_stop;
-            run_.ended = run_.ended || (block.has_m(m_stop) && (block.m[m_stop] == 2 || block.m[m_stop] == 30));
+            if (block.has_m(control::gcode::m_stop)) run_.ended = run_.ended || block.m[control::gcode::m_stop] == 2 || block.m[control::gcode::m_stop] == 30;
         }
+        if (!more_ && !problem_ && walk_.has_faults()) problem_ = walk_.take_fault();
     }
     bool more() const { return more_; }
     Result<void> outcome() const { return problem_ ? Result<void>(tl::unexpected<Error>(*problem_)) : Result<void>(); }
 
   private:
-    void fault(const Error& error, const std::string& file) {
-        problem_ = error;
-        problem_->file = file;
-        more_ = false;
-    }
-
     control::gcode::Walk walk_;
     control::ProgramRun& run_;
     bool more_ = true;
@@ -125,7 +123,8 @@ Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& or
 
 }  // namespace
 
-Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text, const std::string& file, control::ProgramRun& run) {
+Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPlan& orders, std::string_view text, const control::gcode::Settings& settings,
+                        const std::string& file, control::ProgramRun& run) {
     // What is left of a move after a hold is planned again: what was programmed counts.
     double path_mm = 0;
     stream.on_move([&](const control::Move& move, const control::Point& start) {
@@ -133,7 +132,7 @@ Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPla
         const bool linear = start[0] != move.end[0] || start[1] != move.end[1] || start[2] != move.end[2] || move.kind == control::MoveKind::arc;
         if (linear) path_mm += control::geometry_of(move, start).length;
     });
-    Feeder feeder(text, stream.fresh_settings(), file, run);
+    Feeder feeder(text, settings, file, run);
     const Result<void> ended = drive(stream, host, orders, feeder, file, run);
     stream.on_move({});
     run.plan.moves = run.moves;

@@ -131,9 +131,10 @@ class Trace(Mapping[str, Values]):
 
     def save_svg(self, path: str, *names: str) -> None:
         """Writes :meth:`svg` to a file."""
+        text = self.svg(*names)
         try:
             with open(path, "w", encoding="utf-8") as file:
-                file.write(self.svg(*names))
+                file.write(text)
         except OSError as error:
             raise FileTrouble(f"{path} cannot be written: {error}.") from None
 

@@ -91,7 +91,7 @@ bool Interpreter::set_tool() {
 
 /// Without a tool table every number is a tool's.
 bool Interpreter::known_tool(char letter, std::int32_t number) {
-    if (number == 0 || tools_.empty() || tools_.find(number)) return true;
+    if (number == 0 || settings_.tools.empty() || tools_.find(number)) return true;
     return fail_word(letter, GrblStatus::unsupported, fmt::format("{}: the tool table has no tool {}; write it into the table", written(letter), number));
 }
 
@@ -117,7 +117,6 @@ void Interpreter::restore(const Modes& saved) {
     next_.tolerance_mm = saved.tolerance_mm;
     next_.feed = saved.feed;
     next_.feed_rotary = saved.feed_rotary;
-    next_.speed_rpm = saved.speed_rpm;
     if (next_.system != modes_.system || frame_edited_) edit_frame().activate(next_.system);
 }
 

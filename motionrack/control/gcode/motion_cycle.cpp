@@ -62,11 +62,11 @@ bool Interpreter::spindle_turns(std::int16_t code) {
 
 /// A peck that is too thin for its hole would go on for ever.
 bool Interpreter::pecks_go(const CyclePlan& plan) {
-    if (!is_pecking(plan.code) || (plan.peck * most_pecks >= plan.r - plan.bottom && plan.peck > 0)) return true;
+    if (!is_pecking(plan.code) || (plan.peck * most_pecks >= (plan.r - plan.bottom) * plan.repeats && plan.peck > 0)) return true;
     return fail_at(block_.has('Q') ? block_.column[letter_index('Q')] : blame(), GrblStatus::bad_target,
-                   fmt::format("the peck depth Q is {:.6g} mm for a hole of {:.6g} mm; it must be above 0 and make at most 100000 "
-                               "pecks",
-                               plan.peck, plan.r - plan.bottom));
+                   fmt::format("the peck depth Q is {:.6g} mm for {} of {:.6g} mm; it must be above 0 and make at most 100000 "
+                               "pecks of one line",
+                               plan.peck, plan.repeats == 1 ? std::string("a hole") : fmt::format("{} holes", plan.repeats), plan.r - plan.bottom));
 }
 
 bool Interpreter::cycle(std::int16_t code) {

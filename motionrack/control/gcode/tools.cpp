@@ -126,7 +126,12 @@ Result<ToolTable> read_tool_table(std::string_view text, const std::string& file
 std::string to_text(const Tool& tool) {
     std::string out = fmt::format("T{} P{}", tool.number, tool.pocket);
     const auto add = [&out](char letter, double value) {
-        if (value != 0) out += fmt::format(" {}{}", letter, value);
+        if (value == 0) return;
+        std::string digits = fmt::format("{:.17f}", value);  // no exponent, which the table does not know
+        digits.erase(digits.find_last_not_of('0') + 1);
+        if (digits.back() == '.') digits.pop_back();
+        const std::string plain = fmt::format("{}", value);
+        out += fmt::format(" {}{}", letter, plain.find('e') == std::string::npos ? plain : digits);
     };
     for (std::size_t axis = 0; axis < axis_count; ++axis) add(axis_letters[axis], tool.offset[axis]);
     add('D', tool.diameter_mm);

@@ -1,6 +1,6 @@
 // replay: a recorded run once more, and whether it is the same bit for bit.
 #include <fmt/format.h>
-#include <unistd.h>
+#include <stdlib.h>  // mkdtemp
 
 #include <filesystem>
 #include <memory>
@@ -22,13 +22,17 @@ struct ReplayOptions {
     bool json = false, quiet = false;
 };
 
-/// A file that goes when it is no longer needed.
+/// A folder of one's own that goes when it is no longer needed.
 struct Scratch {
-    std::string path;
-    bool keep = false;
+    std::string folder;
+    Scratch() {
+        std::error_code none;
+        std::string name = (std::filesystem::temp_directory_path(none) / "motionrack_replay_XXXXXX").string();
+        if (!none && ::mkdtemp(name.data()) != nullptr) folder = name;
+    }
     ~Scratch() {
         std::error_code ignored;
-        if (!keep) std::filesystem::remove(path, ignored);
+        if (!folder.empty()) std::filesystem::remove_all(folder, ignored);
     }
 };
 
@@ -79,11 +83,13 @@ int replay(const ReplayOptions& options) {
     std::error_code none;
     if (!options.record.empty() && std::filesystem::equivalent(options.record, options.recording, none))
         return report({Trouble::refused, "The replay would be written over its recording; choose another name. Nothing was run."});
-    const std::string scratch = (std::filesystem::temp_directory_path() / fmt::format("motionrack_replay_{}.h5", ::getpid())).string();
-    const Scratch file{options.record.empty() ? scratch : options.record, !options.record.empty()};
-    if (const int bad = run_again(*recording, file.path, options); bad != exit_done) return bad;
+    const Scratch scratch;
+    if (options.record.empty() && scratch.folder.empty())
+        return report({Trouble::io, "There is no folder for temporary files (TMPDIR); choose a name with --record. Nothing was run."});
+    const std::string path = options.record.empty() ? scratch.folder + "/replay.h5" : options.record;
+    if (const int bad = run_again(*recording, path, options); bad != exit_done) return bad;
     if (stop_asked) return report({Trouble::stopped, "Stopped before the replay was done; nothing is told of it."});
-    return compare(*recording, file.path, options);
+    return compare(*recording, path, options);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <memory>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/trace/csv.hpp>
 #include <motionrack/trace/diff.hpp>
@@ -33,6 +34,7 @@ Result<trace::ReportData> read_data(const std::string& path) {
 }
 
 int make_report(const ReportOptions& options) {
+    if (!may_write({options.recording}, {options.no_report ? "" : options.report, options.csv, options.events})) return exit_refused;
     const Result<trace::ReportData> data = read_data(options.recording);
     if (!data) return report(data.error());
     std::vector<std::string> written;

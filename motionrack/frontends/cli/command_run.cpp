@@ -25,14 +25,17 @@ struct RunOptions {
     bool json = false, quiet = false, no_report = false, block_delete = false, stream = false;
 };
 
+/// Problems until a program that is not checked first is given up.
+constexpr int most_unchecked = 10'000;
+
 /// What is to be run; the exit code where it cannot.
 int read_request(const RunOptions& options, rack::JobRequest& request) {
     int code = exit_done;
-    auto config = load_rack(options.rack, code);
-    if (!config) return code;
-    request.config = std::move(*config);
     Result<ProgramText> rack_text = load_rack_text(options.rack);
     if (!rack_text) return report(rack_text.error());
+    auto config = print_reading(rack::read_rack_text(rack_text->text, rack_text->name), code);
+    if (!config) return code;
+    request.config = std::move(*config);
     Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
     request.rack_text = std::move(rack_text->text);
@@ -61,7 +64,8 @@ void keep_subprograms(control::gcode::Settings& settings, std::map<std::string, 
     };
 }
 
-int write_results(const rack::RecordedJob& job, const RunOptions& options) {
+/// `whole`: what was written while it ran is.
+int write_results(const rack::RecordedJob& job, const RunOptions& options, bool whole) {
     int code = exit_done;
     std::vector<std::string> written;
     const auto write = [&](const std::string& path, const auto& writer) {
@@ -74,8 +78,8 @@ int write_results(const rack::RecordedJob& job, const RunOptions& options) {
     write(options.no_report ? std::string() : options.report, trace::write_report);
     write(options.csv, trace::write_csv);
     write(options.events, trace::write_events_csv);
-    if (!options.vcd.empty()) written.push_back(options.vcd);
-    if (!options.record.empty()) written.push_back(options.record);
+    if (whole && !options.vcd.empty()) written.push_back(options.vcd);
+    if (whole && !options.record.empty()) written.push_back(options.record);
     if (!options.json && !written.empty() && !options.quiet) fmt::print("\nwritten: {}\n", fmt::join(written, ", "));
     return code;
 }
@@ -92,6 +96,7 @@ void print_outcome(const rack::RecordedJob& job, const rack::JobRequest& request
 
 int run(const RunOptions& options) {
     rack::JobRequest request;
+    if (!may_write({options.program, options.rack, options.tools}, {options.no_report ? "" : options.report, options.record, options.vcd, options.csv, options.events})) return exit_refused;
     if (const int bad = read_request(options, request); bad != exit_done) return bad;
     int unread = exit_done;
     control::gcode::Settings settings = program_settings(request.config, request.program_name, options.block_delete);
@@ -100,8 +105,10 @@ int run(const RunOptions& options) {
     request.tools = settings.tools;
     if (const Result<void> good = control::gcode::check_settings(settings); !good) return report(good.error());
     const std::string& name = request.program_name;
+    // Without a check first it is read all the same: for the subprograms that it calls.
+    const control::gcode::Check check = control::gcode::check_program(request.program, settings, options.stream ? most_unchecked : 20, name);
     if (!options.stream)
-        if (const int bad = print_problems(control::gcode::check_program(request.program, settings, 20, name), name); bad != exit_done) return bad;
+        if (const int bad = print_problems(check, name); bad != exit_done) return bad;
 
     rack::JobWatchers watchers;
     watchers.recording = options.record;
@@ -120,10 +127,11 @@ int run(const RunOptions& options) {
     });
     progress.clear();
     int code = exit_done;
-    if (const Result<void> done = (*job)->finish(); !done) code = report(done.error());
+    const Result<void> done = (*job)->finish();
+    if (!done) code = report(done.error());
     if (!outcome.ended) code = report(outcome.ended.error());
     print_outcome(**job, request, outcome, options);
-    const int wrote = write_results(**job, options);
+    const int wrote = write_results(**job, options, done.has_value());
     if (code == exit_done) code = wrote;
     return code == exit_done && !outcome.position_trusted ? static_cast<int>(exit_machine) : code;
 }

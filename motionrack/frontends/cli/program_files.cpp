@@ -32,6 +32,10 @@ std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_cod
         const Result<ProgramText> text = load_rack_text(path, built_in);
         reading = rack::read_rack_text(text->text, text->name);
     }
+    return print_reading(std::move(reading), exit_code_out);
+}
+
+std::optional<rack::RackConfig> print_reading(rack::RackReading reading, int& exit_code_out) {
     for (const Error& warning : reading.warnings) print_warning(warning.text());
     for (const Error& error : reading.errors) print_error(error.text());
     if (!reading.errors.empty()) exit_code_out = exit_code(reading.errors.front().trouble);
@@ -63,6 +67,25 @@ bool load_tools(const std::string& path, control::gcode::Settings& settings, int
     else
         exit_code_out = report(tools.error());
     return tools.has_value();
+}
+
+bool may_write(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
+    const auto same = [](const std::string& a, const std::string& b) {
+        std::error_code none;
+        return !a.empty() && !b.empty() && (std::filesystem::equivalent(a, b, none) || std::filesystem::weakly_canonical(a, none) == std::filesystem::weakly_canonical(b, none));
+    };
+    const auto is_device = [](const std::string& path) {
+        std::error_code none;
+        return std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none);
+    };
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        if (is_device(outputs[i])) continue;
+        for (const std::string& input : inputs)
+            if (same(input, outputs[i])) return print_error(fmt::format("{} is read, so nothing can be written there; choose another name. Nothing was done.", outputs[i])), false;
+        for (std::size_t k = 0; k < i; ++k)
+            if (same(outputs[k], outputs[i])) return print_error(fmt::format("Two things would be written to {}; choose another name for one. Nothing was done.", outputs[i])), false;
+    }
+    return true;
 }
 
 int print_problems(const control::gcode::Check& check, const std::string& name) {

@@ -27,6 +27,9 @@ enum class BuiltInRack { router, demonstration };
 /// Reads a rack file, prints its warnings, and every error; nothing if there are errors. An empty path is the built-in one.
 std::optional<rack::RackConfig> load_rack(const std::string& path, int& exit_code, BuiltInRack built_in = BuiltInRack::router);
 
+/// The warnings of a reading, and every error; nothing if there are errors.
+std::optional<rack::RackConfig> print_reading(rack::RackReading reading, int& exit_code);
+
 /// The text that load_rack reads from this path, and what it is called. Errors: io.
 Result<ProgramText> load_rack_text(const std::string& path, BuiltInRack built_in = BuiltInRack::router);
 
@@ -36,6 +39,9 @@ control::gcode::Settings program_settings(const rack::RackConfig& config, const 
 
 /// Reads a tool table into the settings; an empty path leaves them. False: it was told what is wrong, `exit_code` says how.
 bool load_tools(const std::string& path, control::gcode::Settings& settings, int& exit_code);
+
+/// Whether none of the files that are to be written is one that is read, or another one of them. False: it was told which.
+bool may_write(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
 /// Prints up to 20 problems of a program with their lines; the exit code (0 if there are none).
 int print_problems(const control::gcode::Check& check, const std::string& name);

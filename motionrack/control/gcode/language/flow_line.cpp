@@ -22,6 +22,15 @@ void skip_blanks(std::string_view text, std::size_t& at) {
     while (at < text.size() && is_blank(text[at])) ++at;
 }
 
+/// Blanks and closed comments.
+void skip_comments(std::string_view text, std::size_t& at) {
+    for (skip_blanks(text, at); at < text.size() && text[at] == '('; skip_blanks(text, at)) {
+        const std::size_t close = text.find(')', at);
+        if (close == std::string_view::npos) return;
+        at = close + 1;
+    }
+}
+
 /// Behind the value of a computed label: its brackets are paired, names and digits are passed.
 std::size_t end_of_value(std::string_view text, std::size_t at) {
     int open = 0;
@@ -40,24 +49,21 @@ std::string_view name_of(FlowWord word) {
 }
 
 bool is_rest_empty(std::string_view text, std::size_t at) {
-    for (skip_blanks(text, at); at < text.size() && text[at] == '('; skip_blanks(text, at)) {
-        const std::size_t close = text.find(')', at);
-        if (close == std::string_view::npos) return false;
-        at = close + 1;
-    }
+    skip_comments(text, at);
     return at == text.size() || text[at] == ';';
 }
 
 std::size_t find_flow(std::string_view text, bool block_delete) {
     std::size_t at = 0;
-    skip_blanks(text, at);
+    skip_comments(text, at);
     if (at < text.size() && text[at] == '/') {
         if (block_delete) return std::string_view::npos;
         ++at;
-        skip_blanks(text, at);
+        skip_comments(text, at);
     }
     if (at < text.size() && upper(text[at]) == 'N') {
         for (++at; at < text.size() && (is_digit(text[at]) || is_blank(text[at])); ++at) continue;
+        skip_comments(text, at);
     }
     return at < text.size() && upper(text[at]) == 'O' ? at : std::string_view::npos;
 }

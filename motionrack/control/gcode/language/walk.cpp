@@ -61,7 +61,11 @@ Outcome<void> Walk::follow(Interpreter& interpreter) {
     begun_ = true;
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     const std::int32_t at = source_->index->at_line(lines_.number());
-    if (at == no_place) return {};
+    if (at == no_place) {
+        set_problem(problem_, source_->text, 0, GrblStatus::unsupported, "this O word was not found when the program was looked through; put it first on its line");
+        problem_.place = {number(), 1};
+        return tl::unexpected<Problem>(problem_);
+    }
     const FlowPlace place = place_at(at);
     if (!within_budget(place) || !execute(place, at, interpreter)) return tl::unexpected<Problem>(problem_);
     return {};
@@ -72,10 +76,11 @@ bool Walk::within_budget(const FlowPlace& place) {
     furthest_ = furthest();
     walked_ += lines_.number() - counted_from_;
     counted_from_ = lines_.number();
-    if (walked_ <= most_lines_ + source_->index->lines) return true;
+    const Source& main = *sources_.front();
+    if (walked_ <= most_lines_ + (main.index ? main.index->lines : source_->index->lines)) return true;
     over_ = true;
     return fail(place, place.column,
-                fmt::format("the program has gone through {} lines by now and is not over; does this loop or call ever end? No more of it was read", most_lines_));
+                fmt::format("the program has gone through {} lines by now and is not over; does this loop or call ever end? No more of it was read", walked_));
 }
 
 void Walk::jump(const FlowPlace& place) {

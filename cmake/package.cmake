@@ -1,0 +1,49 @@
+# Debian packages of what cmake --install puts where: cpack -G DEB in a build that was configured with -DCMAKE_INSTALL_PREFIX=/usr.
+#
+#   motionrack            program, page, manual, completion, systemd unit, examples, rack files
+#   libmotionrack0        the shared C libraries                  ◄── libmotionrack-dev: headers, archives, CMake and pkg-config files, Pascal unit
+#   python3-motionrack    the Python package, where it was built
+#
+# packaging/test installs them in a clean Debian.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME motionrack)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT "Motionrack maintainers <maintainers@motionrack.invalid>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_OUTPUT_FILE_PREFIX ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_THREADS 0)
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program library dev)
+if(TARGET motionrack_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(same "(= ${PROJECT_VERSION}-1)")
+
+# motionrack_package(COMPONENT NAME SECTION SENTENCE [DEPENDS] [RECOMMENDS])
+function(motionrack_package component name section sentence)
+  string(TOUPPER ${component} c)
+  set(CPACK_DEBIAN_${c}_PACKAGE_NAME ${name} PARENT_SCOPE)
+  set(CPACK_DEBIAN_${c}_PACKAGE_SECTION ${section} PARENT_SCOPE)
+  set(CPACK_COMPONENT_${c}_DESCRIPTION "${PROJECT_DESCRIPTION}: ${sentence}" PARENT_SCOPE)
+  if(ARGC GREATER 4)
+    set(CPACK_DEBIAN_${c}_PACKAGE_DEPENDS "${ARGV4}" PARENT_SCOPE)
+  endif()
+  if(ARGC GREATER 5)
+    set(CPACK_DEBIAN_${c}_PACKAGE_RECOMMENDS "${ARGV5}" PARENT_SCOPE)
+  endif()
+endfunction()
+motionrack_package(program motionrack science "the program, the page of its operator panel, examples" "" "fonts-dejavu-core, cyclonedds-tools")
+motionrack_package(library libmotionrack0 libs "shared C libraries")
+motionrack_package(dev libmotionrack-dev libdevel "headers and libraries for C, C++ and Pascal"
+                   "libmotionrack0 ${same}, libfmt-dev, libexpected-dev, libtomlplusplus-dev, zlib1g-dev" "cyclonedds-dev, libpugixml-dev")
+motionrack_package(python python3-motionrack python "the Python package" "python3 (>= 3.11), python3 (<< 3.12), python3-numpy" "python3-matplotlib")
+include(CPack)
