@@ -6,6 +6,7 @@
 #include <functional>
 #include <motionrack/control/stream.hpp>
 #include <motionrack/rack/job.hpp>
+#include <motionrack/rack/order_plan.hpp>
 #include <motionrack/rack/test/config_helpers.hpp>
 
 namespace motionrack::rack {
@@ -88,6 +89,48 @@ TEST(Probing, LeavesAndTouchesWithinOneProgram) {
     EXPECT_NEAR(out.axes[2].real_end, edge + 5, 0.01);
     EXPECT_EQ(out.axes[0].real_end, 10);
     EXPECT_EQ(out.run.moves, 5);
+}
+
+/// Down in steps until the probe touches, three times along X, with what it found kept; then up above the lowest place, and X to where a sub
+/// says. Subs, loops and conditions go by what the probe did.
+constexpr const char* measures =
+    "G21 G90 G94\n#<least> = 1000\no<down> sub (step)\n  G91\n  o10 do\n    G38.3 Z-#1 F1200\n  o10 while [#5070 EQ 0]\n  G90\n"
+    "o<down> endsub [#5063]\n#<k> = 0\no20 while [#<k> LT 3]\n  o<down> call [7.5 + #<k>]\n  #[100 + #<k>] = #<_value>\n"
+    "  o21 if [#<_value> LT #<least>]\n    #<least> = #<_value>\n  o21 endif\n  G0 Z60\n  #<k> = [#<k> + 1]\n  G0 X[#<k> * 10]\no20 endwhile\n"
+    "G0 Z[#<least> + 5]\no30 if [ABS[#100 - #102] LT 0.0001]\n  G41.1 D4\n  G1 X50 Y20 F1200\n  X80\n  G40 G0 X90 Y10\no30 endif\n"
+    "(DEBUG, lowest #<least>)\nM2\n";
+
+void expect_measured(const JobOutcome& out) {
+    ASSERT_TRUE(out.ended) << out.ended.error().text();
+    EXPECT_TRUE(out.run.ended);
+    const double edge = 80 - std::ceil((80 - 12.34) * pulses_per_mm - 0.5) / pulses_per_mm;
+    EXPECT_NEAR(out.axes[2].real_end, edge + 5, 0.002);
+    EXPECT_NEAR(out.axes[0].real_end, 90, 0.002);
+    EXPECT_NEAR(out.axes[1].real_end, 10, 0.002);
+    int hits = 0;
+    for (const control::ProgramProbe& probe : out.run.probes) {
+        hits += probe.outcome.hit;
+        EXPECT_NEAR(probe.outcome.at[2], probe.outcome.hit ? edge : probe.outcome.at[2], 1e-9);
+    }
+    EXPECT_EQ(hits, 3);
+    EXPECT_GT(out.run.probes.size(), 10u);
+}
+
+TEST(Probing, LoopsSubsAndConditionsGoByWhatTheProbeDid) {
+    expect_measured(run(rack_text("z_to_mm = 12.34\n"), measures));
+}
+
+TEST(Probing, AndSoTheyDoWhereTheProgramIsHeldOnItsWay) {
+    Rack rack(good(rack_text("z_to_mm = 12.34\n")));
+    auto orders = OrderPlan::create(rack, {{milliseconds(1000), "hold", "hold@1"}, {milliseconds(2000), "resume", "resume@2"}});
+    ASSERT_TRUE(orders) << orders.error().message;
+    JobSettings settings;
+    settings.program = measures;
+    settings.orders = orders->get();
+    Job job(rack, settings);
+    rack.start();
+    (*orders)->begin();
+    expect_measured(job.run());
 }
 
 TEST(Probing, AThinPlateIsCaughtAlsoWhereTheAxisRunsThroughIt) {
