@@ -51,7 +51,7 @@ TEST_P(Example, PrintsWhatItsFolderSays) {
     EXPECT_EQ(printed, text_of(folder / "expected.txt"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Folders, Example, testing::Values("01_first_move", "02_part", "03_helix", "04_s_curve", "05_limit_hit", "08_homing", "11_carriage"));
+INSTANTIATE_TEST_SUITE_P(Folders, Example, testing::Values("01_first_move", "02_part", "03_helix", "04_s_curve", "05_limit_hit", "08_homing", "11_carriage", "16_probe"));
 
 TEST(Examples, TheLibraryExampleEndsWhereItsProgramSays) {
     const Ran ran = run(examples, MOTIONRACK_LIBRARY_EXAMPLE);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <motionrack/control/planner_for.hpp>
+#include <motionrack/control/probing.hpp>
 
 namespace motionrack::control {
 
@@ -36,10 +37,14 @@ std::string words_of(const gcode::Step& step) {
 Controller::Controller(PathAxes& axes, const ControllerSettings& settings)
     : axes_(axes),
       settings_(settings) {
-    if (settings.jerk_limited)
-        planner_ = std::make_unique<RideMoves>(ride_for(axes, settings.gcode.limits, settings.kept_back, {}, settings.gcode.start));
+    plan_from(settings.gcode.start);
+}
+
+void Controller::plan_from(const Point& start) {
+    if (settings_.jerk_limited)
+        planner_ = std::make_unique<RideMoves>(ride_for(axes_, settings_.gcode.limits, settings_.kept_back, {}, start));
     else
-        planner_ = std::make_unique<Planner>(planner_for(axes, settings.gcode.limits, settings.kept_back, settings.planner, settings.gcode.start));
+        planner_ = std::make_unique<Planner>(planner_for(axes_, settings_.gcode.limits, settings_.kept_back, settings_.planner, start));
 }
 
 Result<void> Controller::hand_over() {
@@ -62,8 +67,12 @@ Result<void> Controller::stopped() {
 }
 
 void Controller::remember(const gcode::Step& step, ProgramRun& run) {
+    note({step.line, blocks_ - 1, words_of(step)}, run);
+}
+
+void Controller::note(ProgramEvent event, ProgramRun& run) {
     if (run.events.size() < settings_.event_limit)
-        run.events.push_back({step.line, blocks_ - 1, words_of(step)});
+        run.events.push_back(std::move(event));
     else
         ++run.events_left_out;
 }
@@ -85,6 +94,27 @@ Result<void> Controller::take(const gcode::Step& step, ProgramRun& run) {
     return {};
 }
 
+/// Everything before it is driven, then the probing move alone; the program goes on where the machine stands.
+Result<void> Controller::probe(const gcode::Step& step, gcode::Reader& reader, ProgramRun& run) {
+    run.moves += 1;
+    planner_->flush();
+    MOTIONRACK_CHECK(hand_over());
+    MOTIONRACK_CHECK(axes_.finish());
+    MOTIONRACK_TRY(const PlannedMove planned, plan_alone(axes_, settings_.gcode.limits, settings_.kept_back, step.move));
+    summary_.add(planned);
+    if (on_block_) on_block_(blocks_, planned);
+    ++blocks_;
+    MOTIONRACK_TRY(const ProbeOutcome outcome, axes_.probe(planned, gcode::probe_leaves(step.probe)));
+    const Point stands = axes_.commanded_position();
+    reader.probed(outcome.hit, outcome.at, stands);
+    plan_from(stands);
+    if (run.probes.size() < settings_.event_limit) run.probes.push_back({step.line, step.probe, outcome});
+    const std::string what = probe_text(step.probe, outcome);
+    note({step.line, blocks_ - 1, what}, run);
+    if (outcome.hit || !gcode::probe_must(step.probe)) return {};
+    return fail(Trouble::machine, fmt::format("In line {} the {}. Nothing after it was driven.", step.line, what), {step.line, 1});
+}
+
 Result<void> Controller::run(std::string_view text, const std::string& file, ProgramRun& run) {
     MOTIONRACK_CHECK(axes_.begin());
     gcode::Reader reader(text, settings_.gcode, file);
@@ -97,7 +127,7 @@ Result<void> Controller::run(std::string_view text, const std::string& file, Pro
             break;
         }
         if (*step == nullptr) break;
-        outcome = take(**step, run);
+        outcome = (*step)->probe != gcode::Probe::none ? probe(**step, reader, run) : take(**step, run);
     }
     // What was read before a problem is driven to its end, so that the machine stands where the program says.
     const bool axes_stopped =

@@ -25,6 +25,13 @@ struct ProgramEvent {
     std::string text;  ///< "spindle clockwise at 12000 rpm", "message: clamp the part"
 };
 
+/// A probing move of the program.
+struct ProgramProbe {
+    int line = 0;
+    gcode::Probe probe = gcode::Probe::none;
+    ProbeOutcome outcome;
+};
+
 struct ControllerSettings {
     gcode::Settings gcode;          ///< limits, start position, offsets
     PlannerSettings planner;
@@ -41,6 +48,7 @@ struct ProgramRun {
     std::int64_t moves = 0;            ///< read, without dwells
     std::vector<ProgramEvent> events;
     std::int64_t events_left_out = 0;
+    std::vector<ProgramProbe> probes;  ///< as many as events are kept
     bool ended = false;                ///< by M2 or M30
 };
 
@@ -60,6 +68,9 @@ class Controller {
     Result<void> hand_over();
     Result<void> stopped();
     Result<void> take(const gcode::Step& step, ProgramRun& run);
+    Result<void> probe(const gcode::Step& step, gcode::Reader& reader, ProgramRun& run);
+    void plan_from(const Point& start);
+    void note(ProgramEvent event, ProgramRun& run);
     void remember(const gcode::Step& step, ProgramRun& run);
 
     PathAxes& axes_;

@@ -25,6 +25,12 @@ struct BlockStart {
     Instant at{};
 };
 
+/// How a probing move ended.
+struct ProbeOutcome {
+    bool hit = false;  ///< the probe touched, or left
+    Point at = {};     ///< where the axes were at that instant, as the card caught it; if not hit, where they stand
+};
+
 /// "X 10.0000, Y 5.0000": of the axes that are there.
 std::string place_text(const Point& at, const MachineLimits& limits);
 
@@ -43,6 +49,13 @@ class PathAxes {
     virtual Result<void> follow(const PlannedMove& move) = 0;
     /// Drives what is left; returns at standstill.
     virtual Result<void> finish() = 0;
+    /// Drives one straight move from rest to rest, and stops where the probe touches (`release`: leaves) on the way. Returns at standstill,
+    /// also when it does not; what follows begins there. Needs begin(), and standstill by finish(). Errors: refused, the card has no probe; machine, the probe
+    /// touches already (`release`: does not touch), or as follow().
+    virtual Result<ProbeOutcome> probe(const PlannedMove& move, bool release) {
+        (void)move, (void)release;
+        return fail(Trouble::refused, "The axes of this card have no probe.");
+    }
     /// Comes to a stop along the path as quickly as the acceleration allows (or at once) and forgets what was queued. In every state.
     virtual void stop(bool immediate) = 0;
     /// Where the card's own pulse counters say the axes are.

@@ -56,6 +56,13 @@ gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number, gc
     return {};
 }
 
+gcode::Outcome<void> Stream::program_over() {
+    if (gcode::Outcome<void> done = interpreter_.finish(); !done) return done;
+    unpulled_ = true;
+    pull_steps();
+    return {};
+}
+
 void Stream::move(const Move& move) {
     Step step;
     step.line = move.line;
@@ -75,7 +82,12 @@ void Stream::pull_steps() {
         const Step* step = unpulled_ ? interpreter_.pull() : nullptr;
         unpulled_ = step != nullptr;
         if (step == nullptr) return;
-        if (step->kind == StepKind::move && step->move.kind != MoveKind::dwell) {
+        if (step->probe != gcode::Probe::none) {
+            probe_waits_ = true;
+            ++moves_;
+            entries_.push_back({*step, {}, read_to_});
+            if (on_move_) on_move_(step->move, read_to_);
+        } else if (step->kind == StepKind::move && step->move.kind != MoveKind::dwell) {
             begin_cut(*step, false);
         } else {
             moves_ += step->kind == StepKind::move;
@@ -120,7 +132,7 @@ void Stream::add_piece() {
 void Stream::hold() {
     if (wish_ == Wish::stop || !has_work() || state_ == StreamState::held || state_ == StreamState::paused) return;
     wish_ = Wish::hold;
-    stop_flag_ = !ride_;
+    stop_flag_ = !ride_ && !probing_;
 }
 
 void Stream::resume() {
@@ -132,7 +144,7 @@ void Stream::resume() {
 void Stream::stop() {
     if (!path_begun_ && !has_work()) return;
     wish_ = Wish::stop;
-    stop_flag_ = !ride_;
+    stop_flag_ = !ride_ || probing_;
 }
 
 void Stream::set_overrides(double feed, double rapid) {
@@ -179,7 +191,7 @@ Result<void> Stream::fill_planner() {
 
 bool Stream::stops_before(const Entry& entry) const {
     if (single_step_ && entry.step.line != entries_.front().step.line) return true;
-    return entry.step.kind == StepKind::tool_change || entry.step.kind == StepKind::pause || entry.step.kind == StepKind::end;
+    return entry.is_probe() || entry.step.kind == StepKind::tool_change || entry.step.kind == StepKind::pause || entry.step.kind == StepKind::end;
 }
 
 /// Whether what the axes have goes on for longer than the margin.
@@ -226,6 +238,7 @@ Result<StreamState> Stream::stand() {
     }
     if (wish == Wish::hold && has_work()) return state_ = StreamState::held;
     while (!entries_.empty() && !entries_.front().is_move()) {
+        if (entries_.front().is_probe()) return probe();
         const bool pause = entries_.front().step.kind == StepKind::pause;
         pop();
         if (pause) return state_ = StreamState::paused;
@@ -270,7 +283,7 @@ void Stream::forget() {
     entries_.clear();
     cutting_.reset();
     moves_ = 0;
-    unpulled_ = false;
+    unpulled_ = probe_waits_ = false;
     planned_ = handed_ = 0;
     state_ = StreamState::rest;
     interpreter_.straighten();

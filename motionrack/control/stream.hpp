@@ -22,6 +22,7 @@
 #include <motionrack/control/path.hpp>
 #include <motionrack/control/path_axes.hpp>
 #include <motionrack/control/path_limits.hpp>
+#include <motionrack/control/probing.hpp>
 #include <motionrack/control/ride/ride_moves.hpp>
 #include <optional>
 #include <string>
@@ -47,22 +48,36 @@ enum class StreamState : std::uint8_t {
     paused    ///< stands after M0, M1 or a step; resume() goes on
 };
 
+/// The last probing move.
+struct ProbeReport {
+    std::int64_t count = 0;  ///< of probing moves that have ended, this one too
+    std::int32_t line = 0;
+    gcode::Probe probe = gcode::Probe::none;
+    bool begun = false;      ///< false: the probe touched before the move (G38.4, G38.5: did not touch)
+    ProbeOutcome outcome;
+
+    bool failed() const { return !begun || (!outcome.hit && gcode::probe_must(probe)); }
+};
+
 class Stream {
   public:
     /// `host`: whose time passes. The axes' stop flag must be stop_flag().
     Stream(PathAxes& axes, Interrupt& host, const StreamSettings& settings);
 
     // ---- what may be called at any time, also while drive() runs, from a slice of the host's time -------------------------------------
-    /// Whether line() takes another one.
-    bool has_room() const { return entries_.size() < settings_.most_entries && !unpulled_ && wish_ != Wish::stop; }
+    /// Whether line() takes another one. After a line that probes only when it has been done: the lines after it begin where it stopped.
+    bool has_room() const { return entries_.size() < settings_.most_entries && !unpulled_ && !probe_waits_ && wish_ != Wish::stop; }
     /// Reads and checks a line and puts its moves behind the others. Needs has_room(). Errors: it had no effect.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number);
     /// The same of a whole program that is walked through: in its whole language.
     gcode::Outcome<void> line(std::string_view text, std::int32_t number, gcode::Walk& walk);
+    /// No more lines of the program come: what waits for the next one (see gcode::Interpreter::finish) is put behind the others. Needs
+    /// has_room().
+    gcode::Outcome<void> program_over();
     /// Puts a move behind the others that no line has asked for: modes stay, the feed override does not count, and the lines after it
     /// begin where it ends. It must be one that the axes can do. Needs has_room().
     void move(const Move& move);
-    /// Decelerates along the path; drive() returns held. Nothing if nothing is driven.
+    /// Decelerates along the path; drive() returns held. Nothing if nothing is driven. A probing move goes to its end first.
     void hold();
     /// Goes on from a hold or a pause.
     void resume();
@@ -74,6 +89,9 @@ class Stream {
     void set_single_step(bool on) { single_step_ = on; }
     bool has_work() const { return !entries_.empty() || unpulled_; }
     std::size_t entries() const { return entries_.size(); }
+    const ProbeReport& last_probe() const { return last_probe_; }
+    /// A probing move was read and is not done.
+    bool probe_waits() const { return probe_waits_; }
     /// Moves and dwells, as they were read, that are not done.
     std::size_t moves() const { return moves_; }
     std::int32_t line_driven() const { return line_driven_; }
@@ -116,7 +134,8 @@ class Stream {
         std::int64_t number = 0;  ///< of a move that the ride has had
         bool last = true;    ///< piece of its move
         bool by_hand = false;  ///< not of a line
-        bool is_move() const { return step.kind == gcode::StepKind::move; }
+        bool is_probe() const { return step.probe != gcode::Probe::none; }
+        bool is_move() const { return step.kind == gcode::StepKind::move && !is_probe(); }
     };
     /// A move that is being cut.
     struct Cutting {
@@ -135,6 +154,7 @@ class Stream {
     Result<StreamState> hand_over(const PlannedMove& planned);
     Result<StreamState> finish_path();
     Result<StreamState> stand();
+    Result<StreamState> probe();
     Result<StreamState> interrupted(const Error& error);
     void keep_rest_of_path();
     void forget();
@@ -176,6 +196,9 @@ class Stream {
     bool unpulled_ = false;      ///< of the last line not everything is in entries_
     bool path_begun_ = false;    ///< the axes have moves that they were not told the end of
     bool single_step_ = false;
+    bool probe_waits_ = false;   ///< entries_ has a probing move, at its end but for events
+    bool probing_ = false;
+    ProbeReport last_probe_;
     double feed_ = 1, rapid_ = 1, feed_wanted_ = 1, rapid_wanted_ = 1;
     Wish wish_ = Wish::none;
     StreamState state_ = StreamState::rest;

@@ -28,6 +28,8 @@ enum Alarm : int {
     alarm_hard_limit = 1,
     alarm_soft_limit = 2,
     alarm_reset = 3,            ///< stopped in motion
+    alarm_probe_initial = 4,    ///< the probe touches before the move, or does not before one that leads away
+    alarm_probe_contact = 5,    ///< it did not touch, or leave, on the way
     alarm_homing_reset = 6,
     alarm_homing_door = 7,
     alarm_homing_pull_off = 8,  ///< the switch was found, but not its edge

@@ -164,11 +164,14 @@ void Session::watch_machine() {
         held_ = door_ = hold_seen_ = false;  // somebody else went on, or stopped it
     }
     while (!n_words_.empty() && n_words_.front().first < machine_.stream().line_driven()) n_words_.pop_front();
+    const control::ProbeReport& probe = machine_.stream().last_probe();
+    const bool probed = std::exchange(probes_told_, probe.count) != probe.count;
+    if (probed && probe.begun) put(probe_text());
     if (state != MachineState::error_stop) {
         stop_told_ = false;
     } else if (!std::exchange(stop_told_, true) && !(doing_ && doing_->what == Doing::What::homing)) {
         held_ = door_ = hold_seen_ = false;
-        alarm(number_of_stop(), true);
+        alarm(probed && probe.failed() ? (probe.begun ? alarm_probe_contact : alarm_probe_initial) : number_of_stop(), true);
         say(machine_.status().why);
     }
 }

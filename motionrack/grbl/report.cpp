@@ -99,9 +99,10 @@ std::string Session::counted_reports(State now) {
     return out;
 }
 
-/// Limit switches of the axes, and R: the emergency stop, which a Grbl has at its reset pin.
+/// P: the probe touches; limit switches of the axes; R: the emergency stop, which a Grbl has at its reset pin.
 std::string Session::pins() const {
     std::string out;
+    if (const Result<double> probe = machine_.wires().get("probe"); probe && *probe != 0) out += 'P';
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(settings_.axes); ++axis)
         if (limit_active(control::axis_letters[axis])) out += control::axis_letters[axis];
     if (contact_open("estop")) out += 'R';
@@ -157,8 +158,14 @@ std::string Session::parameters_text() const {
     for (std::size_t system = 0; system < control::gcode::grbl_work_system_count; ++system) out += fmt::format("[G{}:{}]\r\n", 54 + system, values(frame.work[system]));
     out += fmt::format("[G28:{}]\r\n[G30:{}]\r\n[G92:{}]\r\n", values(frame.g28), values(frame.g30), values(frame.g92));
     const bool inches = own_.inches != 0;
-    out += fmt::format("[TLO:{:.{}f}]\r\n[PRB:{}:0]\r\n", inches ? frame.tool[2] / mm_per_inch : frame.tool[2], inches ? 4 : 3, values({}));
-    return out;
+    out += fmt::format("[TLO:{:.{}f}]\r\n", inches ? frame.tool[2] / mm_per_inch : frame.tool[2], inches ? 4 : 3);
+    return out + probe_text();
+}
+
+/// Machine coordinates of the last contact; 0 at the end: there was none.
+std::string Session::probe_text() const {
+    const control::gcode::Frame& frame = interpreter().frame();
+    return fmt::format("[PRB:{}:{}]\r\n", values(frame.probe), frame.probe_hit ? 1 : 0);
 }
 
 }  // namespace motionrack::grbl

@@ -145,7 +145,8 @@ void Session::carry_out(const std::string& text) {
 bool Session::grbl_has(const Block& block) const {
     using namespace control::gcode;
     const std::uint32_t others = settings_.axes > 3 ? letter_bit('B') | letter_bit('C') : rotary_words;
-    return (block.words & others) == 0 && !block.has_m(m_tool);
+    const bool cutter = block.has_g(g_cutter) && block.g[g_cutter] != 400;
+    return (block.words & others) == 0 && !block.has_m(m_tool) && !cutter;
 }
 
 int Session::gcode(const std::string& text) {
@@ -165,7 +166,8 @@ int Session::gcode(const std::string& text) {
         if (ends) say("Pgm End");
         return error_none;
     }
-    if (!block.has_m(m_stop) && !(block.has_g(g_nonmodal) && block.g[g_nonmodal] == 40)) return error_none;
+    const bool probes = machine_.stream().probe_waits();
+    if (!probes && !block.has_m(m_stop) && !(block.has_g(g_nonmodal) && block.g[g_nonmodal] == 40)) return error_none;
     doing_ = Doing{Doing::What::moving};
     doing_->program_ends = ends;
     return answer_later;

@@ -130,6 +130,7 @@ class Session {
     std::string accessories() const;
     std::string modes_text() const;
     std::string parameters_text() const;
+    std::string probe_text() const;
     double spindle_rpm() const;
     double feed_now() const;
     const control::gcode::Interpreter& interpreter() const { return check_ ? *check_ : machine_.stream().interpreter(); }
@@ -153,6 +154,7 @@ class Session {
     bool hold_seen_ = false;       ///< the machine has come to its hold
     bool jogging_ = false;         ///< the machine jogs, or brakes after it
     bool stop_told_ = false;       ///< the machine's present error stop
+    std::int64_t probes_told_ = 0; ///< see control::ProbeReport::count
     bool was_g80_ = false;         ///< no motion mode because a line said so
     bool status_wanted_ = false;
     bool spindle_stopped_ = false;

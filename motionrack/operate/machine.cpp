@@ -112,6 +112,7 @@ Result<void> Machine::begin_program(std::string text, std::string name) {
     program_ = std::move(text);
     program_name_ = std::move(name);
     walk_.emplace(program_, stream_->fresh_settings(), program_name_);
+    over_ = false;
     line_count_ = static_cast<std::int32_t>(check.lines);
     program_runs_ = true;
     enter(MachineState::moving);
@@ -153,6 +154,7 @@ Result<void> Machine::resume() {
 
 void Machine::stop() {
     walk_.reset();
+    over_ = false;
     program_runs_ = false;
     stream_->stop();
     home_stop_ = true;

@@ -183,6 +183,7 @@ class Machine {
     // the program, or lines one by one
     std::string program_, program_name_;
     std::optional<control::gcode::Walk> walk_;
+    bool over_ = false;  ///< the last line was read, and what may wait for the next one still waits
     std::int32_t line_count_ = 0;
     bool program_runs_ = false, single_step_ = false;
     Instant last_line_{};

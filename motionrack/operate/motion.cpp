@@ -93,7 +93,7 @@ void Machine::step() {
     if (!jogs_.empty() || !jogging_.empty()) return jog_all();
     if (home_wanted_) return home_all();
     if (!positions_wanted_.empty()) return change_positions();
-    if (walk_ || stream_->has_work() || stream_->state() == control::StreamState::driving) return drive();
+    if (walk_ || over_ || stream_->has_work() || stream_->state() == control::StreamState::driving) return drive();
     if (stop_wanted_) return come_to_rest();
     watch_button();
     host().pass(settings_.slice);
@@ -137,19 +137,22 @@ void Machine::come_to_rest() {
 void Machine::feed_program() {
     std::string_view text;
     while (walk_ && stream_->has_room()) {
-        if (!walk_->next(text)) {
-            walk_.reset();
-            return;
+        if (walk_->next(text)) {
+            if (const auto read = stream_->line(text, walk_->number(), *walk_); !read) return failed(read.error());
+            continue;
         }
-        auto read = stream_->line(text, walk_->number(), *walk_);
-        if (!read) return failed(read.error());
+        walk_.reset();
+        over_ = true;
     }
+    if (!over_ || !stream_->has_room()) return;
+    over_ = false;
+    if (const auto done = stream_->program_over(); !done) return failed(done.error());
 }
 
 void Machine::drive() {
     feed_program();
     if (state_ == MachineState::error_stop) return;
-    const bool more = walk_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
+    const bool more = walk_ || over_ || (!program_runs_ && now() - last_line_ < settings_.quiet);
     const Result<control::StreamState> driven = stream_->drive(more);
     if (!driven) return failed(driven.error());
     switch (*driven) {
@@ -161,7 +164,7 @@ void Machine::drive() {
             host().pass(settings_.slice);
             break;
         case control::StreamState::rest:
-            if (walk_) break;
+            if (walk_ || over_) break;
             if (program_runs_) stream_->straighten();
             program_runs_ = false;
             if (state_ == MachineState::moving || state_ == MachineState::jogging) enter(MachineState::standstill);
@@ -242,6 +245,7 @@ std::string Machine::at_work() const {
 void Machine::failed(const Error& error) {
     const std::string what = at_work();
     walk_.reset();
+    over_ = false;
     program_runs_ = false;
     tools_off();
     const bool pressed = button_pressed();

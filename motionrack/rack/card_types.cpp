@@ -303,7 +303,7 @@ void* rtc5_of(RackCard& card) {
 constexpr std::array<CardType, 6> table = {{
     {"mcx314", "four-axis pulse chip with interpolation", "xyzu", mcx314_channel_pins, mcx314_chip_pins, mcx314_wires,
      "emgn", mcx314_settings, mcx314_of, mcx314_pulse_hz, mcx314_accel_hz_s, mcx314_encoder_hz, 2'147'483'647,
-     mcx314_stops, mcx314_stops, false, nullptr, nullptr, mcx314_lamps},
+     mcx314_stops, mcx314_stops, false, nullptr, nullptr, mcx314_lamps, "in3"},
     {"databoard4002",
      "intelligent positioning card for one axis, which has a servo or a stepping motor; with no axis on it an ideal "
      "motor follows its pulses, one count each",

@@ -72,6 +72,7 @@ struct CardType {
     /// Of cards whose settings say how many of the chip pins there are. May be nullptr: all of them.
     std::size_t (*chip_pin_count)(const RackCard& card) = nullptr;
     std::span<const Lamp> lamps = {};
+    std::string_view probe_pin = {};  ///< a channel's input at whose edge the card can catch its position; empty: none
 
     int channel_count() const { return channels.empty() ? (channel_pins.empty() ? 0 : 1) : static_cast<int>(channels.size()); }
     /// "x"; empty for the one channel without a letter.

@@ -73,6 +73,7 @@ class Mcx314Card final : public MotionCard {
         const Stand stand = stand_now();
         for (auto& one : single_) one.reset();
         axes_.emplace(driver_, axis_map(config), access_);
+        axes_->set_probe(probe_channels(config));
         MOTIONRACK_CHECK(axes_->set_up(position.value_or(position_of(config, stand))));
         for (int c = 0; c < mcx314::channel_count && !position; ++c) MOTIONRACK_CHECK(driver_.EPS(1u << c, stand.counts[static_cast<std::size_t>(c)]));
         group_trusted_ = stand.trusted;
@@ -132,6 +133,17 @@ class Mcx314Card final : public MotionCard {
         for (const RackAxis& axis : config.axes)
             if (axis.card == name_) map.channel[static_cast<std::size_t>(axis.index())] = channel_number(axis.channel);
         return map;
+    }
+
+    /// The channels whose IN3 is wired to the rack's probe, a bit each.
+    unsigned probe_channels(const RackConfig& config) const {
+        unsigned out = 0;
+        for (const RackWire& wire : config.wires) {
+            if (wire.from.owner != EndOwner::probe || wire.to.owner != EndOwner::card) continue;
+            if (config.cards[static_cast<std::size_t>(wire.to.index)].name != name_ || wire.to.pin.size() != 4 || wire.to.pin.substr(1) != "in3") continue;
+            out |= 1u << channel_number(wire.to.pin.substr(0, 1));
+        }
+        return out;
     }
 
     /// Where the channels stand, and whether that means a place of the machine.

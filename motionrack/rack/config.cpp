@@ -78,6 +78,7 @@ control::MachineLimits RackConfig::limits() const {
 
 std::string RackConfig::end_name(const WireEnd& end) const {
     if (end.owner == EndOwner::estop) return "estop";
+    if (end.owner == EndOwner::probe) return "probe";
     const auto index = static_cast<std::size_t>(end.index);
     const std::string owner = end.owner == EndOwner::card ? cards[index].name : end.owner == EndOwner::track ? tracks[index].name
                                                                                                              : std::string(1, axes[index].letter);

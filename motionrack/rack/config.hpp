@@ -207,6 +207,16 @@ struct RackAxis {
 /// An axis of that letter with the rack file's defaults (positions 0 .. 300 mm or 0 .. 360 degrees).
 RackAxis default_axis(char letter);
 
+// ---- Probe ------------------------------------------------------------------------------------------------------
+
+/// A touch probe and the block that it touches, machine coordinates in mm; along an axis without both bounds the block goes on for ever.
+struct RackProbe {
+    std::optional<double> x_from, x_to, y_from, y_to, z_from, z_to;
+
+    std::optional<double> from(int axis) const { return axis == 0 ? x_from : axis == 1 ? y_from : z_from; }
+    std::optional<double> to(int axis) const { return axis == 0 ? x_to : axis == 1 ? y_to : z_to; }
+};
+
 // ---- Stages -----------------------------------------------------------------------------------------------------
 
 /// The grating scale of a stage; see parts::LinearScaleSettings.
@@ -263,10 +273,10 @@ struct RackStage {
 
 // ---- Wires ------------------------------------------------------------------------------------------------------
 
-enum class EndOwner : std::uint8_t { card, axis, track, estop };
+enum class EndOwner : std::uint8_t { card, axis, track, estop, probe };
 
 /// One end of a wire: pin `pin` of cards[index] ("xpp"), end `pin` of axes[index] (see axis_ends()) or tracks[index] (see
-/// track_ends()), or the emergency stop (pin empty).
+/// track_ends()), or the emergency stop or the probe (pin empty).
 struct WireEnd {
     EndOwner owner = EndOwner::card;
     int index = 0;
@@ -316,6 +326,7 @@ struct RackConfig {
     std::string name = "rack";
     std::vector<RackCard> cards;  ///< in the order of the file
     std::vector<RackAxis> axes;   ///< in the order X Y Z A B C
+    std::optional<RackProbe> probe;
     std::vector<RackStage> stages;  ///< in the order of the file
     std::vector<RackTrack> tracks;  ///< belts, then tables, each in the order of the file
     std::vector<RackScanner> scanners;  ///< in the order of the file
@@ -341,7 +352,7 @@ struct RackConfig {
     bool jerk_limited() const { return controller.profile == "jerk_limited" && !point_to_point(); }
     /// What each axis may do, for the planner; axes that the rack has not are not present.
     control::MachineLimits limits() const;
-    /// "motion.xpp", "X.step", "estop".
+    /// "motion.xpp", "X.step", "estop", "probe".
     std::string end_name(const WireEnd& end) const;
 };
 

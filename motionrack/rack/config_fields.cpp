@@ -93,6 +93,15 @@ constexpr std::array<Field, 7> homing_table = {
     field<&RackHoming::order>("order", 0, 5, "", "0 is homed first; axes of the same number together"),
 };
 
+constexpr std::array<Field, 6> probe_table = {
+    absent_means(field<&RackProbe::x_from>("x_from_mm", -1e7, 1e7, "mm", "the block that the probe touches: from here"), "no bound"),
+    absent_means(field<&RackProbe::x_to>("x_to_mm", -1e7, 1e7, "mm", "to here"), "no bound"),
+    absent_means(field<&RackProbe::y_from>("y_from_mm", -1e7, 1e7, "mm", "from here"), "no bound"),
+    absent_means(field<&RackProbe::y_to>("y_to_mm", -1e7, 1e7, "mm", "to here"), "no bound"),
+    absent_means(field<&RackProbe::z_from>("z_from_mm", -1e7, 1e7, "mm", "from here"), "no bound"),
+    absent_means(field<&RackProbe::z_to>("z_to_mm", -1e7, 1e7, "mm", "to here"), "no bound"),
+};
+
 constexpr std::array<std::string_view, 2> profiles = {"trapezoid", "jerk_limited"};
 
 constexpr std::array<Field, 3> controller_table = {
@@ -150,6 +159,9 @@ std::span<const Field> switch_fields() {
 }
 std::span<const Field> homing_fields() {
     return homing_table;
+}
+std::span<const Field> probe_fields() {
+    return probe_table;
 }
 std::span<const Field> controller_fields() {
     return controller_table;

@@ -22,6 +22,7 @@ std::span<const Field> motor_fields();       ///< [axis.X.motor] into RackMotor
 std::span<const Field> servo_fields();       ///< [axis.X.servo] into RackServo
 std::span<const Field> switch_fields();      ///< [axis.X.switches] into RackSwitches
 std::span<const Field> homing_fields();      ///< [axis.X.homing] into RackHoming
+std::span<const Field> probe_fields();       ///< [probe] into RackProbe
 std::span<const Field> stage_fields();       ///< [stage.NAME] into RackStage
 std::span<const Field> scale_fields();       ///< [stage.NAME.scale] into RackScale
 std::span<const Field> stage_servo_fields(); ///< [stage.NAME.servo] into RackStageServo
@@ -55,6 +56,7 @@ struct TrackEnd {
 std::span<const TrackEnd> track_ends();
 
 inline constexpr std::string_view estop_doc = "the emergency stop button: low while it is pressed";
+inline constexpr std::string_view probe_doc = "the touch probe: high while it touches";
 inline constexpr std::array<std::string_view, 6> axis_names = {"X", "Y", "Z", "A", "B", "C"};
 inline constexpr int slot_count = 21;
 
@@ -73,6 +75,9 @@ struct AxisSource {
 /// Checks what no single key can tell: axes against cards, positions against each other, speeds against chip and motor.
 /// `sources` goes with config.axes.
 void check_axes(const RackConfig& config, const std::vector<AxisSource>& sources, Problems& problems);
+
+/// Reads the section [probe] into config.probe and checks it against the axes and their cards.
+void read_probe(const TomlNode& node, RackConfig& config, Problems& problems);
 
 /// Reads the sections [stage.NAME] into config.stages and checks them against the cards.
 void read_stages(const TomlNode& stages, RackConfig& config, Problems& problems);

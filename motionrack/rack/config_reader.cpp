@@ -10,7 +10,7 @@
 namespace motionrack::rack {
 namespace {
 
-constexpr std::array<std::string_view, 9> top_level = {"rack", "card", "axis", "stage", "belt", "table", "scanner", "controller", "wires"};
+constexpr std::array<std::string_view, 10> top_level = {"rack", "card", "axis", "probe", "stage", "belt", "table", "scanner", "controller", "wires"};
 constexpr std::array<std::string_view, 4> axis_tables = {"motor", "servo", "switches", "homing"};
 
 class RackReader {
@@ -33,6 +33,7 @@ class RackReader {
         read_cards();
         read_axes();
         check_axes(config_, sources_, problems_);
+        if (const TomlNode* node = table("probe")) read_probe(*node, config_, problems_);
         if (const TomlNode* stages = table("stage")) read_stages(*stages, config_, problems_);
         read_marking(table("belt"), table("table"), table("scanner"), config_, problems_);
         resolve_wires(config_, table("wires"), problems_);

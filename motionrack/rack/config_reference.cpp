@@ -21,6 +21,7 @@ std::string card_type_text(const CardType& type) {
         std::string wired;
         for (const DefaultWire& wire : type.default_wires)
             if (wire.pin == pin.name) wired += fmt::format("{}`NAME.{}`", wired.empty() ? "" : ", else ", wire.end);
+        if (pin.name == type.probe_pin) wired = "`probe`";
         out += fmt::format("| `{}{}` | {} | {} | {} |\n", type.channel_name(0), pin.name, direction(pin), pin.doc,
                            wired.empty() ? "-" : wired);
     }
@@ -58,6 +59,7 @@ std::string wires_text() {
     }
     for (const TrackEnd& end : track_ends())
         out += fmt::format("| `NAME.{}` | output | of a belt or table: {} | {} |\n", end.name, end.doc, with_unit(end.needs, "mm"));
+    out += fmt::format("| `probe` | output | {} | the section `[probe]` is there |\n", probe_doc);
     return out + fmt::format("| `estop` | output | {} | always |\n\n", estop_doc);
 }
 
@@ -90,6 +92,11 @@ std::string rack_file_reference() {
            fields_table(switch_fields(), &linear.switches, &rotary.switches);
     out += "## [axis.NAME.homing]\nHow `motionrack home` finds the home switch.\n\n" +
            fields_table(homing_fields(), &linear.homing, &rotary.homing);
+    const RackProbe probe;
+    out += "## [probe]\nA touch probe for G38.2 to G38.5 and the block that it touches, in machine coordinates: with the section there is a probe. "
+           "Where an axis has one bound or none the block goes on for ever; without any bound the probe touches nothing. The axes must be on a card "
+           "of type mcx314 with `variant = \"mcx314as\"`; by default its wire `probe` leads to the input `in3` of each of their channels.\n\n" +
+           fields_table(probe_fields(), &probe, &probe);
     const RackStage stage;
     const RackStageServo stage_servo;
     out += "## [stage.NAME]\nA stage on a linear motor with a grating scale, driven by an analog output of a card of a grating bus.\n\n" +

@@ -30,6 +30,7 @@ class WireResolver {
         for (std::size_t i = 0; i < config.cards.size(); ++i) add_card(static_cast<int>(i));
         for (std::size_t i = 0; i < config.axes.size(); ++i) add_axis(static_cast<int>(i));
         for (std::size_t i = 0; i < config.tracks.size(); ++i) add_track(static_cast<int>(i));
+        if (config.probe) known_["probe"] = {{EndOwner::probe, 0, ""}, PinDirection::output, logic, {}};
         known_["estop"] = {{EndOwner::estop, 0, ""}, PinDirection::output, logic, {}};
     }
 
@@ -42,6 +43,7 @@ class WireResolver {
                 connect(fmt::format("{}.{}{}", axis.card, axis.channel, wire.pin),
                         fmt::format("{}.{}", axis.letter, wire.end));
             }
+            if (!type.probe_pin.empty()) connect(fmt::format("{}.{}{}", axis.card, axis.channel, type.probe_pin), "probe");
         }
         for (const RackTrack& track : config_.tracks)
             for (const TrackEnd& end : track_ends()) {

@@ -36,6 +36,7 @@ control::gcode::Settings reader_settings(const RackConfig& config, bool block_de
     settings.limits = config.limits();
     settings.block_delete = block_delete;
     settings.point_to_point = config.point_to_point();
+    settings.probe = config.probe.has_value();
     settings.path_tolerance_mm = config.controller.default_path_tolerance_mm;
     for (const RackAxis& axis : config.axes) {
         const auto i = static_cast<std::size_t>(axis.index());

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/control/probing.hpp>
 #include <motionrack/rack/counted.hpp>
 #include <motionrack/rack/job_report.hpp>
 #include <motionrack/rack/path_segment.hpp>
@@ -155,6 +156,8 @@ std::string summary_of(const RackConfig& config, const JobOutcome& outcome) {
     out += fmt::format("  path        {:.3f} mm, worst deviation {:.4f} mm", outcome.path_mm, outcome.worst.mm);
     if (outcome.worst.line > 0) out += fmt::format(" in line {} at {:.3f} s", outcome.worst.line, to_seconds(outcome.worst.at));
     if (outcome.tolerance_mm > 0) out += fmt::format(" (tolerance {:.4f} mm)", outcome.tolerance_mm);
+    for (const control::ProgramProbe& probe : outcome.run.probes)
+        out += fmt::format("\n  line {:<6} {}", probe.line, control::probe_text(probe.probe, probe.outcome));
     out += fmt::format("\n\n  {:<5}{:>12}{:>12}{:>12}{:>8}{:>14}{:>22}{:>24}\n", "axis", "pulses", "counts", "expected", "lost", "ends at",
                        "top speed / limit", "top accel / limit");
     const auto of_pulses = [](const AxisOutcome& axis, std::int64_t count) { return axis.servo ? std::string("-") : fmt::format("{}", count); };
@@ -182,6 +185,9 @@ std::string summary_json(const RackConfig& config, const JobOutcome& outcome) {
     json["trace_hash"] = fmt::format("{:016x}", outcome.trace_hash);
     json["position_trusted"] = outcome.position_trusted;
     json["worst_deviation"] = {{"mm", outcome.worst.mm}, {"line", outcome.worst.line}, {"seconds", to_seconds(outcome.worst.at)}};
+    if (!outcome.run.probes.empty()) json["probes"] = nlohmann::ordered_json::array();
+    for (const control::ProgramProbe& probe : outcome.run.probes)
+        json["probes"].push_back({{"line", probe.line}, {"hit", probe.outcome.hit}, {"at", probe.outcome.at}});
     json["axes"] = nlohmann::ordered_json::array();
     for (const AxisOutcome& axis : outcome.axes)
         json["axes"].push_back({{"axis", std::string(1, control::axis_letters[static_cast<std::size_t>(axis.index)])},

@@ -10,6 +10,7 @@ namespace motionrack::rack {
 
 namespace {
 
+constexpr std::size_t most_probes = 2000;  // that are told of
 constexpr Duration look = milliseconds(1);  // of a host that has nothing to do
 
 }  // namespace
@@ -23,6 +24,11 @@ Result<void> PathWatch::begin() {
 Result<void> PathWatch::follow(const control::PlannedMove& move) {
     on_block_(blocks_++, move);
     return axes_.follow(move);
+}
+
+Result<control::ProbeOutcome> PathWatch::probe(const control::PlannedMove& move, bool release) {
+    on_block_(blocks_++, move);
+    return axes_.probe(move, release);
 }
 
 void PathWatch::pull() {
@@ -54,8 +60,14 @@ class Feeder {
     void feed(control::Stream& stream) {
         std::string_view text;
         while (more_ && stream.has_room()) {
-            more_ = walk_.next(text);
-            if (!more_) break;
+            if (!walk_.next(text)) {
+                more_ = false;
+                if (auto over = stream.program_over(); !over) {
+                    problem_ = over.error();
+                    problem_->file = walk_.file();
+                }
+                break;
+            }
             if (auto read = stream.line(text, walk_.number(), walk_); !read) {
                 problem_ = read.error();
                 more_ = false;
@@ -77,12 +89,18 @@ class Feeder {
     std::optional<Error> problem_;
 };
 
-Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& orders, Feeder& feeder, const std::string& file) {
+Result<void> drive(control::Stream& stream, Interrupt& host, const OrderPlan& orders, Feeder& feeder, const std::string& file, control::ProgramRun& run) {
     using control::StreamState;
+    std::int64_t probes = stream.last_probe().count;
     while (true) {
         if (!orders.stopped()) feeder.feed(stream);
-        MOTIONRACK_TRY(const StreamState state, stream.drive(feeder.more()));
-        switch (state) {
+        const Result<StreamState> driven = stream.drive(feeder.more());
+        if (const control::ProbeReport& probe = stream.last_probe(); probe.begun && probe.count != probes) {
+            probes = probe.count;
+            if (run.probes.size() < most_probes) run.probes.push_back({probe.line, probe.probe, probe.outcome});
+        }
+        if (!driven) return tl::unexpected<Error>(driven.error());
+        switch (*driven) {
             case StreamState::waiting: host.pass(look); break;
             case StreamState::held:
                 if (!orders.holds())
@@ -115,7 +133,7 @@ Result<void> drive_live(control::Stream& stream, Interrupt& host, const OrderPla
         if (linear) path_mm += control::geometry_of(move, start).length;
     });
     Feeder feeder(text, settings, file, run);
-    const Result<void> ended = drive(stream, host, orders, feeder, file);
+    const Result<void> ended = drive(stream, host, orders, feeder, file, run);
     stream.on_move({});
     run.plan.moves = run.moves;
     run.plan.path_mm = path_mm;

@@ -1,6 +1,6 @@
 // Drives a part program so that orders can come while it runs: hold, resume, overrides, stop.
 //
-//   text ──Lines──► Stream ──► PathWatch ──► card's axes          OrderPlan ──between runs──► Stream
+//   text ──Walk──► Stream ──► PathWatch ──► card's axes          OrderPlan ──between runs──► Stream
 //                                 │
 //                                 └──► who hears of planned moves, and of their starts
 #pragma once
@@ -25,6 +25,7 @@ class PathWatch final : public control::PathAxes {
     const control::DriveRule* drive_rule() const override { return axes_.drive_rule(); }
     Result<void> follow(const control::PlannedMove& move) override;
     Result<void> finish() override { return axes_.finish(); }
+    Result<control::ProbeOutcome> probe(const control::PlannedMove& move, bool release) override;
     void stop(bool immediate) override { axes_.stop(immediate); }
     control::Point commanded_position() override { return axes_.commanded_position(); }
     std::vector<control::PathNote> take_notes() override { return axes_.take_notes(); }

@@ -15,6 +15,7 @@ Rack::Rack(const RackConfig& config) : config_(config) {
     build_axes();
     for (const RackTrack& track : config_.tracks) tracks_.push_back(build_track(kernel_, track));
     join_links();
+    if (config_.probe) build_probe();
     build_wires();
     build_stages();
     build_scanners();
@@ -142,6 +143,20 @@ void Rack::join_links() {
             mover->connect_ideal_machine();
 }
 
+void Rack::build_probe() {
+    probe_ = std::make_unique<parts::TouchProbe>(kernel_, "probe");
+    for (RunningAxis& axis : axes_) {
+        const int index = axis.config.index();
+        if (index > 2) continue;
+        const std::optional<double> from = config_.probe->from(index), to = config_.probe->to(index);
+        if (!from && !to) continue;
+        const auto count = [&axis](double position) {
+            return static_cast<std::int64_t>(std::floor((position - axis.config.start_position) * axis.config.pulses_per_unit() + 0.5));
+        };
+        probe_->add_range(axis.machine->rotor(), from ? count(*from) : sim::unwatched_below + 1, to ? count(*to) : sim::unwatched_above - 1);
+    }
+}
+
 /// The name of an end's wire in the kernel. Pulses and encoder tracks of an axis have none: they are links.
 std::string Rack::wire_name(const WireEnd& end) const {
     switch (end.owner) {
@@ -149,6 +164,7 @@ std::string Rack::wire_name(const WireEnd& end) const {
         case EndOwner::axis: return std::string(1, config_.axes[static_cast<std::size_t>(end.index)].letter) + "." + end.pin;
         case EndOwner::track: return tracks_[static_cast<std::size_t>(end.index)].wire_name(end.pin);
         case EndOwner::estop: return "estop";
+        case EndOwner::probe: return "probe";
     }
     return {};
 }

@@ -25,6 +25,7 @@
 #include <motionrack/sim/parts/dc_motor.hpp>
 #include <motionrack/sim/parts/line_encoder.hpp>
 #include <motionrack/sim/parts/reference_cam.hpp>
+#include <motionrack/sim/parts/touch_probe.hpp>
 #include <motionrack/sim/virtual_port.hpp>
 #include <optional>
 #include <string>
@@ -98,6 +99,7 @@ class Rack {
     void build_cards();
     void build_axes();
     void build_axis(const RackAxis& axis);
+    void build_probe();
     void build_stages();
     void build_scanners();
     CardProcessor& processor_of(const std::string& card);
@@ -113,6 +115,7 @@ class Rack {
     sim::InputLog log_;
     std::vector<std::unique_ptr<Card>> cards_;
     std::vector<RunningAxis> axes_;
+    std::unique_ptr<parts::TouchProbe> probe_;  // may be nullptr
     std::vector<RunningStage> stages_;
     std::vector<std::pair<std::string, std::unique_ptr<CardProcessor>>> processors_;  // by their cards' names
     std::vector<RunningTrack> tracks_;

@@ -14,6 +14,7 @@ constexpr double most_volts = 15;  // of an analog input
 
 WireDesk::WireDesk(Rack& rack) : rack_(rack) {
     wires_["estop"] = {Kind::plain, rack_.kernel().find_wire("estop"), -1, 0, 1, 1, {}};
+    if (rack_.config().probe) wires_["probe"] = {Kind::plain, rack_.kernel().find_wire("probe"), -1, 0, 1, 1, {}};
     add_cards();
     add_axes();
     add_tracks();

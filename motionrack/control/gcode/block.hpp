@@ -16,13 +16,13 @@ inline constexpr std::size_t longest_line = 1024;
 /// G codes are kept in tenths: G1 = 10, G38.2 = 382. M codes as they are.
 enum GroupG : std::uint8_t {
     g_nonmodal = 0,  ///< G4 G10 G28 G28.1 G30 G30.1 G53 G92 G92.1 G92.2 G92.3
-    g_motion,        ///< G0 G1 G2 G3 G73 G74 G80 G81 .. G86 G89
+    g_motion,        ///< G0 G1 G2 G3 G5 G5.1 G38.2 .. G38.5 G73 G74 G80 G81 .. G86 G89
     g_plane,         ///< G17 G18 G19
     g_distance,      ///< G90 G91
     g_arc_distance,  ///< G90.1 G91.1
     g_feed_mode,     ///< G93 G94
     g_units,         ///< G20 G21
-    g_cutter,        ///< G40
+    g_cutter,        ///< G40 G41 G41.1 G42 G42.1
     g_tool_length,   ///< G43 G43.1 G43.2 G49
     g_retract,       ///< G98 G99
     g_system,        ///< G54 .. G59, G59.1 G59.2 G59.3

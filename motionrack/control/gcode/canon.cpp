@@ -44,7 +44,7 @@ void CanonPrinter::call(std::string_view text) {
 
 void CanonPrinter::begin(const Interpreter& interpreter) {
     path_ = interpreter.modes().path;
-    position_ = interpreter.position();
+    note(interpreter);
     call("USE_LENGTH_UNITS(CANON_UNITS_MM)");
     offsets(interpreter);
 }
@@ -67,20 +67,40 @@ void CanonPrinter::line(Interpreter& interpreter) {
     };
     std::size_t comments = 0;
     while (const Step* step = interpreter.pull()) {
+        late_ = interpreter.has_waited();
+        if (late_) {
+            event(*step, interpreter);
+            continue;
+        }
         const bool dwell = step->kind == StepKind::move && step->move.kind == MoveKind::dwell;
         before(step->kind, dwell);
         if (step->kind == StepKind::move) {
             if (!dwell && straight_home(block)) here(interpreter);
-            move(step->move, interpreter);
+            if (step->probe != Probe::none)
+                probe(step->move, interpreter);
+            else
+                event(*step, interpreter);
         } else if (step->kind != StepKind::comment || !block.comments[comments].rest_of_line) {
             event(*step, interpreter);
         }
         if (step->kind == StepKind::comment || step->kind == StepKind::message) ++comments;
     }
+    late_ = false;
     before(StepKind::move, false);
-    position_ = interpreter.position();
+    note(interpreter);
     if (path_ != interpreter.modes().path)
         path(interpreter.modes().path, interpreter.modes().tolerance_mm, interpreter);
+}
+
+void CanonPrinter::rest(Interpreter& interpreter) {
+    late_ = true;
+    while (const Step* step = interpreter.pull()) event(*step, interpreter);
+}
+
+void CanonPrinter::note(const Interpreter& interpreter) {
+    position_ = interpreter.position();
+    frame_ = interpreter.frame();
+    inch_ = interpreter.modes().inch;
 }
 
 void CanonPrinter::feed(const Interpreter& interpreter) {
@@ -147,9 +167,9 @@ void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
                         : step.spindle == Spindle::counter_clockwise ? "START_SPINDLE_COUNTERCLOCKWISE(0)"
                                                                      : "STOP_SPINDLE_TURNING(0)");
         case StepKind::coolant:
-            if (interpreter.block().has_m(m_mist)) call("MIST_ON()");
-            if (interpreter.block().has_m(m_flood)) call("FLOOD_ON()");
-            if (!interpreter.block().has_m(m_coolant_off)) return;
+            if (late_ ? step.mist : interpreter.block().has_m(m_mist)) call("MIST_ON()");
+            if (late_ ? step.flood : interpreter.block().has_m(m_flood)) call("FLOOD_ON()");
+            if (late_ ? step.mist || step.flood : !interpreter.block().has_m(m_coolant_off)) return;
             call("MIST_OFF()");
             return call("FLOOD_OFF()");
         case StepKind::tool_select:
@@ -160,7 +180,7 @@ void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
         case StepKind::tool_number:
             return call(fmt::format("CHANGE_TOOL_NUMBER({})", step.tool));
         case StepKind::pause:
-            if (interpreter.block().m[m_stop] == 60) call("PALLET_SHUTTLE()");
+            if (!late_ && interpreter.block().m[m_stop] == 60) call("PALLET_SHUTTLE()");
             return call("PROGRAM_STOP()");
         case StepKind::optional_pause:
             return call("OPTIONAL_PROGRAM_STOP()");
@@ -173,13 +193,13 @@ void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
             call("STOP_SPINDLE_TURNING(0)");
             return call("PROGRAM_END()");
         case StepKind::move:
-            return;
+            return move(step.move, interpreter);
     }
 }
 
 Point CanonPrinter::shown(const Interpreter& interpreter, const Point& machine) const {
     if (options_.coordinates == Coordinates::machine) return machine;
-    return in_units(interpreter.frame().to_program(machine), interpreter.modes().inch);
+    return in_units((late_ ? frame_ : interpreter.frame()).to_program(machine), late_ ? inch_ : interpreter.modes().inch);
 }
 
 void CanonPrinter::here(const Interpreter& interpreter) {
@@ -187,6 +207,13 @@ void CanonPrinter::here(const Interpreter& interpreter) {
     still.path = path_;
     still.end = position_;
     move(still, interpreter);
+}
+
+void CanonPrinter::probe(const Move& move, const Interpreter& interpreter) {
+    const Point end = shown(interpreter, move.end);
+    call("TURN_PROBE_ON()");
+    call(fmt::format("STRAIGHT_PROBE({})", six(end)));
+    call("TURN_PROBE_OFF()");
 }
 
 void CanonPrinter::move(const Move& move, const Interpreter& interpreter) {
@@ -224,7 +251,10 @@ Outcome<void> print_canon(std::string_view text, const Settings& settings, Canon
         printer.line(interpreter);
     }
     if (walk.has_faults()) return tl::unexpected<Problem>(walk.take_fault());
-    return {};
+    auto done = interpreter.finish();
+    if (!done) done.error().file = walk.file();
+    printer.rest(interpreter);
+    return done;
 }
 
 }  // namespace motionrack::control::gcode

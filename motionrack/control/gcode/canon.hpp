@@ -33,12 +33,16 @@ class CanonPrinter {
 
     void begin(const Interpreter& interpreter);
     void line(Interpreter& interpreter);
+    /// After the last line and Interpreter::finish().
+    void rest(Interpreter& interpreter);
 
   private:
     void call(std::string_view text);
     void event(const Step& step, const Interpreter& interpreter);
     void move(const Move& move, const Interpreter& interpreter);
+    void probe(const Move& move, const Interpreter& interpreter);
     void here(const Interpreter& interpreter);
+    void note(const Interpreter& interpreter);
     void feed(const Interpreter& interpreter);
     void modes(const Interpreter& interpreter);
     void offsets(const Interpreter& interpreter);
@@ -51,6 +55,9 @@ class CanonPrinter {
     std::int64_t n_word_ = -1;
     PathControl path_ = PathControl::continuous;
     Point position_ = {};  ///< after the line before
+    Frame frame_;          ///< then, too: steps that waited are shown in the frame of their own line
+    bool inch_ = false;
+    bool late_ = false;    ///< the step being printed is of a line before
 };
 
 /// Prints a whole program; stops at the first problem.

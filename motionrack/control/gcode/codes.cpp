@@ -14,7 +14,8 @@ struct CodeG {
 };
 
 constexpr CodeG known_g[] = {
-    {0, g_motion},         {10, g_motion},       {20, g_motion},       {30, g_motion},    {800, g_motion},
+    {0, g_motion},         {10, g_motion},       {20, g_motion},       {30, g_motion},    {50, g_motion},
+    {51, g_motion},        {52, g_refused},      {53, g_refused},      {800, g_motion},
     {730, g_motion},       {740, g_motion},      {840, g_motion},      {850, g_motion},   {860, g_motion},
     {890, g_motion},       {870, g_refused},     {880, g_refused},     {70, g_refused},   {80, g_refused},
     {700, g_refused},      {710, g_refused},     {711, g_refused},     {712, g_refused},  {720, g_refused},
@@ -26,9 +27,9 @@ constexpr CodeG known_g[] = {
     {911, g_arc_distance}, {930, g_feed_mode},   {940, g_feed_mode},   {200, g_units},    {210, g_units},
     {400, g_cutter},       {431, g_tool_length}, {490, g_tool_length}, {980, g_retract},  {990, g_retract},
     {540, g_system},       {550, g_system},      {560, g_system},      {570, g_system},   {580, g_system},
-    {590, g_system},       {610, g_path},        {611, g_path},        {640, g_path},     {382, g_refused},
-    {383, g_refused},      {384, g_refused},     {385, g_refused},     {410, g_refused},  {411, g_refused},
-    {420, g_refused},      {421, g_refused},     {430, g_tool_length}, {432, g_tool_length}, {591, g_system},
+    {590, g_system},       {610, g_path},        {611, g_path},        {640, g_path},     {382, g_motion},
+    {383, g_motion},       {384, g_motion},      {385, g_motion},      {410, g_cutter},   {411, g_cutter},
+    {420, g_cutter},       {421, g_cutter},      {430, g_tool_length}, {432, g_tool_length}, {591, g_system},
     {592, g_system},       {593, g_system},      {950, g_refused},     {330, g_refused},  {331, g_refused},
     {760, g_refused},      {960, g_refused},     {970, g_spindle}};
 
@@ -100,15 +101,8 @@ bool is_for_senders(GroupG group, int tenths) {
 
 std::string why_not_g(int tenths) {
     const std::string name = name_of_g(tenths);
-    if (tenths >= 382 && tenths <= 385) {
-        return name +
-               " probes, but this machine has no probe input; take the probing out of the program and set the work "
-               "offset with G10 L20 instead";
-    }
-    if (tenths >= 410 && tenths <= 421) {
-        return name +
-               ": cutter radius compensation is not supported; let the CAM program put out the path of the tool's "
-               "centre (only G40 is taken)";
+    if (tenths == 52 || tenths == 53) {
+        return name + ": NURBS are not supported; let the CAM program put out G5 (cubic) or G5.1 (quadratic) curves, or arcs";
     }
     if (tenths == 430 || tenths == 432) {
         return name + ": lines from a sender know no tool table; write the tool's length itself, e.g. G43.1 Z12.5";

@@ -15,6 +15,8 @@ struct Frame {
     Point tool = {};      ///< G43, G43.1, G43.2
     Point g28 = {};
     Point g30 = {};
+    Point probe = {};        ///< machine coordinates where the probe last touched or left, or where its move ended without
+    bool probe_hit = false;  ///< whether it did
 
     // Of the active system, by activate():
     Point offset = {};  ///< sum of work, G92 and tool: machine less program coordinates where the system is not turned

@@ -36,6 +36,7 @@ Interpreter::Interpreter(const Settings& settings) : settings_(settings) {
 
 Outcome<void> Interpreter::line(std::string_view text, std::int32_t number, Language language) {
     todo_ = 0;
+    held_.begin_line();
     line_ = number;
     language_ = language;
     moving_.kind = StepKind::move;
@@ -53,6 +54,7 @@ bool Interpreter::evaluate() {
     next_ = modes_;
     frame_edited_ = false;
     axis_words_taken_ = false;
+    cutter_plan_.clear();
     tool_edited_.reset();
     used_ = letter_bit('F') | letter_bit('N') | letter_bit('S') | letter_bit('T');
     end_ = position_;
@@ -60,9 +62,11 @@ bool Interpreter::evaluate() {
     if ((block_.m_groups | (block_.words & (letter_bit('S') | letter_bit('T')))) != 0 && !apply_machine_words())
         return false;
     if ((block_.g_groups & ~(1u << g_motion)) != 0 && !apply_modes()) return false;
+    if (next_.cutter != CutterSide::off && !cutter_allows()) return false;
     if (block_.has('F')) apply_feed();
     if (block_.has_g(g_nonmodal) && !nonmodal()) return false;
     if (!motion()) return false;
+    if (ends_program() && next_.cutter != CutterSide::off && !end_cutter()) return false;
     if ((block_.words & ~used_) != 0) return unused();
     if (!block_.comments.empty()) {
         todo_ |= todo_comments;
@@ -94,6 +98,7 @@ bool Interpreter::check_values() {
         const int index = std::countr_zero(left);
         if (block_.value[index] >= 0) continue;
         const char letter = static_cast<char>('A' + index);
+        if ((letter == 'P' || letter == 'Q') && negative_handles()) continue;
         return fail_word(letter, GrblStatus::negative_value,
                          fmt::format("{} is negative; {} must be 0 or more", written(letter), letter));
     }
@@ -134,6 +139,7 @@ bool Interpreter::apply_modes() {
     if (block_.has_g(g_distance)) next_.incremental = block_.g[g_distance] == 910;
     if (block_.has_g(g_arc_distance)) next_.arc_absolute = block_.g[g_arc_distance] == 901;
     if (block_.has_g(g_retract)) next_.retract_to_r = block_.g[g_retract] == 990;
+    if (block_.has_g(g_cutter) && !cutter()) return false;
     if (block_.has_g(g_tool_length) && !tool_length()) return false;
     if (block_.has_g(g_system)) {
         const int code = block_.g[g_system];
@@ -167,16 +173,27 @@ void Interpreter::apply_feed() {
 }
 
 void Interpreter::commit() {
-    if ((todo_ & todo_dwell) != 0) dwell_at_ = position_;
-    end_pending_ = (todo_ & todo_stop) != 0 && (stop_code_ == 2 || stop_code_ == 30);
+    if ((todo_ & todo_dwell) != 0) dwell_at_ = position();
+    end_pending_ = ends_program();
     position_ = end_;
     modes_ = next_;
     if (frame_edited_) frame_ = next_frame_;
+    if (modes_.cutter != CutterSide::off || astray_) commit_cutter();
+    if ((todo_ & todo_motion) != 0 && moving_.probe != Probe::none) tell_probe(true, position_);
 }
 
 const Step* Interpreter::pull_next() {
+    has_waited_ = false;
     const std::uint32_t what = todo_ & (0 - todo_);
     if (what == todo_motion) return pull_motion();
+    if (what == todo_held) {
+        if (const Step* step = held_.next()) {
+            has_waited_ = held_.has_waited();
+            return step;
+        }
+        todo_ &= ~what;
+        return pull();
+    }
     if (what == todo_comments) return pull_comment();
     todo_ &= ~what;
     event_ = Step{};
@@ -234,7 +251,7 @@ const Step* Interpreter::pull_motion() {
         on_the_way_ = true;
         return &moving_;
     }
-    if (cycle_.next(moving_)) return &moving_;
+    if (motion_ == Motion::spline ? pull_spline() : cycle_.next(moving_)) return &moving_;
     moving_.kind = StepKind::move;
     todo_ &= ~static_cast<std::uint32_t>(todo_motion);
     return pull();
@@ -258,7 +275,7 @@ Frame& Interpreter::edit_frame() {
 }
 
 Point Interpreter::program_position() const {
-    return frame_.to_program(position_);
+    return frame_.to_program(position());
 }
 
 bool Interpreter::fail_at(std::size_t column, GrblStatus status, std::string message, Trouble trouble) {
@@ -312,8 +329,12 @@ bool Interpreter::unused() {
         use = "; it goes with G4, G10, G64 and the cycles that wait, and with arcs that have an end or offsets on the same line";
     } else if (letter == 'L') {
         use = "; it goes with G10 and the drilling cycles (G73, G81 .. G89)";
+    } else if (letter == 'D') {
+        use = "; it goes with G41, G42 (a tool's number), G41.1 and G42.1 (a diameter)";
+    } else if (letter == 'H') {
+        use = "; it goes with G43 and G43.2 (a tool's number)";
     } else if (letter == 'Q') {
-        use = "; it is the peck depth of G73 and G83";
+        use = "; it is the peck depth of G73 and G83, and a control point of G5";
     }
     return fail_word(letter, GrblStatus::unused_word,
                      fmt::format("{}: nothing on this line uses the {} word{}", written(letter), letter, use));

@@ -21,7 +21,11 @@
 //   (LinuxCNC). Between holes the drill stays at the height where it left the last one, after rising to R where that is
 //   higher; after a change from G99 to G98, LinuxCNC rises to the first level on the slant. A peck thinner than the
 //   clearance never rapids above R.
-// - G38.x, G41, G42 and M56 are refused with a sentence. M0, M1, M2 and M30 are events.
+// - With cutter compensation a move waits for the next one, on which its end depends (motion_cutter.cpp, held.hpp); G40
+// and the
+//   program's end let it go. A joint that is tangent within 0.001 mm gets no arc; LinuxCNC: within 2.9 degrees.
+// - A probing move of any length is taken (LinuxCNC: 0.254 mm); the line after it begins where the machine stands.
+// - M56 is refused with a sentence. M0, M1, M2 and M30 are events.
 // - A program may end without M2 (Grbl); LinuxCNC wants M2 or %.
 // - Ends and bulges past the axis limits are errors of the line (Grbl raises alarm 2).
 #pragma once
@@ -30,8 +34,10 @@
 #include <motionrack/control/gcode/block.hpp>
 #include <motionrack/control/gcode/cycle.hpp>
 #include <motionrack/control/gcode/frame.hpp>
+#include <motionrack/control/gcode/held.hpp>
 #include <motionrack/control/gcode/language/parameters.hpp>
 #include <motionrack/control/gcode/settings.hpp>
+#include <motionrack/control/gcode/spline.hpp>
 #include <motionrack/control/gcode/step.hpp>
 
 namespace motionrack::control::gcode {
@@ -41,9 +47,12 @@ inline constexpr double limit_slack = 1e-6;
 
 inline constexpr std::int16_t no_motion = -1;
 
+/// Of the contour, seen along it from the positive third axis.
+enum class CutterSide : std::uint8_t { off, left, right };
+
 /// Modal state that is only numbers.
 struct Modes {
-    std::int16_t motion = no_motion;  ///< G code in tenths: 0, 10, 20, 30, 730 .. 890; no_motion after G80
+    std::int16_t motion = no_motion;  ///< G code in tenths: 0, 10, 20, 30, 50, 51, 382 .. 385, 730 .. 890; no_motion after G80
     std::uint8_t plane = 0;           ///< 0 G17, 1 G18, 2 G19
     std::uint8_t system = 0;          ///< 0 G54 .. 5 G59, 6 G59.1 .. 8 G59.3
     bool inch = false;                ///< G20
@@ -52,12 +61,14 @@ struct Modes {
     bool inverse_time = false;        ///< G93
     bool retract_to_r = false;        ///< G99
     PathControl path = PathControl::continuous;
+    CutterSide cutter = CutterSide::off;  ///< G40 G41 G42
     Spindle spindle = Spindle::off;
     bool mist = false;
     bool flood = false;
     bool ended = false;               ///< after M2, M30
     std::int32_t tool_selected = -1;  ///< by T; -1: none yet
     std::int32_t tool_loaded = -1;    ///< by M6; -1: none yet
+    double cutter_radius_mm = 0;      ///< where `cutter` is not off
     double tolerance_mm = 0;
     double feed = 0;         ///< G94: mm/s, G93: 1/s; 0: none yet
     double feed_rotary = 0;  ///< G94: degrees/s, where no linear axis moves
@@ -67,7 +78,22 @@ struct Modes {
     double cycle_z = 0;             ///< the drilling axis' word, as written, mm
     double cycle_q = 0;             ///< mm
     double cycle_p = 0;             ///< seconds
+    Planar spline_end;              ///< of the last G5: P and Q, mm
+    Planar spline_at;               ///< and where it ended
     double cycle_level = 0;         ///< G98: machine coordinate of the drilling axis before the first hole
+};
+
+/// What a line does to the move that waits before it, and the move that waits after it.
+struct CutterPlan {
+    bool joins = false;   ///< the move that waits goes along `last`
+    bool around = false;  ///< then along `arc`
+    bool begins = false;  ///< a move begins at `from` and waits along `path`
+    CutterPath last;
+    CutterPath path;
+    Planar from;
+    Move arc;
+
+    void clear() { joins = around = begins = false; }
 };
 
 /// Give it lines, take the steps of each: `if (auto done = interpreter.line(text, 7); done) while (auto* step =
@@ -88,11 +114,24 @@ class Interpreter {
         return pull_next();
     }
 
-    const Point& position() const { return position_; }  ///< machine coordinates after the last line
+    /// After the last line: with cutter compensation a move may wait for the next one, on which its end depends. This
+    /// makes it and what is behind it final; take the steps as after a line. Compensation is off then. A problem is
+    /// that of the line that waited.
+    Outcome<void> finish();
+    /// Whether the step that was pulled last is one of a line before, which has waited.
+    bool has_waited() const { return has_waited_; }
+
+    /// Machine coordinates after the last line; with cutter compensation where the cutter's centre is if it goes no
+    /// further.
+    const Point& position() const { return astray_ ? at_ : position_; }
     Point program_position() const;                      ///< the same in the active work system, mm and degrees
     std::int32_t line_number() const { return line_; }   ///< of the last line
-    /// The machine was moved otherwise: the next line begins there.
-    void stand_at(const Point& position) { position_ = position; }
+    /// The probing move of the last line (Step::probe) has stopped: the edge was at `at` if `hit`, and the machine stands
+    /// at `stands`, where the next line begins. Without this call the move counts as gone to its end, where the probe
+    /// did as it was meant to. #5061 .. #5070 tell of it.
+    void probed(bool hit, const Point& at, const Point& stands);
+    /// The machine was moved otherwise: the next line begins there, without cutter compensation.
+    void stand_at(const Point& position);
     /// The operator has switched the coolant.
     void set_coolant(bool mist, bool flood) {
         modes_.mist = mist;
@@ -104,24 +143,26 @@ class Interpreter {
     const Parameters& parameters() const { return parameters_; }
     Parameters& parameters() { return parameters_; }
     const ToolTable& tools() const { return tools_; }
-    /// A subprogram ends: its parameters are gone, and the modes are as M73 has kept them.
-    void leave_call(std::optional<double> returned);
+    /// A subprogram ends: its parameters are gone, and the modes are as M73 has kept them. False: they stay as they are, since cutter
+    /// compensation is on and would not go with them.
+    bool leave_call(std::optional<double> returned);
     /// No work system is turned from now on.
     void straighten();
 
   private:
     enum Todo : std::uint32_t {
-        todo_comments = 1,
-        todo_speed = 2,
-        todo_tool_select = 4,
-        todo_tool_change = 8,
-        todo_spindle = 16,
-        todo_coolant = 32,
-        todo_dwell = 64,
-        todo_motion = 128,
-        todo_stop = 256
+        todo_held = 1,
+        todo_comments = 2,
+        todo_speed = 4,
+        todo_tool_select = 8,
+        todo_tool_change = 16,
+        todo_spindle = 32,
+        todo_coolant = 64,
+        todo_dwell = 128,
+        todo_motion = 256,
+        todo_stop = 512
     };
-    enum class Motion : std::uint8_t { single, by_way_of, cycle };
+    enum class Motion : std::uint8_t { single, by_way_of, cycle, spline };
 
     bool evaluate();
     bool check_values();
@@ -132,6 +173,8 @@ class Interpreter {
     bool overrides();
     void apply_end();
     void commit();
+    /// M2 or M30 on the line.
+    bool ends_program() const { return (todo_ & todo_stop) != 0 && (stop_code_ == 2 || stop_code_ == 30); }
     bool nonmodal();
     bool dwell();
     bool set_offsets();
@@ -146,11 +189,15 @@ class Interpreter {
     bool edit_tool_shape(Tool& tool);
     void keep_modes();
     void restore(const Modes& saved);
+    bool goes_beside(const Modes& saved) const;
     bool shift();
     bool reference();
     bool motion();
     bool motion_needs(std::int16_t code, bool wants_motion);
     bool straight(std::int16_t code);
+    void tell_probe(bool hit, const Point& at);
+    bool may_probe(std::int16_t code);
+    bool probing(std::int16_t code);
     bool by_itself(std::int16_t code);
     bool arc(std::int16_t code);
     bool in_turned_plane(std::int16_t code);
@@ -158,7 +205,23 @@ class Interpreter {
     bool arc_centre_of_radius(Planar start, Planar end, bool closed, bool counter_clockwise, Planar& centre);
     bool arc_centre_of_offsets(Planar start, Planar& centre);
     bool arc_radii_agree(Planar start, Planar end, Planar centre);
-    bool arc_within_limits(Planar centre, double radius);
+    bool arc_within_limits(Planar start, Planar end, Planar centre, std::int32_t turns);
+    bool cutter();
+    bool cutter_diameter(double& diameter);
+    bool cutter_allows();
+    bool compensates() const { return next_.cutter != CutterSide::off && next_.cutter_radius_mm > 0; }
+    bool compensate();
+    bool path_beside(Planar from, Planar to, CutterPath& path);
+    bool join(Planar corner);
+    bool end_waiting_path();
+    bool end_cutter();
+    bool gouges(std::int32_t line);
+    bool off_limits();
+    bool reaches_contour();
+    bool leaves_straight(std::int16_t code);
+    void commit_cutter();
+    void hold_steps();
+    void settle_joint();
     bool cycle(std::int16_t code);
     bool cycle_words(std::int16_t code);
     bool spindle_turns(std::int16_t code);
@@ -166,6 +229,13 @@ class Interpreter {
     bool cycle_within_limits(CyclePlan& plan);
     bool cycle_places(CyclePlan& plan);
     bool cycle_places_turned(CyclePlan& plan);
+    bool spline(std::int16_t code);
+    bool spline_allowed(std::int16_t code);
+    bool cubic_of_words(Planar start, Planar end, Cubic& curve);
+    bool quadratic_of_words(Planar start, Planar end, Cubic& curve);
+    Planar turned_handle(Planar handle) const;
+    bool pull_spline();
+    bool negative_handles() const;
     bool targets(bool machine_coordinates);
     bool targets_turned();
     bool feed_of(Move& move);
@@ -219,6 +289,17 @@ class Interpreter {
     Language language_ = Language::words;
     std::optional<Tool> tool_edited_;  ///< by G10 L1, L10, L11
 
+    // Cutter compensation: the move that waits, and what the line being read makes of it.
+    HeldSteps held_;
+    bool has_waited_ = false;
+    bool beside_ = false;    // a move waits in held_; from the first one beside the contour to G40
+    bool astray_ = false;    // the machine is not at position_, but at at_
+    Point at_ = {};
+    CutterPath cutter_path_;
+    Planar cutter_from_;
+    std::int32_t cutter_line_ = 0;
+    CutterPlan cutter_plan_;
+
     Block block_;
     Problem problem_;
     std::int32_t line_ = 0;
@@ -237,6 +318,7 @@ class Interpreter {
     Step event_;
     Step moving_;
     Cycle cycle_;
+    SplineMoves spline_;
 };
 
 }  // namespace motionrack::control::gcode

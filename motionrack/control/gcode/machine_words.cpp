@@ -57,6 +57,7 @@ void Interpreter::apply_end() {
     next_.spindle = Spindle::off;
     next_.mist = next_.flood = false;
     next_.ended = true;
+    next_.cutter = CutterSide::off;
     next_.system = 0;
     frame_.activate(next_.system);
     modes_ = next_;
@@ -119,18 +120,25 @@ void Interpreter::restore(const Modes& saved) {
     if (next_.system != modes_.system || frame_edited_) edit_frame().activate(next_.system);
 }
 
-void Interpreter::leave_call(std::optional<double> returned) {
+bool Interpreter::leave_call(std::optional<double> returned) {
     const auto level = static_cast<std::size_t>(parameters_.level());
     parameters_.leave(returned);
-    if (kept_.size() <= level) return;
+    if (kept_.size() <= level) return true;
     const Kept kept = kept_[level];
     kept_.resize(level);
-    if (!kept.modes || !kept.comes_back) return;
+    if (!kept.modes || !kept.comes_back) return true;
+    if (modes_.cutter != CutterSide::off && !goes_beside(*kept.modes)) return false;
     next_ = modes_;
     frame_edited_ = false;
     restore(*kept.modes);
     modes_ = next_;
     if (frame_edited_) frame_ = next_frame_;
+    return true;
+}
+
+/// Whether cutter compensation can stay on when these modes come back.
+bool Interpreter::goes_beside(const Modes& saved) const {
+    return saved.plane == modes_.plane && saved.inch == modes_.inch && saved.system == modes_.system && !saved.inverse_time;
 }
 
 void Interpreter::straighten() {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
 
@@ -9,8 +10,17 @@ namespace motionrack::control::gcode {
 
 namespace {
 
+/// Two ways to the same place in a turned work system differ by less, mm.
+constexpr double turned_slack = 1e-9;
+
 bool is_arc(std::int16_t code) {
     return code == 20 || code == 30;
+}
+bool is_spline(std::int16_t code) {
+    return code == 50 || code == 51;
+}
+bool is_probing(std::int16_t code) {
+    return code >= 382 && code <= 385;
 }
 
 }  // namespace
@@ -21,7 +31,7 @@ bool Interpreter::motion() {
     if (code == 800) code = no_motion;
     next_.motion = code;
     const bool own_axis_words = !axis_words_taken_ && (block_.words & axis_words) != 0;
-    const bool own_offsets = is_arc(code) && (block_.words & offset_words) != 0;
+    const bool own_offsets = (is_arc(code) || is_spline(code)) && (block_.words & offset_words) != 0;
     const bool wants_motion = own_axis_words || (own_offsets && !axis_words_taken_);
     if (!wants_motion && !is_explicit && !block_.has_g(g_nonmodal)) return true;
     if (!motion_needs(code, wants_motion)) return false;
@@ -29,6 +39,7 @@ bool Interpreter::motion() {
     used_ |= axis_words;
     if (is_arc(code)) return arc(code);
     if (is_cycle(code)) return cycle(code);
+    if (is_spline(code)) return spline(code);
     return straight(code);
 }
 
@@ -60,9 +71,11 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
                          fmt::format("{}: no motion is active {}; write G0 (rapid) or G1 (feed) before it",
                                      written(letter), is_explicit ? "after G80" : "here"));
     }
-    if (is_explicit && !wants_motion && !axis_words_taken_ && (is_arc(code) || is_cycle(code))) {
+    if (is_explicit && !wants_motion && !axis_words_taken_ && is_spline(code)) return spline_allowed(code);
+    if (is_explicit && !wants_motion && !axis_words_taken_ && (is_arc(code) || is_cycle(code) || is_probing(code))) {
         return fail_at(block_.g_column[g_motion], GrblStatus::no_axis_words,
-                       is_arc(code) ? fmt::format("{} needs an end and a centre; write e.g. {} X10 Y0 I5 J0",
+                       is_probing(code) ? fmt::format("{} needs a place to probe towards; write e.g. {} Z-10 F60", name_of_g(code), name_of_g(code))
+                       : is_arc(code) ? fmt::format("{} needs an end and a centre; write e.g. {} X10 Y0 I5 J0",
                                                   name_of_g(code), name_of_g(code))
                                     : fmt::format("{} needs a place and a depth; write e.g. {} X10 Y10 Z-5 R2",
                                                   name_of_g(code), name_of_g(code)));
@@ -74,6 +87,8 @@ bool Interpreter::motion_needs(std::int16_t code, bool wants_motion) {
 bool Interpreter::targets(bool machine_coordinates) {
     if (frame_now().turned && !machine_coordinates) return targets_turned();
     const Point& offset = frame_now().offset;
+    const bool beside_contour = compensates();
+    const int third = next_.plane == 0 ? 2 : next_.plane == 1 ? 1 : 0;
     for (int axis = 0; axis < axis_count; ++axis) {
         const std::size_t index = axis_letter(axis);
         if ((block_.words >> index & 1) == 0) continue;
@@ -81,15 +96,16 @@ bool Interpreter::targets(bool machine_coordinates) {
         const double target = machine_coordinates ? value
                               : next_.incremental ? position_[axis] + value
                                                   : value + offset[axis];
-        if (!reach(axis, target, block_.column[index])) return false;
+        if (!(beside_contour && axis < 3 && axis != third) && !reach(axis, target, block_.column[index])) return false;
         end_[axis] = target;
     }
-    return true;
+    return beside_contour || !astray_ || reaches_contour();
 }
 
 /// Where the work system is turned, a word of X moves Y too.
 bool Interpreter::targets_turned() {
     const Frame& frame = frame_now();
+    const bool beside_contour = compensates();
     const std::uint32_t turning = letter_bit('X') | letter_bit('Y');
     Point program = next_.incremental ? Point{} : frame.to_program(position_);
     for (int axis = 0; axis < axis_count; ++axis)
@@ -101,13 +117,20 @@ bool Interpreter::targets_turned() {
         const double target = next_.incremental ? position_[axis] + by[axis] : to[axis];
         const int blamed = (block_.words & own) != 0 ? axis : 1 - axis;
         const bool absent = (present_words_ & own) == 0 && target == position_[axis];
-        if (!absent && !reach(axis, target, block_.column[axis_letter(blamed)])) return false;
+        const bool in_plane = beside_contour && axis < 2;
+        if (!absent && !in_plane && !reach(axis, target, block_.column[axis_letter(blamed)])) return false;
         end_[axis] = target;
     }
-    return true;
+    // A rounding is no move: beside a contour it would have a direction.
+    if (!next_.incremental && std::fabs(end_[0] - position_[0]) < turned_slack && std::fabs(end_[1] - position_[1]) < turned_slack) {
+        end_[0] = position_[0];
+        end_[1] = position_[1];
+    }
+    return beside_contour || !astray_ || reaches_contour();
 }
 
 bool Interpreter::straight(std::int16_t code) {
+    if (is_probing(code) && !may_probe(code)) return false;
     if (!targets(block_.has_g(g_nonmodal) && block_.g[g_nonmodal] == 530)) return false;
     Move& move = moving_.move;
     move.kind = code == 0 ? MoveKind::traverse : MoveKind::feed;
@@ -118,10 +141,12 @@ bool Interpreter::straight(std::int16_t code) {
     move.feed = 0;
     move.feed_mode = FeedMode::units_per_second;
     if (code != 0 && (!by_itself(code) || !feed_of(move))) return false;
+    moving_.probe = Probe::none;
+    if (is_probing(code) && !probing(code)) return false;
     moving_.line = line_;
     motion_ = Motion::single;
     todo_ |= todo_motion;
-    return true;
+    return !compensates() || compensate();
 }
 
 /// Where each axis positions by itself only one of them can move at a feed.
@@ -145,7 +170,7 @@ bool Interpreter::feed_of(Move& move) {
         return true;
     }
     if (next_.feed == 0) return no_feed();
-    const bool rotary_only = end_[0] == position_[0] && end_[1] == position_[1] && end_[2] == position_[2] &&
+    const bool rotary_only = !(astray_ && next_.cutter == CutterSide::off) && end_[0] == position_[0] && end_[1] == position_[1] && end_[2] == position_[2] &&
                              (block_.words & rotary_words) != 0 && move.kind == MoveKind::feed;
     move.feed_mode = FeedMode::units_per_second;
     move.feed = rotary_only ? next_.feed_rotary : next_.feed;

@@ -29,7 +29,7 @@ constexpr std::array<const char*, 3> plane_names = {"G17 (XY)", "G18 (XZ)", "G19
 }  // namespace
 
 bool Interpreter::arc(std::int16_t code) {
-    if (!by_itself(code) || !in_turned_plane(code) || !targets(false)) return false;
+    if (!by_itself(code) || !in_turned_plane(code) || !leaves_straight(code) || !targets(false)) return false;
     const auto& axes = plane_axes[next_.plane];
     const bool counter_clockwise = code == 30;
     double turns = 1;
@@ -53,13 +53,12 @@ bool Interpreter::arc(std::int16_t code) {
     move.centre_second = centre.second;
     move.end = end_;
     if (!feed_of(move)) return false;
-    const Planar from = {position_[axes[0]] - centre.first, position_[axes[1]] - centre.second};
-    const Planar to = {end_[axes[0]] - centre.first, end_[axes[1]] - centre.second};
-    if (!arc_within_limits(centre, std::max(length(from), length(to)))) return false;
     moving_.line = line_;
+    moving_.probe = Probe::none;
     motion_ = Motion::single;
     todo_ |= todo_motion;
-    return true;
+    if (compensates()) return compensate();
+    return arc_within_limits({position_[axes[0]], position_[axes[1]]}, {end_[axes[0]], end_[axes[1]]}, centre, move.turns);
 }
 
 /// In a turned work system an arc of G18 or G19 would lie in no plane of two axes; a cycle would drill aslant.
@@ -164,19 +163,20 @@ bool Interpreter::arc_radii_agree(Planar start, Planar end, Planar centre) {
                     written(letter), radius, end_radius));
 }
 
-bool Interpreter::arc_within_limits(Planar centre, double radius) {
+bool Interpreter::arc_within_limits(Planar start, Planar end, Planar centre, std::int32_t turns) {
     const auto& axes = plane_axes[next_.plane];
+    const Planar from = {start.first - centre.first, start.second - centre.second};
+    const Planar to = {end.first - centre.first, end.second - centre.second};
+    const double radius = std::max(length(from), length(to));
     const std::array<double, 4> extremes = {centre.first + radius, centre.second + radius, centre.first - radius,
                                             centre.second - radius};
     const std::array<int, 4> axis = {axes[0], axes[1], axes[0], axes[1]};
     bool inside = true;
     for (int i = 0; i < 4; ++i) inside = inside && extremes[i] >= low_[axis[i]] && extremes[i] <= high_[axis[i]];
     if (inside) return true;
-    const Planar from = {position_[axes[0]] - centre.first, position_[axes[1]] - centre.second};
-    const Planar to = {end_[axes[0]] - centre.first, end_[axes[1]] - centre.second};
-    const bool full = std::abs(moving_.move.turns) > 1 || (from.first == to.first && from.second == to.second);
+    const bool full = std::abs(turns) > 1 || (from.first == to.first && from.second == to.second);
     const auto passed =
-        full ? std::array<bool, 4>{true, true, true, true} : extremes_passed(from, to, moving_.move.turns > 0);
+        full ? std::array<bool, 4>{true, true, true, true} : extremes_passed(from, to, turns > 0);
     for (int i = 0; i < 4; ++i) {
         if (passed[i] && !reach(axis[i], extremes[i], blame())) {
             problem_.message = "on its way this arc goes too far: " + problem_.message;

@@ -70,6 +70,12 @@ bool Interpreter::pecks_go(const CyclePlan& plan) {
 }
 
 bool Interpreter::cycle(std::int16_t code) {
+    if (next_.cutter != CutterSide::off) {
+        return fail_at(blame(), GrblStatus::axis_conflict,
+                       fmt::format("{} cannot drill while cutter compensation is on; write G40 and a straight move before it",
+                                   name_of_g(code)));
+    }
+    if (!leaves_straight(code)) return false;
     if ((block_.words & rotary_words) != 0) {
         const char letter = static_cast<char>('A' + std::countr_zero(block_.words & rotary_words));
         return fail_word(
@@ -123,6 +129,7 @@ bool Interpreter::cycle(std::int16_t code) {
     if (!cycle_within_limits(plan)) return false;
     cycle_.begin(plan);
     moving_.line = line_;
+    moving_.probe = Probe::none;
     motion_ = Motion::cycle;
     todo_ |= todo_motion;
     return true;

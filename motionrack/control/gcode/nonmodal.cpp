@@ -113,6 +113,7 @@ bool Interpreter::reference() {
     move.line = line_;
     move.end = end_;
     moving_.line = line_;
+    moving_.probe = Probe::none;
     motion_ = axes != 0 ? Motion::by_way_of : Motion::single;
     on_the_way_ = false;
     todo_ |= todo_motion;

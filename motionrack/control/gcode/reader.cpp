@@ -22,7 +22,11 @@ Outcome<const Step*> Reader::next_from_lines() {
         if (const Step* step = interpreter_.pull()) return step;
     }
     if (walk_.has_faults()) return tl::unexpected<Problem>(walk_.take_fault());
-    return nullptr;
+    if (auto done = interpreter_.finish(); !done) {
+        done.error().file = walk_.file();
+        return tl::unexpected<Problem>(std::move(done.error()));
+    }
+    return interpreter_.pull();
 }
 
 namespace {

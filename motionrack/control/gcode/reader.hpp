@@ -34,6 +34,8 @@ class Reader {
 
     const Interpreter& interpreter() const { return interpreter_; }
     const Walk& walk() const { return walk_; }
+    /// See Interpreter::probed(); after the step that probes, before the next one.
+    void probed(bool hit, const Point& at, const Point& stands) { interpreter_.probed(hit, at, stands); }
     std::int32_t line() const { return walk_.number(); }  ///< the line that the last step or problem is from
 
   private:

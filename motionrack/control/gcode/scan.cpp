@@ -8,8 +8,8 @@ namespace motionrack::control::gcode {
 
 namespace {
 
-constexpr std::uint32_t word_letters = axis_words | offset_words | letter_bit('F') | letter_bit('L') | letter_bit('N') |
-                                       letter_bit('P') | letter_bit('Q') | letter_bit('R') | letter_bit('S') |
+constexpr std::uint32_t word_letters = axis_words | offset_words | letter_bit('D') | letter_bit('F') | letter_bit('L') |
+                                       letter_bit('N') | letter_bit('P') | letter_bit('Q') | letter_bit('R') | letter_bit('S') |
                                        letter_bit('T') | letter_bit('G') | letter_bit('M') | letter_bit('H');
 
 /// The code in tenths, or -1 where it has more decimals or is out of the table.

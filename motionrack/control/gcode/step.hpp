@@ -24,8 +24,24 @@ enum class StepKind : std::uint8_t {
 
 enum class Spindle : std::uint8_t { off, clockwise, counter_clockwise };
 
+/// What a probing move (G38.2 .. G38.5) waits for; it goes to its end where that does not come.
+enum class Probe : std::uint8_t {
+    none,
+    contact,     ///< G38.2: stops where the probe touches; an error if it does not
+    contact_if,  ///< G38.3: no error
+    release,     ///< G38.4: stops where the probe leaves; an error if it does not
+    release_if   ///< G38.5: no error
+};
+constexpr bool probe_leaves(Probe probe) {
+    return probe == Probe::release || probe == Probe::release_if;
+}
+constexpr bool probe_must(Probe probe) {
+    return probe == Probe::contact || probe == Probe::release;
+}
+
 struct Step {
     StepKind kind = StepKind::move;
+    Probe probe = Probe::none;  ///< of a move; the lines after it begin where the machine stands then: Interpreter::probed()
     Spindle spindle = Spindle::off;
     bool mist = false;
     bool flood = false;

@@ -212,4 +212,28 @@ TEST(GcodeArc, PassesTheExtremesBetweenItsEnds) {
     EXPECT_EQ(extremes_passed({1, 0.1}, {0.1, 1}, true), (Four{false, false, false, false}));
 }
 
+TEST(GcodeProbing, IsAMoveThatStopsAtItsEnd) {
+    const auto program = testing::read("G90 G64 F60\nG38.2 Z-10\nG38.3 Z-5\nG38.4 X4 Z0\nG38.5 X0\nY1\nG1 X5\n");
+    ASSERT_TRUE(program.problems.empty()) << program.problems[0].text();
+    const Probe kinds[] = {Probe::contact, Probe::contact_if, Probe::release, Probe::release_if, Probe::release_if, Probe::none};
+    ASSERT_EQ(program.steps.size(), 6u);
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_EQ(program.steps[i].probe, kinds[i]) << i;
+        EXPECT_EQ(program.steps[i].move.kind, MoveKind::feed);
+        EXPECT_EQ(program.steps[i].move.path, i < 5 ? PathControl::exact_stop : PathControl::continuous);
+        EXPECT_EQ(program.steps[i].move.feed, 1);
+    }
+}
+
+TEST(GcodeProbing, TheNextLineBeginsWhereTheMachineStands) {
+    Interpreter interpreter(testing::machine());
+    ASSERT_TRUE(interpreter.line("G91 F60 G38.2 Z-10", 1));
+    ASSERT_EQ(interpreter.pull()->probe, Probe::contact);
+    interpreter.probed(true, {0, 0, -3, 0, 0, 0}, {0, 0, -3.125, 0, 0, 0});
+    EXPECT_TRUE(interpreter.frame().probe_hit);
+    EXPECT_EQ(interpreter.frame().probe[2], -3);
+    ASSERT_TRUE(interpreter.line("G0 Z1", 2));
+    EXPECT_EQ(interpreter.pull()->move.end[2], -2.125);
+}
+
 }  // namespace motionrack::control::gcode

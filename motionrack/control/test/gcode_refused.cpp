@@ -34,7 +34,8 @@ const Refused refused[] = {
     {"G0 Xinf", 4, "X", 2, "no number"},
     {"G0 X99999999999999999999999999", 4, "X99999999999999999999999999", 2, "too large"},
     {"G0 X1 E5", 7, "E5", 20, "no extruder"},
-    {"D1", 1, "D1", 20, "no tool table"},
+    {"D1", 1, "D1", 36, "G41"},
+    {"H1", 1, "H1", 36, "G43"},
     {"G0 U1", 4, "U1", 20, "axes are X Y Z A B C"},
     {"$H", 1, "$", 3, "system command of Grbl"},
     {"N1 G0 X1*57", 9, "*", 1, "checksums"},
@@ -48,13 +49,19 @@ const Refused refused[] = {
     {"G0 X1 %", 7, "%", 20, "alone on its line"},
     // codes
     {"G1.5 X1", 1, "G1.5", 20, "not a known command"},
-    {"G5 X1", 1, "G5", 20, "not a known command"},
+    {"G6 X1", 1, "G6", 20, "not a known command"},
     {"G1.05", 1, "G1.05", 20, "not a known command"},
     {"G-1", 1, "G-1", 20, "not a known command"},
     {"G1000", 1, "G1000", 20, "not a known command"},
-    {"G38.2 Z-1 F10", 1, "G38.2", 20, "no probe input"},
-    {"G38.5 Z-1 F10", 1, "G38.5", 20, "no probe input"},
-    {"G41 X1", 1, "G41", 20, "cutter radius compensation"},
+    {"G38.2 F10", 1, "G38.2", 26, "needs a place to probe towards"},
+    {"G38.2 Z-1", 1, "G38.2", 22, "F word missing"},
+    {"F10 G38.3 Z0", 5, "G38.3", 33, "no way to go"},
+    {"F10 G38.4 Z1 A1", 5, "G38.4", 36, "does not turn axes"},
+    {"G93 F10 G38.5 Z1", 9, "G38.5", 22, "inverse time"},
+    {"F10 G38.6 Z1", 5, "G38.6", 20, "not a known command"},
+    {"F10 G41.1 D2\nG38.2 X9", 1, "G38.2", 24, "cutter compensation"},
+    {"F10 G53 G38.2 Z1", 5, "G53", 30, "G0 or G1"},
+    {"G41 X1", 1, "G41", 20, "no tool table"},
     {"G43 H1", 1, "G43", 20, "no tool table"},
     {"G95", 1, "G95", 20, "G94"},
     {"M56", 1, "M56", 20, "does not park"},
@@ -173,6 +180,15 @@ TEST(GcodeReader, RefusesWithPlaceWordNumberAndSentence) {
         EXPECT_THAT(problem.message, HasSubstr(row.says));
         EXPECT_EQ(problem.file, "part.ngc");
     }
+}
+
+TEST(GcodeReader, RefusesProbingWithoutAProbe) {
+    Settings settings = testing::machine();
+    settings.probe = false;
+    const auto program = testing::read("G38.2 Z-1 F10", settings);
+    ASSERT_EQ(program.problems.size(), 1u);
+    EXPECT_EQ(program.problems[0].status, GrblStatus::unsupported);
+    EXPECT_THAT(program.problems[0].message, HasSubstr("no probe input"));
 }
 
 TEST(GcodeReader, ErrorTextNamesFileLineColumnAndTheCure) {

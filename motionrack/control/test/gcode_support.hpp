@@ -11,6 +11,7 @@ namespace motionrack::control::gcode::testing {
 /// Axes as wanted, each from -500 to 500.
 inline Settings machine(std::string_view axes = "XYZABC", double reach = 500) {
     Settings settings;
+    settings.probe = true;
     for (int axis = 0; axis < axis_count; ++axis) {
         AxisLimits& limits = settings.limits[axis];
         limits.present = axes.find(axis_letters[axis]) != std::string_view::npos;

@@ -118,7 +118,7 @@ void add_check(CLI::App& app, Action& chosen) {
     CLI::App* command = app.add_subcommand("check", "List everything that is wrong in rack files (*.toml) and part programs; nothing moves");
     command->add_option("FILE", options->files, "rack files and part programs")->required();
     command->add_option("--rack", options->rack, "rack file that the programs are checked against (default: the built-in router)");
-    command->add_option("--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43");
+    command->add_option("--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43 and the diameters for G41, G42");
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
     command->add_flag("--json", options->json, "print the findings as JSON");
     command->footer("Example: motionrack check my.toml part.ngc --rack my.toml");
@@ -135,7 +135,7 @@ void add_canon(CLI::App& app, Action& chosen) {
     command->add_option("FILE", options->file, "part program ('-': standard input)")->required();
     command->add_option("--rack", options->rack, "rack file whose axes, limits and start count (default: six axes without limits, at 0)");
     command->add_flag("--machine", options->machine, "machine coordinates in mm and degrees instead of the program's own");
-    command->add_option("-t,--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43");
+    command->add_option("-t,--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43 and the diameters for G41, G42");
     command->add_flag("--numbered", options->numbered, "with the two columns of numbers that rs274 prints before each call");
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
     command->footer("Example: motionrack canon part.ngc | grep ARC_FEED");
@@ -154,6 +154,7 @@ void add_canon(CLI::App& app, Action& chosen) {
             gcode::Settings settings = program_settings(*config, options->file, options->block_delete);
             if (options->rack.empty()) settings.limits = boundless();
             if (!load_tools(options->tools, settings, code)) return code;
+            settings.probe = true;  // what a probing move means does not depend on the rack
             const auto done = gcode::print_canon(
                 *text, settings, how,
                 [](std::string_view line) { std::fwrite(line.data(), 1, line.size(), stdout); }, options->file);

@@ -167,7 +167,7 @@ void add_plan(CLI::App& app, Action& chosen) {
     CLI::App* command = app.add_subcommand("plan", "Tell how long a part program takes: stopping at each move, by trapezoids, and jerk-limited; nothing moves");
     command->add_option("PROGRAM", options->program, "part program, '-' for standard input (default: the built-in example)");
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
-    command->add_option("--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43");
+    command->add_option("--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43 and the diameters for G41, G42");
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
     command->add_option("--picture", options->picture, "write the jerk-limited plan as SVG: the path coloured by its speed, speed, acceleration and jerk over time");
     command->add_flag("--json", options->json, "print the plans as JSON");

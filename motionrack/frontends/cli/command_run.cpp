@@ -146,7 +146,7 @@ void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
         ->allow_extra_args(false);
     command->add_option("--at", options->orders, "order something on the way, ORDER@TIME: hold@1.5s, resume@2s, feed=0.5@1s, rapid=0.25@1s, stop@3s")
         ->allow_extra_args(false);
-    command->add_option("--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43");
+    command->add_option("--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43 and the diameters for G41, G42");
     command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
     command->add_flag("--stream", options->stream, "move line by line as it is read, without checking the whole program first");
     command->add_flag("--json", options->json, "print the summary as JSON");

@@ -178,7 +178,7 @@ Result<void> Axes::start_chain(const Segment& segment) {
 Result<void> Axes::queue(const Segment& segment) {
     const MainStatus status = driver_.status();
     if (status.interpolating()) return command(segment);
-    if (status.error(all_axes)) return stopped_by_machine();
+    if (status.error(all_axes) || (probing_ && probe_hit())) return stopped_by_machine();
     notes_.push_back({segment.line, fmt::format("line {}: the next piece came too late and the axes stopped at the joint for a moment; "
                                                 "lower the feed or bus_access_ns", segment.line), 0});
     return command(segment);

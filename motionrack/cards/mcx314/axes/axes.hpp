@@ -30,6 +30,9 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     Result<void> follow(const control::PlannedMove& move) override;
     Result<void> finish() override;
     const control::DriveRule* drive_rule() const override { return this; }
+    /// MCX314As: the channels (a bit each) at whose IN3 the probe is, High while it touches. 0, as at first: there is none.
+    void set_probe(unsigned channels) { probe_channels_ = channels; }
+    Result<control::ProbeOutcome> probe(const control::PlannedMove& move, bool release) override;
     void stop(bool immediate) override;
     control::Point commanded_position() override;
     std::vector<control::PathNote> take_notes() override;
@@ -45,6 +48,12 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     double spent_length(const control::Geometry& path) const override;
     int most_drawn() const override { return 3; }
     double steering_seconds() const override { return 0.008; }
+    Result<void> check_probe(bool release);
+    Result<void> arm_probe(bool release);
+    Result<void> disarm_probe();
+    void go_on_from_here();
+    bool probe_hit();
+    bool stopped_by_other();
     Result<void> play_ready(std::size_t keep);
     Result<void> play(const Segment& segment);
     Result<void> play_pause(const Segment& segment);
@@ -90,6 +99,9 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     bool braking_ = false;           ///< on a wish to stop
     bool chain_running_ = false;
     std::int64_t segments_ = 0;
+    unsigned probe_channels_ = 0;
+    bool probing_ = false;
+    std::array<std::int32_t, channel_count> saved_before_ = {};  ///< BR when the probe was armed
     // The companion's present drive.
     int companion_ = -1;
     std::int32_t companion_start_speed_ = 1;   ///< SV, A and the greatest V that it drives with

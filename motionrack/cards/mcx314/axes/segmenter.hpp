@@ -39,6 +39,10 @@ class Segmenter {
     /// 1 or -1.
     std::int64_t companion_pulses_ahead(int channel, int direction) const;
 
+    /// The number of the next planned move, from 0.
+    std::int32_t next_block() const { return next_block_; }
+    void count_from(std::int32_t block) { next_block_ = block; }
+
     /// Notes since the last call, oldest first.
     std::vector<control::PathNote> take_notes() { return std::exchange(notes_, {}); }
 

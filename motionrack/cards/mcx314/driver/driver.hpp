@@ -180,6 +180,12 @@ class Driver {
     Result<void> InPosSig(int n, unsigned axes);                          ///< in-position acts at: 0 Low, 1 High
     Result<void> SetStopInput(unsigned axes, int input, StopInput mode);  ///< IN0..IN3
     Result<void> SetExternalDrive(unsigned axes, ExternalDrive mode);     ///< nEXPP, nEXPM
+    /// MCX314As: what an axis does (`actions`, SM7) when one of its `conditions` (SM6) comes about. 0, 0: nothing.
+    Result<void> SetSynchronous(unsigned axes, std::uint16_t conditions, std::uint16_t actions);
+    /// MCX314As: the condition CMD of the axes.
+    Result<void> Synchronous(unsigned axes);
+    /// MCX314As: the counter that the axis' synchronous action has saved.
+    std::int32_t ReadBR(int axis);
     /// nOUT0 .. nOUT7; 4..7 while they are not used for the drive's status.
     Result<void> SetOutput(unsigned axes, int output, bool high);
     Result<void> ShowDriveStatus(unsigned axes, bool on);  ///< nOUT4..7 show CMP+, CMP-, accelerating, decelerating

@@ -73,6 +73,25 @@ Result<void> Driver::SetExternalDrive(unsigned axes, ExternalDrive mode) {
     return {};
 }
 
+// ---- synchronous actions of the MCX314As
+// ----------------------------------------------------------------------------------------
+
+Result<void> Driver::SetSynchronous(unsigned axes, std::uint16_t conditions, std::uint16_t actions) {
+    MOTIONRACK_CHECK(check_axes(axes, "SetSynchronous"));
+    write_data(axes, cmd::SM, std::uint32_t{actions} << 16 | conditions);
+    return {};
+}
+
+Result<void> Driver::Synchronous(unsigned axes) {
+    MOTIONRACK_CHECK(check_axes(axes, "Synchronous"));
+    command(axes, cmd::SYNC);
+    return {};
+}
+
+std::int32_t Driver::ReadBR(int axis) {
+    return static_cast<std::int32_t>(read_data(axis, cmd::READ_BR));
+}
+
 // ---- outputs and inputs
 // -----------------------------------------------------------------------------------------------
 

@@ -45,7 +45,7 @@ constexpr Known known[] = {
     {"_line", [](const Interpreter& in) { return static_cast<double>(in.line_number()); }},
     {"_motion_mode", [](const Interpreter& in) { return in.modes().motion == no_motion ? 800.0 : in.modes().motion; }},
     {"_plane", [](const Interpreter& in) { return 170.0 + 10 * in.modes().plane; }},
-    {"_ccomp", [](const Interpreter&) { return 400.0; }},
+    {"_ccomp", [](const Interpreter& in) { return in.modes().cutter == CutterSide::off ? 400.0 : in.modes().cutter == CutterSide::left ? 410.0 : 420.0; }},
     {"_metric", [](const Interpreter& in) { return in.modes().inch ? 0.0 : 1.0; }},
     {"_imperial", [](const Interpreter& in) { return in.modes().inch ? 1.0 : 0.0; }},
     {"_absolute", [](const Interpreter& in) { return in.modes().incremental ? 0.0 : 1.0; }},

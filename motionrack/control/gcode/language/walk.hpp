@@ -38,6 +38,7 @@ class Walk {
     std::int32_t number() const { return called_at_ != 0 ? called_at_ : lines_.number(); }
     /// The greatest number() so far.
     std::int32_t furthest() const { return std::max(furthest_, number()); }
+    const std::string& file() const { return sources_.front()->file; }  ///< of the program
     bool at_end() const { return lines_.at_end(); }
     /// Fills in where a problem with the last line is.
     void place(Problem& problem) const;

@@ -136,9 +136,12 @@ bool Walk::load(const FlowPlace& place, const std::string& label, Target& target
 
 bool Walk::give_back(const FlowPlace& place, Interpreter& interpreter) {
     std::vector<double> values;
-    const bool good = arguments(place, 1, interpreter, values);
+    bool good = arguments(place, 1, interpreter, values);
     if (frames_.empty()) return good;
-    interpreter.leave_call(values.empty() ? std::nullopt : std::optional<double>(values.front()));
+    if (!interpreter.leave_call(values.empty() ? std::nullopt : std::optional<double>(values.front()))) {
+        good = fail(place, place.column, "M73 brings back another plane, unit, work offset or feed mode here, which cannot change while cutter compensation is on; "
+                                         "write G40 and a straight move before the sub ends");
+    }
     const Frame& frame = frames_.back();
     lines_ = frame.back;
     counted_from_ = lines_.number();

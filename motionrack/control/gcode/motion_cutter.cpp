@@ -1,0 +1,320 @@
+// G40, G41, G42, G41.1, G42.1: the moves of a line become moves of the cutter's centre; what compensation forbids.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <motionrack/control/gcode/codes.hpp>
+#include <motionrack/control/gcode/interpreter.hpp>
+
+namespace motionrack::control::gcode {
+
+namespace {
+
+constexpr double largest_cutter_mm = 1000;
+
+constexpr std::array<std::array<std::uint8_t, 3>, 3> plane_axes = {{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
+
+}  // namespace
+
+/// G40 .. G42.1.
+bool Interpreter::cutter() {
+    const std::int16_t code = block_.g[g_cutter];
+    const std::size_t column = block_.g_column[g_cutter];
+    if (code == 400) {
+        if (beside_ && !end_waiting_path()) return false;
+        next_.cutter = CutterSide::off;
+        return true;
+    }
+    if (next_.cutter != CutterSide::off) {
+        return fail_at(column, GrblStatus::unsupported,
+                       fmt::format("{}: cutter compensation is on already ({} of the contour); write G40 and a straight "
+                                   "move before it",
+                                   name_of_g(code), next_.cutter == CutterSide::left ? "left" : "right"));
+    }
+    if (settings_.point_to_point) {
+        return fail_at(column, GrblStatus::unsupported,
+                       fmt::format("{}: the axes of this rack position one by one, so no path can go beside a contour",
+                                   name_of_g(code)));
+    }
+    double diameter = 0;
+    if (!cutter_diameter(diameter)) return false;
+    const bool left = (code / 10 == 41) == (diameter >= 0);
+    next_.cutter = left ? CutterSide::left : CutterSide::right;
+    next_.cutter_radius_mm = std::fabs(diameter) / 2;
+    return true;
+}
+
+/// From the D word, in mm; negative ones change the side.
+bool Interpreter::cutter_diameter(double& diameter) {
+    const std::int16_t code = block_.g[g_cutter];
+    const std::size_t column = block_.g_column[g_cutter];
+    used_ |= letter_bit('D');
+    if (code % 10 != 0) {
+        if (!block_.has('D')) {
+            return fail_at(column, GrblStatus::word_missing,
+                           fmt::format("D word missing: {0} needs the cutter's diameter; write e.g. {0} D6", name_of_g(code)));
+        }
+        diameter = scaled('D');
+    } else {
+        if (tools_.empty()) {
+            return fail_at(column, GrblStatus::unsupported,
+                           fmt::format("{0}: there is no tool table to take the diameter from; give one by --tools FILE, or write it out, e.g. {0}.1 D6",
+                                       name_of_g(code)));
+        }
+        if (block_.has('D') && !need_integer('D', 0, largest_tool, "the number of a tool")) return false;
+        const bool of_spindle = !block_.has('D') || block_['D'] == 0;
+        const std::int32_t number = of_spindle ? next_.tool_loaded : static_cast<std::int32_t>(block_['D']);
+        if (number <= 0) {
+            return fail_at(column, GrblStatus::word_missing,
+                           fmt::format("{0}: no tool is in the spindle; write e.g. {0} D1, or T1 M6 before it", name_of_g(code)));
+        }
+        const Tool* tool = tools_.find(number);
+        if (!tool) {
+            return fail_at(block_.has('D') ? block_.column[letter_index('D')] : column, GrblStatus::unsupported,
+                           fmt::format("{}: the tool table has no tool {}; write it into the table", block_.has('D') ? written('D') : name_of_g(code), number));
+        }
+        diameter = tool->diameter_mm;
+    }
+    if (std::fabs(diameter) <= largest_cutter_mm) return true;
+    return fail_at(block_.has('D') ? block_.column[letter_index('D')] : column, GrblStatus::value_too_large,
+                   fmt::format("a cutter of {:.6g} mm: the largest diameter is {:.6g} mm", diameter, largest_cutter_mm));
+}
+
+/// What must stay as it is while compensation is on.
+bool Interpreter::cutter_allows() {
+    const auto forbid = [&](std::size_t column, std::string_view what) {
+        return fail_at(column, GrblStatus::axis_conflict,
+                       fmt::format("{} while cutter compensation is on; write G40 and a straight move before it", what));
+    };
+    const bool was_on = modes_.cutter != CutterSide::off;
+    // M72 brings modes back, too.
+    const auto column_of = [&](GroupG group) -> std::size_t {
+        return block_.has_g(group) ? block_.g_column[group] : block_.has_m(m_state) ? block_.m_column[m_state] : block_.has_g(g_cutter) ? block_.g_column[g_cutter] : 0;
+    };
+    if (was_on && next_.plane != modes_.plane) return forbid(column_of(g_plane), "the plane cannot change");
+    if (was_on && next_.inch != modes_.inch) return forbid(column_of(g_units), "the units cannot change");
+    if (was_on && next_.system != modes_.system) return forbid(column_of(g_system), "the work offset cannot change");
+    if (frame_now().turned && next_.plane != 0) {
+        return fail_at(column_of(g_cutter), GrblStatus::unsupported,
+                       fmt::format("the work system is turned by {:.6g} degrees (G10 L2 R), where cutter compensation goes in G17 only", frame_now().turn[next_.system]));
+    }
+    if (was_on && block_.has_g(g_tool_length) && frame_now().tool != frame_.tool)
+        return forbid(block_.g_column[g_tool_length], "the tool length cannot change");
+    if (next_.inverse_time) {
+        return forbid(column_of(g_feed_mode),
+                      "G93 (inverse time) cannot be used");
+    }
+    if (was_on && block_.has_m(m_tool)) return forbid(block_.m_column[m_tool], block_.m[m_tool] == 61 ? "M61 cannot tell of another tool" : "M6 cannot change the tool");
+    const std::int16_t once = block_.has_g(g_nonmodal) ? block_.g[g_nonmodal] : std::int16_t{40};
+    if (once == 40) return true;
+    return forbid(block_.g_column[g_nonmodal], fmt::format("{} cannot be done", name_of_g(once)));
+}
+
+/// The move that waits is the last one beside the contour; it ends as it is.
+bool Interpreter::end_waiting_path() {
+    cutter_plan_.joins = true;
+    cutter_plan_.last = cutter_path_;
+    return trim(cutter_plan_.last, cutter_from_, cutter_path_.end) || gouges(cutter_line_);
+}
+
+bool Interpreter::gouges(std::int32_t line) {
+    return fail_at(blame(), GrblStatus::bad_target,
+                   fmt::format("the cutter (radius {:.6g} mm) would have to go backwards along the move of line {}, which is "
+                               "too short between its neighbours: it would cut into the contour; take a smaller cutter or "
+                               "leave the move out",
+                               modes_.cutter_radius_mm, line));
+}
+
+/// The path beside the move that straight() or arc() has prepared.
+bool Interpreter::path_beside(Planar from, Planar to, CutterPath& path) {
+    const Move& move = moving_.move;
+    const double radius = next_.cutter_radius_mm;
+    const double offset = next_.cutter == CutterSide::left ? radius : -radius;
+    const Planar centre = {move.centre_first, move.centre_second};
+    const bool is_arc = move.kind == MoveKind::arc;
+    if (!beside_ && length({to.first - from.first, to.second - from.second}) <= radius) {
+        return fail_at(blame(), GrblStatus::bad_target,
+                       fmt::format("the first move with cutter compensation must be longer in its plane than the cutter's "
+                                   "radius of {:.6g} mm; begin farther away",
+                                   radius));
+    }
+    if (!is_arc) {
+        path = beside_ ? beside_line(from, to, offset) : onto_line(from, to, offset);
+        return true;
+    }
+    if (beside_ ? beside_arc(from, to, centre, move.turns, offset, path) : onto_arc(from, to, centre, move.turns, offset, path))
+        return true;
+    const double arc_radius = length({from.first - centre.first, from.second - centre.second});
+    return fail_at(blame(), GrblStatus::bad_radius,
+                   arc_radius <= radius
+                       ? fmt::format("the cutter (radius {:.6g} mm) does not fit into this arc of radius {:.6g} mm; take a "
+                                     "smaller cutter",
+                                     radius, arc_radius)
+                       : std::string("no arc leads from here beside the end of this one; begin with a straight move"));
+}
+
+/// From the programmed move to that of the cutter, which waits until the next one is known.
+bool Interpreter::compensate() {
+    Move& move = moving_.move;
+    const auto& axes = plane_axes[next_.plane];
+    const Planar from = {position_[axes[0]], position_[axes[1]]};
+    const Planar to = {end_[axes[0]], end_[axes[1]]};
+    if (move.kind != MoveKind::arc && from.first == to.first && from.second == to.second) {
+        if (!beside_) return !astray_ || reaches_contour();
+        move.end[axes[0]] = cutter_path_.end.first;
+        move.end[axes[1]] = cutter_path_.end.second;
+        return true;
+    }
+    CutterPath& path = cutter_plan_.path;
+    if (!path_beside(from, to, path)) return false;
+    cutter_plan_.begins = true;
+    cutter_plan_.from = astray_ ? Planar{at_[axes[0]], at_[axes[1]]} : from;
+    if (beside_ && !join(from)) return false;
+    move.end[axes[0]] = path.end.first;
+    move.end[axes[1]] = path.end.second;
+    move.centre_first = path.centre.first;
+    move.centre_second = path.centre.second;
+    if (path.arc && !arc_within_limits(path.start, path.end, path.centre, path.turns)) return off_limits();
+    return (reach(axes[0], path.end.first, blame()) && reach(axes[1], path.end.second, blame())) || off_limits();
+}
+
+/// From beside the contour back to it, which may lie where the machine cannot go.
+bool Interpreter::reaches_contour() {
+    for (int axis = 0; axis < 3; ++axis)
+        if (end_[axis] != position_[axis] || end_[axis] != at_[axis])
+            if (!reach(axis, end_[axis], blame())) return false;
+    return true;
+}
+
+bool Interpreter::off_limits() {
+    problem_.message = "beside the contour, where the cutter's centre goes: " + problem_.message;
+    return false;
+}
+
+/// Joins the move that waits to the one of this line.
+bool Interpreter::join(Planar corner) {
+    const auto& axes = plane_axes[next_.plane];
+    const double offset = next_.cutter == CutterSide::left ? next_.cutter_radius_mm : -next_.cutter_radius_mm;
+    const CutterPath& path = cutter_plan_.path;
+    const JointPlace joint = joint_of(cutter_path_, path, corner, offset);
+    if (joint.kind == CutterJoint::none) {
+        return fail_at(blame(), GrblStatus::bad_target,
+                       fmt::format("the cutter (radius {:.6g} mm) does not fit into the corner between line {} and this one; "
+                                   "take a smaller cutter",
+                                   next_.cutter_radius_mm, cutter_line_));
+    }
+    cutter_plan_.joins = true;
+    cutter_plan_.last = cutter_path_;
+    if (!trim(cutter_plan_.last, cutter_from_, joint.at)) return gouges(cutter_line_);
+    if (!reach(axes[0], joint.at.first, blame()) || !reach(axes[1], joint.at.second, blame())) return off_limits();
+    cutter_plan_.around = joint.kind == CutterJoint::around;
+    cutter_plan_.from = cutter_plan_.around ? path.start : joint.at;
+    if (!cutter_plan_.around) return true;
+    // Before a rapid move the corner is cut straight, in the air.
+    Move& arc = cutter_plan_.arc;
+    arc = moving_.move;
+    if (arc.kind != MoveKind::traverse) arc.kind = MoveKind::arc;
+    arc.first = axes[0];
+    arc.second = axes[1];
+    arc.turns = offset > 0 ? -1 : 1;
+    arc.centre_first = corner.first;
+    arc.centre_second = corner.second;
+    arc.end = position_;
+    arc.end[axes[0]] = path.start.first;
+    arc.end[axes[1]] = path.start.second;
+    if (arc.kind == MoveKind::arc && !arc_within_limits(cutter_path_.end, path.start, corner, arc.turns)) return off_limits();
+    return (reach(axes[0], path.start.first, blame()) && reach(axes[1], path.start.second, blame())) || off_limits();
+}
+
+/// After G40 the cutter still stands beside the contour.
+bool Interpreter::leaves_straight(std::int16_t code) {
+    if (!astray_ || (beside_ && next_.cutter != CutterSide::off)) return true;
+    return fail_at(blame(), GrblStatus::bad_target,
+                   fmt::format("{} after G40: the cutter stands beside the contour yet; leave it with a straight move",
+                               name_of_g(code)));
+}
+
+/// The program ends on this line.
+bool Interpreter::end_cutter() {
+    if (cutter_plan_.begins) return trim(cutter_plan_.path, cutter_plan_.from, cutter_plan_.path.end) || gouges(line_);
+    return !beside_ || end_waiting_path();
+}
+
+/// What the good line changes: the steps that are final become ready, its own ones wait behind them.
+void Interpreter::commit_cutter() {
+    const auto& axes = plane_axes[modes_.plane];
+    const bool off = modes_.cutter == CutterSide::off;
+    const bool ends = end_pending_ || off;
+    const bool moved = (todo_ & todo_motion) != 0;
+    if (ends && beside_ && !cutter_plan_.begins) held_.settle(axes[0], axes[1], cutter_plan_.last);
+    if (!ends || cutter_plan_.begins) hold_steps();
+    if (cutter_plan_.begins) {
+        cutter_path_ = cutter_plan_.path;
+        cutter_from_ = cutter_plan_.from;
+        cutter_line_ = line_;
+        if (ends) held_.settle(axes[0], axes[1], cutter_path_);
+    }
+    if (beside_ || cutter_plan_.begins) {
+        at_ = position_;
+        at_[axes[0]] = cutter_path_.end.first;
+        at_[axes[1]] = cutter_path_.end.second;
+        astray_ = !(off && moved);
+    } else {
+        astray_ = astray_ && !moved;
+    }
+    beside_ = (beside_ || cutter_plan_.begins) && !ends;
+    if (held_.has_ready()) todo_ |= todo_held;
+}
+
+/// What waited is final up to the move that this line begins.
+void Interpreter::settle_joint() {
+    const auto& axes = plane_axes[modes_.plane];
+    if (cutter_plan_.joins) held_.settle(axes[0], axes[1], cutter_plan_.last);
+    if (cutter_plan_.around) {
+        Step around;
+        around.line = line_;
+        around.move = cutter_plan_.arc;
+        held_.push(around);
+    }
+    held_.settle();
+}
+
+/// Puts this line's events and motion behind what waits; the comments are told at once, the end of the program last.
+void Interpreter::hold_steps() {
+    const std::uint32_t kept = todo_ & (todo_comments | (end_pending_ ? todo_stop : 0u));
+    todo_ &= ~kept;
+    while (todo_ != 0) {
+        if ((todo_ & (0 - todo_)) == todo_motion && cutter_plan_.begins) settle_joint();
+        held_.push(*pull_next());
+    }
+    todo_ = kept;
+    if (!beside_ && !cutter_plan_.begins) held_.settle();
+}
+
+void Interpreter::stand_at(const Point& position) {
+    position_ = position;
+    held_.clear();
+    beside_ = astray_ = false;
+    modes_.cutter = CutterSide::off;
+}
+
+Outcome<void> Interpreter::finish() {
+    todo_ = 0;
+    cutter_plan_.clear();
+    if (!beside_) return {};
+    const auto& axes = plane_axes[modes_.plane];
+    if (!end_waiting_path()) {
+        held_.settle(axes[0], axes[1], cutter_path_);
+        held_.clear();
+        stand_at(at_);
+        set_problem(problem_, {}, 0, problem_.status, std::move(problem_.message));
+        problem_.place.line = cutter_line_;
+        return tl::unexpected<Problem>(problem_);
+    }
+    held_.settle(axes[0], axes[1], cutter_plan_.last);
+    beside_ = false;
+    modes_.cutter = CutterSide::off;
+    todo_ = todo_held;
+    return {};
+}
+
+}  // namespace motionrack::control::gcode

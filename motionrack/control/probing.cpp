@@ -1,0 +1,25 @@
+// A move planned by itself.
+#include <fmt/format.h>
+
+#include <motionrack/control/planner_for.hpp>
+#include <motionrack/control/probing.hpp>
+
+namespace motionrack::control {
+
+Result<PlannedMove> plan_alone(PathAxes& axes, const MachineLimits& limits, double kept_back, const Move& move) {
+    Planner planner = planner_for(axes, limits, kept_back, {}, axes.commanded_position());
+    MOTIONRACK_CHECK(planner.push(move));
+    planner.flush();
+    PlannedMove planned;
+    if (planner.pull(planned)) return planned;
+    return fail(Trouble::bad_input, fmt::format("The probing move of line {} has no length.", move.line), {move.line, 1});
+}
+
+std::string probe_text(gcode::Probe probe, const ProbeOutcome& outcome) {
+    const bool leaves = gcode::probe_leaves(probe);
+    const auto place = fmt::format("X {:.4f} Y {:.4f} Z {:.4f}", outcome.at[0], outcome.at[1], outcome.at[2]);
+    if (outcome.hit) return fmt::format("probe {} at {}", leaves ? "left" : "touched", place);
+    return fmt::format("probe did not {} on its way, which ended at {}", leaves ? "leave" : "touch", place);
+}
+
+}  // namespace motionrack::control

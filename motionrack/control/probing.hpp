@@ -1,0 +1,17 @@
+// What a probing move needs beside the path: its own plan, and words for how it ended.
+#pragma once
+
+#include <motionrack/control/gcode/step.hpp>
+#include <motionrack/control/path.hpp>
+#include <motionrack/control/path_axes.hpp>
+#include <string>
+
+namespace motionrack::control {
+
+/// One move from rest to rest by trapezoids, from where the axes stand. Errors: it is too short to be driven, or not finite.
+Result<PlannedMove> plan_alone(PathAxes& axes, const MachineLimits& limits, double kept_back, const Move& move);
+
+/// "probe touched at X 10.0000 Y 0.0000 Z -3.2150", "probe did not touch on the way to ..".
+std::string probe_text(gcode::Probe probe, const ProbeOutcome& outcome);
+
+}  // namespace motionrack::control

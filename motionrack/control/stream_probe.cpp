@@ -1,0 +1,39 @@
+// A probing move of a stream: alone, from rest to rest; no line is read before it is done.
+#include <fmt/format.h>
+
+#include <motionrack/control/stream.hpp>
+
+namespace motionrack::control {
+
+Result<StreamState> Stream::probe() {
+    const gcode::Step step = entries_.front().step;
+    line_driven_ = step.line;
+    last_probe_ = {last_probe_.count, step.line, step.probe, false, {}};
+    const Result<PlannedMove> planned = plan_alone(*axes_, settings_.gcode.limits, settings_.kept_back, step.move);
+    if (!planned) return interrupted(planned.error());
+    if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
+    state_ = StreamState::driving;
+    probing_ = true;
+    const Result<ProbeOutcome> outcome = axes_->probe(*planned, gcode::probe_leaves(step.probe));
+    probing_ = false;
+    axes_->take_starts();
+    const Point place = axes_->commanded_position();
+    if (!outcome) {
+        if (wish_ != Wish::stop) ++last_probe_.count;
+        return interrupted(outcome.error());
+    }
+    last_probe_ = {last_probe_.count + 1, step.line, step.probe, true, *outcome};
+    probe_waits_ = false;
+    --moves_;
+    entries_.pop_front();
+    planned_ = handed_ = 0;
+    interpreter_.probed(outcome->hit, outcome->at, place);
+    read_to_ = place;
+    new_planner(place);
+    if (!last_probe_.failed()) return state_ = has_work() ? StreamState::driving : StreamState::rest;
+    forget();
+    return fail(Trouble::machine, fmt::format("In line {} the {}. Nothing after it was driven.", step.line, probe_text(step.probe, *outcome)),
+                {step.line, 1});
+}
+
+}  // namespace motionrack::control

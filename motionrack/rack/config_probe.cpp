@@ -1,0 +1,36 @@
+// The section [probe]: a touch probe and the block that it touches.
+#include <fmt/format.h>
+
+#include <motionrack/rack/config_parts.hpp>
+
+namespace motionrack::rack {
+
+void read_probe(const TomlNode& node, RackConfig& config, Problems& problems) {
+    RackProbe probe;
+    const auto refused = read_fields(node, probe_fields(), &probe, {"probe", "", "", {}}, problems);
+    for (int axis = 0; axis < 3; ++axis) {
+        const char letter = control::axis_letters[static_cast<std::size_t>(axis)];
+        const std::string key = fmt::format("{}_from_mm", static_cast<char>(letter - 'A' + 'a'));
+        const std::optional<double> from = probe.from(axis), to = probe.to(axis);
+        if (from && to && *from >= *to) {
+            problems.error(node.place_of(key), fmt::format("The block of the probe goes from {} to {} mm along {}; its first end must be below the other.",
+                                                           *from, *to, letter));
+        }
+        if ((from || to) && config.axis(letter) == nullptr) {
+            problems.error(node.place_of(from ? key : fmt::format("{}_to_mm", static_cast<char>(letter - 'A' + 'a'))),
+                           fmt::format("The block of the probe has an end along {}, but the rack has no axis {}.", letter, letter));
+        }
+    }
+    for (const RackAxis& axis : config.axes) {
+        const RackCard* card = config.card(axis.card);
+        if (card == nullptr || card->type.empty()) continue;  // told already
+        if (card->type == "mcx314" && card->mcx314.variant == Mcx314Variant::mcx314as) continue;
+        problems.error(node.key_place,
+                       fmt::format("The rack has a probe, but card {} of axis {} cannot catch positions; it must be of type mcx314 with variant = "
+                                   "\"mcx314as\".", card->name, axis.letter));
+        break;
+    }
+    config.probe = probe;
+}
+
+}  // namespace motionrack::rack

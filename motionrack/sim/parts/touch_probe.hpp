@@ -1,0 +1,53 @@
+// A touch probe that axes carry, and the block that it touches.
+//
+//   z   |                          wire ____|~~~~~~~|____   1 while the probe is within the block, its faces included
+//       |      .--------.
+//       |  <-- | block  | <--      each axis has a range of counts or none; the block goes on for ever along an axis
+//       |______|________|____ x    without one
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/motion.hpp>
+#include <string>
+
+namespace motionrack::parts {
+
+class TouchProbe final : public sim::Device {
+  public:
+    /// Adds the device "touch_" + `name` and the wire `name` to the kernel, before it starts. Without a range it touches nothing.
+    TouchProbe(sim::Kernel& kernel, const std::string& name);
+
+    /// Before the kernel starts: the block is from `from` to `to`, counts of `place`, both included.
+    void add_range(sim::Motion& place, std::int64_t from, std::int64_t to);
+
+    sim::WireId wire() const { return wire_; }
+    bool touches(Instant t) const;
+
+    void act(Instant now) override;
+
+  private:
+    /// One axis of the block.
+    struct Side final : sim::MotionListener {
+        Side(TouchProbe& its, sim::Motion& motion, std::int64_t lower, std::int64_t upper)
+            : probe(its), place(motion), from(lower), to(upper), slot(motion.listen(*this)) {}
+        void crossed(Instant now) override { probe.look(now); }
+        void rate_changed(double, double, Instant) override {}
+        void aim(std::int64_t here);
+
+        TouchProbe& probe;
+        sim::Motion& place;
+        std::int64_t from;
+        std::int64_t to;
+        int slot;
+    };
+    void look(Instant now);
+
+    sim::Kernel& kernel_;
+    sim::DeviceId id_{};
+    sim::WireId wire_{};
+    std::deque<Side> sides_;
+};
+
+}  // namespace motionrack::parts
