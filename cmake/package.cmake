@@ -46,4 +46,5 @@ motionrack_package(library libmotionrack0 libs "shared C libraries")
 motionrack_package(dev libmotionrack-dev libdevel "headers and libraries for C, C++ and Pascal"
                    "libmotionrack0 ${same}, libfmt-dev, libexpected-dev, libtomlplusplus-dev, zlib1g-dev" "cyclonedds-dev, libpugixml-dev")
 motionrack_package(python python3-motionrack python "the Python package" "python3 (>= 3.11), python3 (<< 3.12), python3-numpy" "python3-matplotlib")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/python/postinst ${PROJECT_SOURCE_DIR}/packaging/python/prerm)
 include(CPack)
