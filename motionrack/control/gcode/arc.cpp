@@ -1,17 +1,11 @@
 // Centres and extreme points of arcs.
 #include <cmath>
 #include <motionrack/control/gcode/arc.hpp>
+#include <motionrack/control/gcode/planar.hpp>
 
 namespace motionrack::control::gcode {
 
 namespace {
-
-double cross(Planar a, Planar b) {
-    return a.first * b.second - a.second * b.first;
-}
-double dot(Planar a, Planar b) {
-    return a.first * b.first + a.second * b.second;
-}
 
 /// Whether `v` comes before `w` when turning counter-clockwise from `from`; a `v` along `from` comes first of all.
 bool comes_before(Planar from, Planar v, Planar w) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/control/gcode/cutter.hpp>
+#include <motionrack/control/gcode/planar.hpp>
 #include <motionrack/control/geometry.hpp>
 
 namespace motionrack::control::gcode {
@@ -15,26 +16,8 @@ constexpr double parallel = 1e-9;
 /// A move that comes back along itself within this sine, with an arc that bends towards the cutter, leaves it no room.
 constexpr double cusp = 0.05;
 
-Planar operator+(Planar a, Planar b) {
-    return {a.first + b.first, a.second + b.second};
-}
-Planar operator-(Planar a, Planar b) {
-    return {a.first - b.first, a.second - b.second};
-}
-Planar operator*(Planar a, double k) {
-    return {a.first * k, a.second * k};
-}
-double cross(Planar a, Planar b) {
-    return a.first * b.second - a.second * b.first;
-}
-double dot(Planar a, Planar b) {
-    return a.first * b.first + a.second * b.second;
-}
 double distance(Planar a, Planar b) {
     return length(b - a);
-}
-Planar left_of(Planar v) {
-    return {-v.second, v.first};
 }
 Planar unit(Planar v) {
     return v * (1 / length(v));

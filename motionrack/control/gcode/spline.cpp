@@ -1,6 +1,7 @@
 // Bezier curves, and pairs of arcs beside them. Only + - * / and square roots, so the same everywhere.
 #include <algorithm>
 #include <cmath>
+#include <motionrack/control/gcode/planar.hpp>
 #include <motionrack/control/gcode/spline.hpp>
 
 namespace motionrack::control::gcode {
@@ -21,24 +22,6 @@ constexpr double largest_radius_mm = 1e6;
 /// Part of the control polygon's length below which a vector has no direction.
 constexpr double no_direction = 1e-12;
 
-Planar operator+(Planar a, Planar b) {
-    return {a.first + b.first, a.second + b.second};
-}
-Planar operator-(Planar a, Planar b) {
-    return {a.first - b.first, a.second - b.second};
-}
-Planar operator*(Planar a, double k) {
-    return {a.first * k, a.second * k};
-}
-double cross(Planar a, Planar b) {
-    return a.first * b.second - a.second * b.first;
-}
-double dot(Planar a, Planar b) {
-    return a.first * b.first + a.second * b.second;
-}
-Planar left_of(Planar v) {
-    return {-v.second, v.first};
-}
 Planar between(Planar a, Planar b, double t) {
     return a * (1 - t) + b * t;
 }
