@@ -102,6 +102,7 @@ class World {
     std::atomic<std::thread::id> owner{};
 
   private:
+    bool is_built_like(World& other);
     void build();
     void start();
     Result<void> run_to(Instant until, const std::function<bool()>& enough = {});

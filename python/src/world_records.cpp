@@ -1,4 +1,5 @@
 // Samples, waves and copies of a world.
+#include <algorithm>
 #include <fmt/format.h>
 
 #include <python/src/raised.hpp>
@@ -60,9 +61,18 @@ std::shared_ptr<World> World::copy() {
     return out;
 }
 
+/// Whether the state of one can be that of the other: the same cards in the same places, as many parts and wires.
+bool World::is_built_like(World& other) {
+    const sim::Kernel &own = running().kernel(), &its = other.running().kernel();
+    const auto same = [](const rack::RackCard& a, const rack::RackCard& b) { return a.name == b.name && a.type == b.type; };
+    return own.device_count() == its.device_count() && own.wire_count() == its.wire_count() &&
+           std::equal(config_.cards.begin(), config_.cards.end(), other.config_.cards.begin(), other.config_.cards.end(), same);
+}
+
 void World::copy_from(World& other) {
     running();
     other.running();
+    if (!is_built_like(other)) refuse("The snapshot is of a rack of another kind; nothing was done.");
     if (sampler_ || recorder_) refuse("A recording runs, and time would jump in it; nothing was done. Stop it first.");
     rack_->copy_from(*other.rack_);
     desk_->copy_from(*other.desk_);
