@@ -8,7 +8,7 @@ import subprocess
 import sys
 import signal
 
-from served import END, Onlooker, Served, compare, fail, skip
+from served import END, Onlooker, Served, compare, fail, sender_comes, skip
 
 SETTINGS = "[Connection]\nopenserial=1\nport={port}\nbaud=115200\ncontroller=GRBL1\npendant=0\n"
 
@@ -34,6 +34,9 @@ def stream(served, way, environment):
     log = open(os.path.join(served.folder, "bcnc.log"), "w+")
     sender = subprocess.Popen(["xvfb-run", "-a", "bCNC", "--run", served.part], env=environment, stdout=log, stderr=log, start_new_session=True)
     try:
+        if way == "tcp" and not sender_comes(served.port):
+            print("bCNC did not connect within 60 s")
+            return False
         onlooker = Onlooker(served.port, must_be_second=way == "tcp")
         if not onlooker.look(40, lambda o: "Run" in o.states()):
             return False
