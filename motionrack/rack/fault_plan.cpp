@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/base/numbers.hpp>
 #include <motionrack/rack/fault_plan.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/toml_reader.hpp>
@@ -49,7 +50,7 @@ Result<void> FaultPlan::read_action(const std::string& text, std::string_view ac
     if (desk_.knows(name)) {
         const std::string_view value = equals == std::string_view::npos ? "1" : action.substr(equals + 1);
         fault.name = name;
-        fault.value = whole_number(value);
+        fault.value = number_of(value);
         if (std::isnan(fault.value) && value != "release")
             return fail(Trouble::bad_input, fmt::format("The fault {}: the value of a wire is 0, 1 or release, not {}. Nothing was "
                                                         "moved.",

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+#include <motionrack/base/numbers.hpp>
 #include <motionrack/rack/faults.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 
@@ -89,8 +89,8 @@ Result<Found> find(Rack& rack, std::string_view fault, std::string_view target) 
                                                     in_quotes(found.name), fmt::join(names, ", ")));
     if (equals != std::string_view::npos) {
         const std::string_view text = fault.substr(equals + 1);
-        const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), found.value);
-        if (bad != std::errc() || end != text.data() + text.size() || !(std::fabs(found.value) <= most))
+        found.value = number_of(text);
+        if (!(std::fabs(found.value) <= most))
             return fail(Trouble::refused, fmt::format("The value of {} is {}; it is a number from {:.0f} to {:.0f}. Nothing was done.",
                                                       found.name, in_quotes(text), -most, most));
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/base/numbers.hpp>
 #include <motionrack/rack/order_plan.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 #include <utility>
@@ -31,7 +32,7 @@ Result<OrderPlan::Order> OrderPlan::read(const TimedText& text) {
     };
     const auto part = [&](Kind kind, double most) {
         out.kind = kind;
-        out.value = equals == std::string_view::npos ? std::nan("") : whole_number(action.substr(equals + 1));
+        out.value = equals == std::string_view::npos ? std::nan("") : number_of(action.substr(equals + 1));
         return out.value >= 0.01 && out.value <= most;
     };
     const bool good = (name == "stop" && plain(Kind::stop)) || (name == "hold" && plain(Kind::hold)) || (name == "resume" && plain(Kind::resume)) ||

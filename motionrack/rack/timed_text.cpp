@@ -1,15 +1,9 @@
 // Taking planned texts apart.
-#include <charconv>
 #include <limits>
+#include <motionrack/base/numbers.hpp>
 #include <motionrack/rack/timed_text.hpp>
 
 namespace motionrack::rack {
-
-double whole_number(std::string_view text) {
-    double value = 0;
-    const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return bad == std::errc() && end == text.data() + text.size() ? value : std::numeric_limits<double>::quiet_NaN();
-}
 
 namespace {
 
@@ -21,7 +15,7 @@ double seconds(std::string_view text) {
     };
     for (const Unit unit : {Unit{"ms", 1e-3}, Unit{"us", 1e-6}, Unit{"s", 1.0}})
         if (text.size() > unit.name.size() && text.substr(text.size() - unit.name.size()) == unit.name)
-            return whole_number(text.substr(0, text.size() - unit.name.size())) * unit.size;
+            return number_of(text.substr(0, text.size() - unit.name.size())) * unit.size;
     return std::numeric_limits<double>::quiet_NaN();
 }
 

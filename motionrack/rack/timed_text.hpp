@@ -19,7 +19,4 @@ inline constexpr double most_planned_seconds = 1e6;
 /// TIME is a number with s, ms or us, 0 .. most_planned_seconds. Nothing: it has no such time.
 std::optional<TimedText> read_timed_text(std::string_view text);
 
-/// The whole text as a number, or NaN.
-double whole_number(std::string_view text);
-
 }  // namespace motionrack::rack

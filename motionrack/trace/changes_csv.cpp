@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <motionrack/base/numbers.hpp>
 #include <motionrack/trace/changes.hpp>
 #include <motionrack/trace/csv_rows.hpp>
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/base/numbers.hpp>
 #include <motionrack/trace/changes.hpp>
 #include <motionrack/trace/csv_rows.hpp>
 #include <motionrack/trace/diff_parts.hpp>
