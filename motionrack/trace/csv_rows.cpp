@@ -1,8 +1,6 @@
 // Taking rows apart.
 #include <fmt/format.h>
 
-#include <charconv>
-#include <limits>
 #include <motionrack/trace/csv_rows.hpp>
 
 namespace motionrack::trace {
@@ -13,15 +11,12 @@ constexpr std::size_t most_field = 1 << 20, most_fields = 4096;
 
 }  // namespace
 
-double number_of(std::string_view text) {
-    double value = 0;
-    const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return bad == std::errc() && end == text.data() + text.size() ? value : std::numeric_limits<double>::quiet_NaN();
-}
-
 Result<CsvRows> CsvRows::open(const std::string& path) {
     CsvRows out;
     MOTIONRACK_TRY(out.bytes_, FileBytes::open(path));
+    // Spreadsheets begin a file with a byte order mark.
+    for (const int mark : {0xEF, 0xBB, 0xBF})
+        if (out.bytes_.peek() == mark) out.bytes_.get();
     MOTIONRACK_TRY(const bool any, out.read(out.head_));
     if (!any) return fail(Trouble::bad_input, "The file is empty.", {}, path);
     return out;
@@ -30,13 +25,19 @@ Result<CsvRows> CsvRows::open(const std::string& path) {
 tl::unexpected<Error> CsvRows::refuse(const std::string& message) const { return fail(Trouble::bad_input, message, {line_, 0}, bytes_.path()); }
 
 Result<bool> CsvRows::next(std::vector<std::string>& fields) {
-    MOTIONRACK_TRY(const bool any, read(fields));
+    bool any = false;
+    do {
+        MOTIONRACK_TRY(any, read(fields));
+    } while (any && is_blank(fields));
     if (any && fields.size() != head_.size()) {
         if (!cut_) return refuse(fmt::format("The row has {} fields, the head {}.", fields.size(), head_.size()));
         return false;
     }
     return any;
 }
+
+/// An empty line in a table of several columns; editors leave one at the end.
+bool CsvRows::is_blank(const std::vector<std::string>& fields) const { return head_.size() > 1 && fields.size() == 1 && fields[0].empty(); }
 
 Result<bool> CsvRows::read(std::vector<std::string>& fields) {
     line_ = next_line_;

@@ -1,4 +1,4 @@
-// A CSV file (RFC 4180) read row by row.
+// A CSV file (RFC 4180) read row by row; a byte order mark and empty lines are passed over.
 #pragma once
 
 #include <cstdint>
@@ -27,6 +27,7 @@ class CsvRows {
 
   private:
     Result<bool> read(std::vector<std::string>& fields);
+    bool is_blank(const std::vector<std::string>& fields) const;
     tl::unexpected<Error> refuse(const std::string& message) const;
 
     FileBytes bytes_;
@@ -34,8 +35,5 @@ class CsvRows {
     int line_ = 0, next_line_ = 1;
     bool cut_ = false;
 };
-
-/// Decimal text as a number; NaN if it is none (an empty field, too).
-double number_of(std::string_view text);
 
 }  // namespace motionrack::trace

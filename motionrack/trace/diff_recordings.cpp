@@ -113,22 +113,6 @@ class SignalComparison {
     Window& b_;
 };
 
-/// Only so far counts, where one of the two was cut off.
-Result<void> limit(Window& window, Instant until) {
-    std::uint64_t low = 0, high = window.columns.size;
-    while (low < high) {
-        const std::uint64_t middle = low + (high - low) / 2;
-        std::int64_t at = 0;
-        MOTIONRACK_CHECK(window.columns.time.read(middle, 1, &at));
-        if (at < until.count())
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    window.columns.size = low;
-    return {};
-}
-
 std::optional<std::int64_t> initial_of(const RecordingReader& recording, const std::string& name) {
     for (const RecordedSignal& signal : recording.head().signals)
         if (signal.name == name) return signal.initial;
@@ -144,8 +128,8 @@ Result<void> compare_signal(const RecordingReader& a, const RecordingReader& b, 
     MOTIONRACK_TRY(of_a.columns, a.columns(in_a));
     MOTIONRACK_TRY(of_b.columns, b.columns(in_b));
     if (diff.until) {
-        MOTIONRACK_CHECK(limit(of_a, *diff.until));
-        MOTIONRACK_CHECK(limit(of_b, *diff.until));
+        MOTIONRACK_CHECK(of_a.columns.end_before(*diff.until));
+        MOTIONRACK_CHECK(of_b.columns.end_before(*diff.until));
     }
     diff.compared += of_a.columns.size;
     MOTIONRACK_TRY(std::optional<Difference> found, SignalComparison(in_a, of_a, of_b).run());

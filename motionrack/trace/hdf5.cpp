@@ -24,10 +24,15 @@ herr_t keep_deepest(unsigned n, const H5E_error2_t* error, void* out) {
     return 0;
 }
 
-/// What the library says of the last failure.
+/// What the library says of the last failure; where it was the system's, only what the system says: "errno = 28, error message = '...'".
 std::string why() {
     std::string text;
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_deepest, &text);
+    static constexpr std::string_view before = "error message = '";
+    if (const std::size_t begin = text.find(before); begin != std::string::npos) {
+        const std::size_t end = text.find('\'', begin + before.size());
+        return text.substr(begin + before.size(), end == std::string::npos ? end : end - begin - before.size());
+    }
     return text.empty() ? "the HDF5 library does not say why" : text;
 }
 

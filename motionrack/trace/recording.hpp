@@ -162,6 +162,9 @@ class RecordingReader {
     struct Columns {
         hdf5::Reader time, value;
         std::uint64_t size = 0;
+
+        /// Only what is before this instant is used. Errors: io.
+        Result<void> end_before(Instant until);
     };
     /// Errors: bad_input, io.
     Result<Columns> columns(const RecordedSeries& series) const;

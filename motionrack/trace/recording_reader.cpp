@@ -112,20 +112,24 @@ Result<RecordingReader::Columns> RecordingReader::columns(const RecordedSeries& 
     out.size = std::min(out.time.size(), out.value.size());
     if (whole_ && out.time.size() != out.value.size())
         return fail(Trouble::bad_input, fmt::format("The recording is damaged: {} has {} times, but {} values.", series.name, out.time.size(), out.value.size()), {}, path());
-    if (whole_) return out;
-    // Times rise: the last one that is known is found by halving.
-    std::uint64_t low = 0, high = out.size;
+    if (!whole_) MOTIONRACK_CHECK(out.end_before(known_to_));
+    return out;
+}
+
+/// Times rise, so the last one is found by halving.
+Result<void> RecordingReader::Columns::end_before(Instant until) {
+    std::uint64_t low = 0, high = size;
     while (low < high) {
         const std::uint64_t middle = low + (high - low) / 2;
         std::int64_t at = 0;
-        MOTIONRACK_CHECK(out.time.read(middle, 1, &at));
-        if (at < known_to_.count())
+        MOTIONRACK_CHECK(time.read(middle, 1, &at));
+        if (at < until.count())
             low = middle + 1;
         else
             high = middle;
     }
-    out.size = low;
-    return out;
+    size = low;
+    return {};
 }
 
 // ---- the report -------------------------------------------------------------------------------------------------------

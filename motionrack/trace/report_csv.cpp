@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <motionrack/base/numbers.hpp>
 #include <motionrack/trace/csv_rows.hpp>
 #include <motionrack/trace/report_csv.hpp>
 
@@ -83,9 +84,13 @@ Result<ReportData> report_from_csv(const std::string& path) {
     ReportData data;
     MOTIONRACK_TRY(const Columns columns, columns_of(rows, data, path));
     std::vector<std::string> row;
-    while (data.seconds.size() < most_rows) {
+    while (true) {
         MOTIONRACK_TRY(const bool more, rows.next(row));
         if (!more) break;
+        if (data.seconds.size() == most_rows) {
+            data.notes.push_back(fmt::format("The file has more than {} rows; those from line {} on are not shown.", most_rows, rows.line()));
+            break;
+        }
         const double seconds = number_of(row[columns.time]);
         if (!std::isfinite(seconds) || (!data.seconds.empty() && seconds < data.seconds.back()))
             return fail(Trouble::bad_input, "The time is no number, or lies before that of the row above.", {rows.line(), 0}, path);
@@ -97,7 +102,7 @@ Result<ReportData> report_from_csv(const std::string& path) {
     data.program_kind = "Samples";
     data.verdict = {true, fmt::format("{} samples; how the run ended does not stand in a CSV file.", data.seconds.size())};
     for (ReportAxis& axis : data.axes) add_tops(axis);
-    data.notes = {"The page was made of samples alone: limits, pulses, counts, blocks and the programmed path are not in the file, and the greatest values are those of the samples."};
+    data.notes.push_back("The page was made of samples alone: limits, pulses, counts, blocks and the programmed path are not in the file, and the greatest values are those of the samples.");
     if (rows.cut()) data.notes.push_back("The file does not end with a whole row: it was cut off.");
     return data;
 }

@@ -229,6 +229,10 @@ TEST(ReportFromCsv, ShowsTheColumnsThatAreThere) {
     EXPECT_EQ(data->axes[1].top_speed, 7);
     EXPECT_TRUE(data->axes[2].servo);
     EXPECT_EQ(data->driven.size(), 2u);
+    std::ofstream(scratch.path("sheet.csv")) << "\xEF\xBB\xBFtime_s,x_position_mm\r\n0,1\r\n\r\n1,2\r\n\r\n";
+    const auto sheet = report_from_csv(scratch.path("sheet.csv"));
+    ASSERT_TRUE(sheet) << sheet.error().text();
+    EXPECT_THAT(sheet->axes[0].position, ElementsAre(1.0F, 2.0F)) << "a byte order mark and empty lines are a spreadsheet's";
     std::ofstream(scratch.path("b.csv")) << "time_s,event\n0,block\n";
     EXPECT_FALSE(report_from_csv(scratch.path("b.csv")));
     std::ofstream(scratch.path("c.csv")) << "time_s,x_position_mm\n1,1\n0,1\n";

@@ -240,6 +240,8 @@ TEST(Recording, TellsThatTheDiskIsFull) {
     const Result<void> closed = writer ? writer->close(plain.end) : tl::unexpected<Error>(writer.error());
     ASSERT_FALSE(closed);
     EXPECT_EQ(closed.error().trouble, Trouble::io);
+    EXPECT_THAT(closed.error().message, HasSubstr("No space left on device"));
+    EXPECT_THAT(closed.error().message, ::testing::Not(HasSubstr("errno")));
 }
 
 }  // namespace
