@@ -48,7 +48,7 @@ void add_diff(CLI::App& app, Action& chosen) {
     command->add_flag("--json", options->json, "print everything as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");
     command->footer("Example: motionrack diff before.h5 after.h5\n"
-                    "Exit code 0: the same; 1: they differ. Names, seconds, ns and ticks of 100 ps of each signal's first difference are told.");
+                    "Exit code 0: the same; 6: they differ. Names, seconds, ns and ticks of 100 ps of each signal's first difference are told.");
     command->callback([options, &chosen] { chosen = [options] { return compare(*options); }; });
 }
 

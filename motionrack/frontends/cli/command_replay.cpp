@@ -101,7 +101,7 @@ void add_replay(CLI::App& app, Action& chosen) {
     command->add_option("--record", options->record, "keep the recording of the replay");
     command->add_flag("--json", options->json, "print the comparison as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");
-    command->footer("Example: motionrack replay part.h5\nExit code 0: the same; 1: it differs, and where first.");
+    command->footer("Example: motionrack replay part.h5\nExit code 0: the same; 6: it differs, and where first.");
     command->callback([options, &chosen] { chosen = [options] { return replay(*options); }; });
 }
 

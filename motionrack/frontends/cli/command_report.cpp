@@ -5,10 +5,9 @@
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/result_files.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
-#include <motionrack/trace/csv.hpp>
 #include <motionrack/trace/diff.hpp>
-#include <motionrack/trace/report.hpp>
 #include <motionrack/trace/report_csv.hpp>
 #include <string>
 #include <vector>
@@ -18,8 +17,8 @@ namespace motionrack::cli {
 namespace {
 
 struct ReportOptions {
-    std::string recording, report = "report.html", csv, events;
-    bool no_report = false;
+    std::string recording;
+    ResultFiles files;
 };
 
 Result<trace::ReportData> read_data(const std::string& path) {
@@ -34,21 +33,11 @@ Result<trace::ReportData> read_data(const std::string& path) {
 }
 
 int make_report(const ReportOptions& options) {
-    if (!may_write({options.recording}, {options.no_report ? "" : options.report, options.csv, options.events})) return exit_refused;
+    if (!may_write({options.recording}, {options.files.page(), options.files.csv, options.files.events})) return exit_refused;
     const Result<trace::ReportData> data = read_data(options.recording);
     if (!data) return report(data.error());
     std::vector<std::string> written;
-    int code = exit_done;
-    const auto write = [&](const std::string& path, const auto& writer) {
-        if (path.empty()) return;
-        if (const Result<void> done = writer(*data, path); !done)
-            code = report(done.error());
-        else
-            written.push_back(path);
-    };
-    write(options.no_report ? std::string() : options.report, trace::write_report);
-    write(options.csv, trace::write_csv);
-    write(options.events, trace::write_events_csv);
+    const int code = write_results(*data, options.files, written);
     fmt::print("{}\n{}", data->verdict.text, written.empty() ? "" : fmt::format("written: {}\n", fmt::join(written, ", ")));
     return code;
 }
@@ -59,10 +48,10 @@ void add_report(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<ReportOptions>();
     CLI::App* command = app.add_subcommand("report", "Make the page of a run (report.html) out of its recording, or out of the samples of a CSV file");
     command->add_option("RECORDING", options->recording, "recording of run --record, or samples of run --csv")->required();
-    command->add_option("--report", options->report, "where the page goes")->capture_default_str();
-    command->add_flag("--no-report", options->no_report, "write no page");
-    command->add_option("--csv", options->csv, "write the samples as CSV");
-    command->add_option("--events", options->events, "write what happened (blocks, warnings, the stop) as CSV");
+    command->add_option("--report", options->files.report, "where the page goes")->capture_default_str();
+    command->add_flag("--no-report", options->files.no_report, "write no page");
+    command->add_option("--csv", options->files.csv, "write the samples as CSV");
+    command->add_option("--events", options->files.events, "write what happened (blocks, warnings, the stop) as CSV");
     command->footer("Example: motionrack report part.h5 --report part.html\n"
                     "The page of a recording is the one that run wrote; of a recording that was cut off it shows what is there.");
     command->callback([options, &chosen] { chosen = [options] { return make_report(*options); }; });

@@ -6,12 +6,11 @@
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
 #include <motionrack/frontends/cli/program_files.hpp>
+#include <motionrack/frontends/cli/result_files.hpp>
 #include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
 #include <motionrack/rack/job_report.hpp>
 #include <motionrack/rack/recorded_job.hpp>
-#include <motionrack/trace/csv.hpp>
-#include <motionrack/trace/report.hpp>
 #include <vector>
 
 namespace motionrack::cli {
@@ -19,10 +18,11 @@ namespace motionrack::cli {
 namespace {
 
 struct RunOptions {
-    std::string program, rack, tools, report = "report.html", record, vcd, csv, events;
+    std::string program, rack, tools, record, vcd;
+    ResultFiles files;
     std::vector<std::string> signals, faults, orders;
     double timescale_ns = 100;
-    bool json = false, quiet = false, no_report = false, block_delete = false, stream = false;
+    bool json = false, quiet = false, block_delete = false, stream = false;
 };
 
 /// Problems until a program that is not checked first is given up.
@@ -65,21 +65,11 @@ void keep_subprograms(control::gcode::Settings& settings, std::map<std::string, 
 }
 
 /// `whole`: what was written while it ran is.
-int write_results(const rack::RecordedJob& job, const RunOptions& options, bool whole) {
-    int code = exit_done;
+int write_all(const rack::RecordedJob& job, const RunOptions& options, bool whole) {
     std::vector<std::string> written;
-    const auto write = [&](const std::string& path, const auto& writer) {
-        if (path.empty()) return;
-        if (const Result<void> done = writer(job.report(), path); !done)
-            code = report(done.error());
-        else
-            written.push_back(path);
-    };
-    write(options.no_report ? std::string() : options.report, trace::write_report);
-    write(options.csv, trace::write_csv);
-    write(options.events, trace::write_events_csv);
-    if (whole && !options.vcd.empty()) written.push_back(options.vcd);
-    if (whole && !options.record.empty()) written.push_back(options.record);
+    const int code = write_results(job.report(), options.files, written);
+    for (const std::string& path : {options.vcd, options.record})
+        if (whole && !path.empty()) written.push_back(path);
     if (!options.json && !written.empty() && !options.quiet) fmt::print("\nwritten: {}\n", fmt::join(written, ", "));
     return code;
 }
@@ -96,7 +86,7 @@ void print_outcome(const rack::RecordedJob& job, const rack::JobRequest& request
 
 int run(const RunOptions& options) {
     rack::JobRequest request;
-    if (!may_write({options.program, options.rack, options.tools}, {options.no_report ? "" : options.report, options.record, options.vcd, options.csv, options.events})) return exit_refused;
+    if (!may_write({options.program, options.rack, options.tools}, {options.files.page(), options.record, options.vcd, options.files.csv, options.files.events})) return exit_refused;
     if (const int bad = read_request(options, request); bad != exit_done) return bad;
     int unread = exit_done;
     control::gcode::Settings settings = program_settings(request.config, request.program_name, options.block_delete);
@@ -131,7 +121,7 @@ int run(const RunOptions& options) {
     if (!done) code = report(done.error());
     if (!outcome.ended) code = report(outcome.ended.error());
     print_outcome(**job, request, outcome, options);
-    const int wrote = write_results(**job, options, done.has_value());
+    const int wrote = write_all(**job, options, done.has_value());
     if (code == exit_done) code = wrote;
     return code == exit_done && !outcome.position_trusted ? static_cast<int>(exit_machine) : code;
 }
@@ -140,8 +130,8 @@ void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
     command->add_option("--signals", options->signals, "signals for the VCD file, patterns with * and ? (default: all): X.step, X.enc_?, motion.*");
     command->add_option("--timescale-ns", options->timescale_ns, "time unit of the VCD file: 0.1, 1, 10, 100 or 1000 ns")->capture_default_str();
-    command->add_option("--csv", options->csv, "write the samples (position, speed, deviation every ms) as CSV");
-    command->add_option("--events", options->events, "write what happened (blocks, warnings, the stop) as CSV");
+    command->add_option("--csv", options->files.csv, "write the samples (position, speed, deviation every ms) as CSV");
+    command->add_option("--events", options->files.events, "write what happened (blocks, warnings, the stop) as CSV");
     command->add_option("--fault", options->faults, "break something on the way, NAME=VALUE@TIME: X.limit_plus=0@0.5s, X.encoder.broken_a@1s")
         ->allow_extra_args(false);
     command->add_option("--at", options->orders, "order something on the way, ORDER@TIME: hold@1.5s, resume@2s, feed=0.5@1s, rapid=0.25@1s, stop@3s")
@@ -159,8 +149,8 @@ void add_run(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<RunOptions>();
     CLI::App* command = app.add_subcommand("run", "Run a part program on a rack: progress, summary, report.html");
     command->add_option("PROGRAM", options->program, "part program, '-': standard input (default: the built-in example)");
-    command->add_option("--report", options->report, "where the report goes")->capture_default_str();
-    command->add_flag("--no-report", options->no_report, "write no report");
+    command->add_option("--report", options->files.report, "where the report goes")->capture_default_str();
+    command->add_flag("--no-report", options->files.no_report, "write no report");
     command->add_option("--record", options->record, "write a recording (HDF5) of everything, from which report, diff and replay work");
     command->add_option("--vcd", options->vcd, "write the waves as a VCD file");
     add_common(command, options);
@@ -173,7 +163,7 @@ void add_run(CLI::App& app, Action& chosen) {
 
 void add_trace(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<RunOptions>();
-    options->no_report = true;
+    options->files.no_report = true;
     CLI::App* command = app.add_subcommand("trace", "Run a part program and write wires, pulses and encoder lines as a VCD file (GTKWave, sigrok)");
     command->add_option("PROGRAM", options->program, "part program")->required();
     command->add_option("VCD", options->vcd, "the file to write")->required();
