@@ -109,10 +109,10 @@ Result<void> Job::drive_by_stream(control::PathAxes& axes, const control::Contro
     return ended;
 }
 
-void Job::give(std::string_view program, std::string name, bool block_delete) {
+void Job::give(std::string_view program, std::string name, control::gcode::Settings reading) {
     settings_.program = program;
     settings_.program_name = std::move(name);
-    settings_.reading = reader_settings(rack_.config(), block_delete);
+    settings_.reading = std::move(reading);
 }
 
 JobOutcome Job::run() {

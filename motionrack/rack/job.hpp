@@ -90,8 +90,8 @@ class Job {
     Job(Rack& rack, JobSettings settings);
     ~Job();
 
-    /// Another program than that of the settings, before run(). The text must outlive the job.
-    void give(std::string_view program, std::string name, bool block_delete);
+    /// Another program than that of the settings, before run(), and how it is read. The text must outlive the job.
+    void give(std::string_view program, std::string name, control::gcode::Settings reading);
 
     JobOutcome run();
     const Monitor& monitor() const { return *monitor_; }

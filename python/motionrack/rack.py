@@ -184,29 +184,31 @@ class Rack:
         """
         if at is not None:
             shown = "" if value is None else f"={value if isinstance(value, str) else format(value, '.17g')}"
-            text = f"{text}{shown}@{at!r}s"
+            text = f"{text}{shown}@{float(at)!r}s"
         self._world.plan_faults([text])
 
     # ---- the controller ----
 
     def run(self, program: str | None = None, *, path: str | os.PathLike[str] | None = None, profile: str | None = None,
             faults: Iterable[str] = (), block_delete: bool = False, sample_period: float = 1e-3, progress: Progress | None = None,
-            name: str | None = None) -> Outcome:
-        """Runs a part program from time 0 to standstill: its text, or the file at ``path``.
+            name: str | None = None, tools: str | os.PathLike[str] | None = None) -> Outcome:
+        """Runs a part program from time 0 to standstill: its text, or the file at ``path``, beside which its subprograms lie.
 
+        ``tools``: path of a tool table (LinuxCNC's ``.tbl``) with the lengths for G43 and the diameters for G41, G42.
         ``profile``: ``"trapezoid"`` or ``"jerk_limited"`` instead of the rack file's. ``faults``: see :meth:`plan_fault`. ``sample_period``: of
         the outcome's trace, s (1e-6 to 3600). ``progress(seconds, line, lines)`` is called about every 50 ms of virtual time and may look, not move.
 
         BadInput with all ``problems``, each with line and column, if anything in the program is wrong: nothing moved. Refused on a rack that has
         no axes or is not at time 0. What the machine did wrong is the outcome's ``error``.
         """
-        text, name = _program(program, path, name)
-        ran = _core.run(self._world, text, name, block_delete, ticks_of(sample_period), profile, list(faults), progress)
+        given, name = _program(program, path, name, tools, block_delete)
+        ran = _core.run(self._world, given, ticks_of(sample_period), profile, list(faults), progress)
         return outcome_of(self._world, ran, name or self.name)
 
-    def check(self, program: str | None = None, *, path: str | os.PathLike[str] | None = None, block_delete: bool = False, name: str | None = None) -> None:
+    def check(self, program: str | None = None, *, path: str | os.PathLike[str] | None = None, block_delete: bool = False, name: str | None = None,
+              tools: str | os.PathLike[str] | None = None) -> None:
         """Raises what is wrong with a part program on this rack, with all ``problems``; moves nothing and takes no time. See :meth:`run`."""
-        _core.check(self._world, *_program(program, path, name), block_delete)
+        _core.check(self._world, _program(program, path, name, tools, block_delete)[0])
 
     def home(self, axes: str = "", *, type: int | None = None, timeout: float = 3600.0) -> Homing:
         """Lets axes find their home switches: ``"XY"``; ``""``: every axis that has one. ``type`` 1 to 4 instead of the rack file's; ``timeout`` in s
@@ -250,18 +252,24 @@ class Rack:
         self._world.copy_from(snapshot._world)
 
 
-def _program(program: str | None, path: str | os.PathLike[str] | None, name: str | None) -> tuple[str, str]:
-    """A program's text and its name in messages."""
-    if (program is None) == (path is None):
-        raise BadInput("A program is given as text or by its path, one of the two. Nothing was moved.")
-    if program is not None:
-        return program, name or ""
-    assert path is not None
+def _text_of(path: str | os.PathLike[str]) -> str:
     try:
         with open(path, encoding="utf-8", errors="replace", newline="") as file:  # a comment may be in anything
-            return file.read(), os.fspath(path) if name is None else name
+            return file.read()
     except OSError as error:
         raise FileTrouble(f"{os.fspath(path)} cannot be read: {error.strerror}. Nothing was moved.") from None
+
+
+def _program(program: str | None, path: str | os.PathLike[str] | None, name: str | None, tools: str | os.PathLike[str] | None,
+             block_delete: bool) -> tuple[_core.Program, str]:
+    """A program with what goes with it, and its name in messages."""
+    if (program is None) == (path is None):
+        raise BadInput("A program is given as text or by its path, one of the two. Nothing was moved.")
+    folder = "" if path is None else os.path.dirname(os.fspath(path)) or "."
+    text = program if path is None else _text_of(path)
+    name = name if name is not None else "" if path is None else os.fspath(path)
+    table, table_name = ("", "") if tools is None else (_text_of(tools), os.fspath(tools))
+    return _core.Program(text or "", name, folder, table, table_name, block_delete), name
 
 
 class Snapshot:

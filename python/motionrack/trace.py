@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -107,6 +108,9 @@ class Trace(Mapping[str, Values]):
             from matplotlib.figure import Figure  # type: ignore[import]
         except ImportError:
             if path is not None:
+                if not os.fspath(path).endswith(".svg"):
+                    raise BadInput(f"Without matplotlib pictures are SVG files, and {os.fspath(path)} does not end in .svg. Nothing was written; choose "
+                                   "such a name, or install matplotlib.") from None
                 self.save_svg(path, *names)
             return self
         charts = self._charts(names)

@@ -155,11 +155,16 @@ void attend_progress(World& world, const py::object& progress) {
     });
 }
 
-std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const std::string& program, const std::string& name, bool block_delete,
-                         std::int64_t sample_ticks, const std::optional<std::string>& profile, const std::vector<std::string>& faults, const py::object& progress) {
+/// Without Python's lock: the loops of a program may take a second or two.
+void check(const World& world, const GivenProgram& program) {
+    const py::gil_scoped_release free;
+    world.check(program);
+}
+
+std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const GivenProgram& program, std::int64_t sample_ticks, const std::optional<std::string>& profile, const std::vector<std::string>& faults, const py::object& progress) {
     {
         const Turn turn(*world, Turn::For::moving);
-        world->check(program, name, block_delete);
+        check(*world, program);
         value_of(world->plan_faults(faults));
         value_of(world->set_sample_period(ticks(sample_ticks)));
         if (profile) value_of(world->set_profile(*profile));
@@ -170,7 +175,7 @@ std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const std::string&
         ~Unheard() { world.on_progress({}); }
     } unheard{*world};
     // What Python raised stops the run and goes on; a stop of the machine is part of the outcome.
-    return std::make_unique<Ran>(Ran{world, alone(*world, [&] { return world->run(program, name, block_delete); })});
+    return std::make_unique<Ran>(Ran{world, alone(*world, [&] { return world->run(program); })});
 }
 
 }  // namespace
@@ -195,11 +200,11 @@ void bind_job(py::module_& m) {
         .def("write_report", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_report); }, py::arg("path"))
         .def("write_csv", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_csv); }, py::arg("path"))
         .def("write_events", [](const Ran& ran, const std::string& path) { write(ran, path, trace::write_events_csv); }, py::arg("path"));
-    m.def("run", &run, py::arg("world"), py::arg("program"), py::arg("name"), py::arg("block_delete"), py::arg("sample_ticks"),
-          py::arg("profile"), py::arg("faults"), py::arg("progress"));
-    m.def("check", [](World& world, const std::string& program, const std::string& name, bool block_delete) {
-        looking(world, [&] { world.check(program, name, block_delete); });
-    }, py::arg("world"), py::arg("program"), py::arg("name"), py::arg("block_delete"));
+    py::class_<GivenProgram>(m, "Program", "A part program's text and what goes with it.")
+        .def(py::init<std::string, std::string, std::string, std::string, std::string, bool>(), py::arg("text"), py::arg("name"), py::arg("folder"),
+             py::arg("tools"), py::arg("tools_name"), py::arg("block_delete"));
+    m.def("run", &run, py::arg("world"), py::arg("program"), py::arg("sample_ticks"), py::arg("profile"), py::arg("faults"), py::arg("progress"));
+    m.def("check", [](World& world, const GivenProgram& program) { looking(world, [&] { check(world, program); }); }, py::arg("world"), py::arg("program"));
 }
 
 }  // namespace motionrack::python

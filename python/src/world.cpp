@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <motionrack/rack/subprograms.hpp>
 #include <motionrack/rack/toml_reader.hpp>
 #include <python/src/raised.hpp>
 
@@ -147,16 +148,21 @@ rack::HomingOutcome World::home(rack::HomingSettings settings) {
 
 // ---- a part program -----------------------------------------------------------------------------------------------------
 
-void World::check(const std::string& program, const std::string& name, bool block_delete) const {
+control::gcode::Settings World::reading_of(const GivenProgram& program) const {
+    control::gcode::Settings out = rack::reader_settings(config_, program.block_delete);
+    if (!program.folder.empty()) out.subprogram = rack::subprograms_in(program.folder);
+    if (!program.tools_name.empty()) out.tools = value_of(control::gcode::read_tool_table(program.tools, program.tools_name));
+    value_of(control::gcode::check_settings(out));
+    return out;
+}
+
+void World::check(const GivenProgram& program) const {
     if (config_.axes.empty()) refuse("The rack has no axes, so no program can run on it. Nothing was moved.");
-    const control::gcode::Settings reader = rack::reader_settings(config_, block_delete);
-    value_of(control::gcode::check_settings(reader));
-    if (auto check = control::gcode::check_program(program, reader, most_problems, name); !check.problems.empty())
+    if (auto check = control::gcode::check_program(program.text, reading_of(program), most_problems, program.name); !check.problems.empty())
         throw Raised{check.problems.front(), false, {check.problems.begin(), check.problems.end()}};
 }
 
-Result<rack::JobOutcome> World::run(const std::string& program, const std::string& name, bool block_delete) {
-    check(program, name, block_delete);
+Result<rack::JobOutcome> World::run(const GivenProgram& program) {
     if (ran_ || (started() && now() != Instant{}))
         return fail(Trouble::refused, fmt::format("A program begins where the rack file says that the machine stands, at time 0, and this rack is at "
                                                   "{:.6f} s. Nothing was moved; run it on Rack.fresh().",
@@ -164,8 +170,7 @@ Result<rack::JobOutcome> World::run(const std::string& program, const std::strin
     running();
     ran_ = true;
     program_ = program;
-    program_name_ = name;
-    job_->give(program_, program_name_, block_delete);
+    job_->give(program_.text, program_.name, reading_of(program_));
     rack::JobOutcome out = job_->run();
     listen_again();
     return out;

@@ -21,6 +21,14 @@
 
 namespace motionrack::python {
 
+/// A part program and what goes with it.
+struct GivenProgram {
+    std::string text, name;
+    std::string folder;             ///< where its subprograms lie; empty: it has none but its own
+    std::string tools, tools_name;  ///< text of a tool table (LinuxCNC's .tbl), and its name; an empty name: there is none
+    bool block_delete = false;
+};
+
 class World {
   public:
     explicit World(const rack::RackConfig& config);
@@ -65,13 +73,14 @@ class World {
 
     // ---- a part program, once, from time 0 ----
     /// Throws every problem of a program, in the order of its lines; nothing moves.
-    void check(const std::string& program, const std::string& name, bool block_delete) const;
-    Result<rack::JobOutcome> run(const std::string& program, const std::string& name, bool block_delete);
+    void check(const GivenProgram& program) const;
+    /// After check().
+    Result<rack::JobOutcome> run(const GivenProgram& program);
     /// See home_axes; `settings.stop` is this world's own.
     rack::HomingOutcome home(rack::HomingSettings settings);
     const rack::Job* job() const { return job_.get(); }
-    const std::string& program() const { return program_; }
-    const std::string& program_name() const { return program_name_; }
+    const std::string& program() const { return program_.text; }
+    const std::string& program_name() const { return program_.name; }
 
     // ---- samples and waves ----
     Result<void> begin_samples(const std::vector<std::string>& names, Duration period, std::size_t most);
@@ -107,10 +116,11 @@ class World {
     void start();
     Result<void> run_to(Instant until, const std::function<bool()>& enough = {});
     rack::JobSettings job_settings();
+    control::gcode::Settings reading_of(const GivenProgram& program) const;
 
     rack::RackConfig config_;
     std::atomic<bool> stop_{false};
-    std::string program_, program_name_;
+    GivenProgram program_;
     std::vector<std::string> fault_texts_;
     Duration sample_period_ = milliseconds(1);
     bool ran_ = false;

@@ -53,9 +53,9 @@ FORMS = {
     "12_pascal": [built("12_pascal", "calibrate/calibrate", environment=(("LD_LIBRARY_PATH", str(BUILD / "lib")),))],
     "13_stage": [built("13_stage", "example_stage")],
     "14_line": [built("14_line", "example_line", "line.toml")],
-    "16_probe": [cli("16_probe")],
     "15_panel": [Form([[str(PROGRAM), "home", "--rack", "demonstration.toml"],
                        [str(PROGRAM), "run", "../02_part/part.ngc", "--rack", "demonstration.toml", "--no-report"]], expected=None)],
+    "16_probe": [cli("16_probe")],
 }
 
 

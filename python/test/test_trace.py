@@ -121,6 +121,12 @@ sys.modules["matplotlib"] = sys.modules["matplotlib.figure"] = None
 import motionrack
 trace = motionrack.Rack.template().run("G1 X5 F600\\n").trace
 assert trace.plot("x.position", path=sys.argv[1]) is trace and "<svg" in trace._repr_svg_()
+try:
+    trace.plot("x.position", path=sys.argv[1] + ".png")
+except motionrack.BadInput as error:
+    assert "does not end in .svg" in str(error)
+else:
+    raise AssertionError("an SVG file was called .png")
 """
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([sys.executable, "-c", program, f"{folder}/a.svg"], check=True, timeout=60)

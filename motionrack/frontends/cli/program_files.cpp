@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <motionrack/rack/counted.hpp>
 #include <motionrack/rack/job.hpp>
+#include <motionrack/rack/subprograms.hpp>
 #include <motionrack/rack/template.hpp>
 
 namespace motionrack::cli {
@@ -46,15 +47,7 @@ control::gcode::Settings program_settings(const rack::RackConfig& config, const 
     control::gcode::Settings settings = rack::reader_settings(config, block_delete);
     std::error_code unknown;
     if (!std::filesystem::is_regular_file(path, unknown)) return settings;
-    settings.subprogram = [folder = std::filesystem::path(path).parent_path()](const std::string& name) -> Result<std::string> {
-        constexpr std::uintmax_t largest = 64 << 20;
-        const std::string file = (folder / (name + ".ngc")).string();
-        std::error_code missing;
-        const std::uintmax_t size = std::filesystem::file_size(file, missing);
-        if (missing) return fail(Trouble::bad_input, fmt::format("{} beside it is not there or cannot be read", file));
-        if (size > largest) return fail(Trouble::bad_input, fmt::format("{} beside it is larger than 64 MiB", file));
-        return read_text(file);
-    };
+    settings.subprogram = rack::subprograms_in(std::filesystem::path(path).parent_path());
     return settings;
 }
 
