@@ -62,7 +62,7 @@ TEST_F(CanonCommand, FindsSubprogramsBesideTheProgram) {
     write("parts/hole.ngc", "o<hole> sub\nG0 X#1\no<hole> endsub\n");
     const Ran ran = motionrack("run parts/part.ngc --no-report");
     EXPECT_EQ(ran.code, 0) << ran.out;
-    EXPECT_THAT(motionrack("canon - < parts/part.ngc").out, HasSubstr("no file beside which one could lie"));
+    EXPECT_THAT(motionrack("canon - < parts/part.ngc").out, HasSubstr("came without a folder in which another file could have it"));
     std::filesystem::remove(folder / "parts/hole.ngc");
     EXPECT_THAT(motionrack("canon parts/part.ngc").out, HasSubstr("beside it is not there"));
 }

@@ -52,12 +52,17 @@ Result<void> Controller::hand_over() {
     while (true) {
         if (!held_ && stop_wished()) held_ = planner_->hold();
         if (!planner_->pull(planned)) return held_ ? stopped() : Result<void>{};
-        summary_.add(planned);
-        if (on_block_) on_block_(blocks_, planned);
-        ++blocks_;
-        line_ = planned.move.line;
+        tell(planned);
         MOTIONRACK_CHECK(axes_.follow(planned));
     }
+}
+
+/// A block is about to be driven.
+void Controller::tell(const PlannedMove& planned) {
+    summary_.add(planned);
+    if (on_block_) on_block_(blocks_, planned);
+    ++blocks_;
+    line_ = planned.move.line;
 }
 
 /// What the axes had is driven, and it ends at rest.
@@ -101,9 +106,7 @@ Result<void> Controller::probe(const gcode::Step& step, gcode::Reader& reader, P
     MOTIONRACK_CHECK(hand_over());
     MOTIONRACK_CHECK(axes_.finish());
     MOTIONRACK_TRY(const PlannedMove planned, plan_alone(axes_, settings_.gcode.limits, settings_.kept_back, step.move));
-    summary_.add(planned);
-    if (on_block_) on_block_(blocks_, planned);
-    ++blocks_;
+    tell(planned);
     MOTIONRACK_TRY(const ProbeOutcome outcome, axes_.probe(planned, gcode::probe_leaves(step.probe)));
     const Point stands = axes_.commanded_position();
     reader.probed(outcome.hit, outcome.at, stands);

@@ -68,6 +68,7 @@ class Controller {
     Result<void> hand_over();
     Result<void> stopped();
     Result<void> take(const gcode::Step& step, ProgramRun& run);
+    void tell(const PlannedMove& planned);
     Result<void> probe(const gcode::Step& step, gcode::Reader& reader, ProgramRun& run);
     void plan_from(const Point& start);
     void note(ProgramEvent event, ProgramRun& run);

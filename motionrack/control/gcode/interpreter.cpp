@@ -73,20 +73,28 @@ bool Interpreter::evaluate() {
         comments_pulled_ = 0;
     }
     if (!block_.assignments.empty() && !assign()) return false;
+    if (!block_.comments.empty()) show_values();
     if (tool_edited_) tools_.put(*tool_edited_);
     if (block_.has_m(m_state)) keep_modes();
     commit();
     return true;
 }
 
+/// All of them or, where there is no room for a name, none.
 bool Interpreter::assign() {
-    for (const Assignment& one : block_.assignments) {
-        if (one.parameter.number > 0) {
-            parameters_.set(one.parameter.number, one.value);
-        } else if (!parameters_.set(one.parameter.name, one.value)) {
+    std::size_t global = 0, local = 0;
+    for (const auto& [parameter, value] : block_.assignments) {
+        if (parameter.number > 0 || parameters_.named(parameter.name)) continue;
+        if (++(is_global(parameter.name) ? global : local) > parameters_.room_for(parameter.name)) {
             return fail_at(block_.text.find('#'), GrblStatus::unsupported,
-                           fmt::format("#<{}> is one named parameter too many; there may be {}", one.parameter.name, most_names));
+                           fmt::format("#<{}> is one named parameter too many; there may be {}", parameter.name, most_names));
         }
+    }
+    for (const auto& [parameter, value] : block_.assignments) {
+        if (parameter.number > 0)
+            parameters_.set(parameter.number, value);
+        else
+            parameters_.set(parameter.name, value);
     }
     return true;
 }
@@ -264,7 +272,7 @@ const Step* Interpreter::pull_comment() {
     event_.kind = comment.message ? StepKind::message : StepKind::comment;
     event_.line = line_;
     event_.text = comment.text;
-    if (comment.values) event_.text = shown_ = with_values(comment.text);
+    if (comment.values) event_.text = shown_[comments_pulled_ - 1];
     return &event_;
 }
 

@@ -184,6 +184,7 @@ class Interpreter {
     bool tool_length_of_table(bool adds);
     bool set_tool();
     bool known_tool(char letter, std::int32_t number);
+    Point shift_to_words(const Frame& frame) const;
     void shift_turned(Frame& frame, int system);
     bool edit_tool(int what);
     bool edit_tool_shape(Tool& tool);
@@ -248,6 +249,7 @@ class Interpreter {
     const Step* pull_next();
     const Step* pull_motion();
     const Step* pull_comment();
+    void show_values();
     std::string with_values(std::string_view text) const;
 
     bool fail_at(std::size_t column, GrblStatus status, std::string message, Trouble trouble = Trouble::bad_input);
@@ -309,7 +311,7 @@ class Interpreter {
     Motion motion_ = Motion::single;
     bool on_the_way_ = false;
     std::size_t comments_pulled_ = 0;
-    std::string shown_;  ///< text of the event, where it is not as written
+    std::vector<std::string> shown_;  ///< of the comments with values: what they show
     double dwell_seconds_ = 0;
     Point dwell_at_ = {};
     std::int16_t stop_code_ = 0;

@@ -6,6 +6,7 @@
 #include <motionrack/control/gcode/arc.hpp>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/planar.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -22,7 +23,6 @@ constexpr double same_point_mm = 1e-7;
 
 constexpr double most_turns = 100'000;
 
-constexpr std::array<std::array<std::uint8_t, 3>, 3> plane_axes = {{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
 constexpr std::array<char, 3> offset_letters = {'I', 'J', 'K'};
 constexpr std::array<const char*, 3> plane_names = {"G17 (XY)", "G18 (XZ)", "G19 (YZ)"};
 

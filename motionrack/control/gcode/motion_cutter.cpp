@@ -4,14 +4,13 @@
 #include <cmath>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/planar.hpp>
 
 namespace motionrack::control::gcode {
 
 namespace {
 
 constexpr double largest_cutter_mm = 1000;
-
-constexpr std::array<std::array<std::uint8_t, 3>, 3> plane_axes = {{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
 
 }  // namespace
 
@@ -57,7 +56,7 @@ bool Interpreter::cutter_diameter(double& diameter) {
     } else {
         if (tools_.empty()) {
             return fail_at(column, GrblStatus::unsupported,
-                           fmt::format("{0}: there is no tool table to take the diameter from; give one by --tools FILE, or write it out, e.g. {0}.1 D6",
+                           fmt::format("{0}: there is no tool table to take the diameter from; give the program one (--tools FILE, tools= in Python), or write it out, e.g. {0}.1 D6",
                                        name_of_g(code)));
         }
         if (block_.has('D') && !need_integer('D', 0, largest_tool, "the number of a tool")) return false;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
+#include <motionrack/control/gcode/planar.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -12,8 +13,6 @@ namespace {
 
 constexpr double most_repeats = 10'000;
 constexpr double most_pecks = 100'000;
-
-constexpr std::array<std::array<std::uint8_t, 3>, 3> plane_axes = {{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
 
 /// Marks in Modes::cycle_words for the word of the drilling axis, whatever its letter.
 constexpr std::uint32_t depth_word = letter_bit('Z');

@@ -69,16 +69,21 @@ bool Interpreter::set_work_offset(int system, bool from_position) {
     return true;
 }
 
-/// G10 L20 of a turned system: its origin moves along its own axes until the position there is as said.
-void Interpreter::shift_turned(Frame& frame, int system) {
-    frame.activate(system);
+/// How far an offset moves, along the axes of the frame, for the position there to be as the words say; in machine coordinates.
+Point Interpreter::shift_to_words(const Frame& frame) const {
     const Point now = frame.to_program(position_);
     Point by = {};
     for (int axis = 0; axis < axis_count; ++axis) {
         if ((block_.words & letter_bit(axis_letters[axis])) == 0) continue;
         by[axis] = now[axis] - block_.value[axis_letter(axis)] * scale_of(axis);
     }
-    by = frame.turned_by(by);
+    return frame.turned_by(by);
+}
+
+/// G10 L20 of a turned system.
+void Interpreter::shift_turned(Frame& frame, int system) {
+    frame.activate(system);
+    const Point by = shift_to_words(frame);
     for (int axis = 0; axis < axis_count; ++axis) frame.work[static_cast<std::size_t>(system)][axis] += by[axis];
 }
 
@@ -94,15 +99,16 @@ bool Interpreter::edit_tool(int what) {
     } else if (tools_.tools().size() >= most_tools) {
         return fail_word('P', GrblStatus::unsupported, fmt::format("{}: the tool table has {} tools already", written('P'), most_tools));
     }
-    Frame without = frame_now();
-    without.tool = {};
-    if (what == 11) without.g92 = {};
-    without.activate(what == 11 ? work_system_count - 1 : next_.system);
-    const Point at = without.to_program(position_);
-    for (int axis = 0; axis < axis_count; ++axis) {
-        if ((block_.words & letter_bit(axis_letters[axis])) == 0) continue;
-        const double value = block_.value[axis_letter(axis)] * scale_of(axis);
-        tool.offset[axis] = what == 1 ? value : at[axis] - value;
+    if (what == 1) {
+        for (int axis = 0; axis < axis_count; ++axis)
+            if ((block_.words & letter_bit(axis_letters[axis])) != 0) tool.offset[axis] = block_.value[axis_letter(axis)] * scale_of(axis);
+    } else {
+        Frame with = frame_now();
+        with.tool = tool.offset;
+        if (what == 11) with.g92 = {};
+        with.activate(what == 11 ? work_system_count - 1 : next_.system);
+        const Point by = shift_to_words(with);
+        for (int axis = 0; axis < axis_count; ++axis) tool.offset[axis] += by[axis];
     }
     if (!edit_tool_shape(tool)) return false;
     tool_edited_ = tool;
@@ -180,7 +186,7 @@ bool Interpreter::tool_length_of_table(bool adds) {
     }
     if (number != 0 && tools_.empty()) {
         return fail_at(column, GrblStatus::unsupported,
-                       fmt::format("{}: there is no tool table; give one by --tools FILE, or write the tool's length itself, e.g. G43.1 Z12.5",
+                       fmt::format("{}: there is no tool table; give the program one (--tools FILE, tools= in Python), or write the tool's length itself, e.g. G43.1 Z12.5",
                                    name_of_g(block_.g[g_tool_length])));
     }
     const Tool* tool = tools_.find(number);

@@ -1,15 +1,33 @@
 // Walking through the lines of a program.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <motionrack/control/gcode/reader.hpp>
 
 namespace motionrack::control::gcode {
 
 Reader::Reader(std::string_view text, const Settings& settings, std::string file)
-    : walk_(text, settings, std::move(file)), interpreter_(settings) {}
+    : walk_(text, settings, std::move(file)), interpreter_(settings), most_steps_(settings.most_steps) {}
+
+/// What other lines than those of cycles do is in the allowance of each line.
+bool Reader::within_budget() const {
+    constexpr std::int64_t steps_of_a_line = 16;
+    return further_steps_ <= most_steps_ + steps_of_a_line * lines_read_;
+}
 
 Outcome<const Step*> Reader::next_from_lines() {
     std::string_view text;
     while (walk_.next(text)) {
+        ++lines_read_;
+        if (!within_budget()) {
+            Problem problem;
+            set_problem(problem, text, 0, GrblStatus::unsupported,
+                        fmt::format("the lines up to here have made {} moves, most of them of drilling cycles, and the program is not over; does a loop drill without "
+                                    "end? No more of it was read", further_steps_));
+            walk_.place(problem);
+            walk_.end();
+            return tl::unexpected<Problem>(std::move(problem));
+        }
         if (auto done = interpreter_.line(text, walk_.number(), Language::program); !done) {
             walk_.place(done.error());
             const std::size_t column = static_cast<std::size_t>(done.error().place.column);

@@ -28,7 +28,10 @@ class Reader {
 
     /// The next step, valid until the next call; null: the program is over.
     Outcome<const Step*> next() {
-        if (const Step* step = interpreter_.pull()) return step;
+        if (const Step* step = interpreter_.pull()) {
+            ++further_steps_;
+            return step;
+        }
         return next_from_lines();
     }
 
@@ -40,9 +43,13 @@ class Reader {
 
   private:
     Outcome<const Step*> next_from_lines();
+    bool within_budget() const;
 
     Walk walk_;
     Interpreter interpreter_;
+    std::int64_t most_steps_;
+    std::int64_t further_steps_ = 0;  ///< than the first ones of their lines
+    std::int64_t lines_read_ = 0;
 };
 
 /// What one pass over a program finds.

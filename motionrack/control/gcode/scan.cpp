@@ -106,7 +106,9 @@ bool Scanner::other() {
 bool Scanner::slash() {
     if (text_.find_first_not_of(" \t") != here()) {
         return fail_at(here(), GrblStatus::unsupported,
-                       "'/' (block delete) must be the first character of the line; division is not supported");
+                       options_.language == Language::words
+                           ? "'/' (block delete) must be the first character of the line"
+                           : "'/' is block delete only as the first character of the line; a division stands in brackets, e.g. X[#1 / 2]");
     }
     ++at_;
     if (options_.block_delete) {

@@ -47,8 +47,7 @@ bool Scanner::bad_letter(char letter, std::size_t column) {
                        "lines from a sender take no O words (subprograms, loops, conditions); run the program as a file, or write "
                        "the lines out");
     }
-    const char* hint = letter == 'H'                                     ? "; there is no tool table"
-                       : letter == 'E'                                   ? "; there is no extruder"
+    const char* hint = letter == 'E'                                   ? "; there is no extruder"
                        : letter == 'U' || letter == 'V' || letter == 'W' ? "; axes are X Y Z A B C"
                                                                          : "";
     return fail_at(column, GrblStatus::unsupported,

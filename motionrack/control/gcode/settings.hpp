@@ -32,6 +32,7 @@ struct Settings {
     Point g30 = {};                                          ///< where G30 goes, machine coordinates
     ToolTable tools = {};                  ///< for G43, G41 and G42; empty: any tool number will do, but has no length and no diameter
     std::int64_t most_lines = 5'000'000;   ///< that loops and calls may go through, beside the program's own; >= 0
+    std::int64_t most_steps = 20'000'000;  ///< that cycles may make, beside 16 a line; >= 0
     SubprogramSource subprogram = {};      ///< none: a program has the subs that are in its text
 };
 

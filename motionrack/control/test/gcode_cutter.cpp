@@ -216,13 +216,7 @@ TEST(GcodeCutter, ARefusedLineLeavesTheMoveBeforeItWaiting) {
 
 namespace {
 
-struct Refused {
-    const char* program;
-    int column;
-    const char* says;
-};
-
-const Refused refused[] = {
+const testing::Refused refused[] = {
     {"G41.1", 1, "D word missing"},
     {"G41.1 D2000", 7, "largest diameter is 1000 mm"},
     {"G42 D1", 1, "no tool table"},
@@ -253,15 +247,7 @@ const Refused refused[] = {
 }  // namespace
 
 TEST(GcodeCutter, RefusesWithPlaceAndSentence) {
-    for (const Refused& row : refused) {
-        SCOPED_TRACE(row.program);
-        const std::string text = std::string(preamble) + row.program;
-        const auto program = read(text);
-        ASSERT_GE(program.problems.size(), 1u);
-        EXPECT_EQ(program.problems[0].place.line, 1 + std::count(text.begin(), text.end(), '\n'));
-        EXPECT_EQ(program.problems[0].place.column, row.column);
-        EXPECT_THAT(program.problems[0].message, HasSubstr(row.says));
-    }
+    testing::expect_refused(preamble, refused);
 }
 
 TEST(GcodeCutter, AMoveThatTheProgramsEndFindsTooShortIsNamed) {

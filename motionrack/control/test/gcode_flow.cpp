@@ -181,6 +181,27 @@ TEST(GcodeFlow, ThatNeverEndsIsStopped) {
     EXPECT_TRUE(problems("o1 repeat [200]\nX1\nX2\no1 endrepeat", settings).empty());
 }
 
+TEST(GcodeFlow, ThatDrillsWithoutEndIsStopped) {
+    Settings settings = testing::machine();
+    settings.most_steps = 100'000;
+    const std::string drills = "F100 G99\no1 repeat [#1]\nG81 X1 Z-1 R1 L1000\no1 endrepeat\nG80\nM2";
+    const auto found = problems("#1=1000\n" + drills, settings);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_THAT(found[0].message, ::testing::ContainsRegex("have made 10[0-9]+ moves"));
+    EXPECT_TRUE(problems("#1=20\n" + drills, settings).empty());
+}
+
+TEST(GcodeFlow, WithManyBranchesInALoopIsStopped) {
+    Settings settings = testing::machine();
+    settings.most_lines = 10'000;
+    std::string branches = "o1 while [1]\no2 if [0]\n";
+    for (int i = 0; i < 1000; ++i) branches += "o2 elseif [0]\n";
+    branches += "o2 endif\no1 endwhile\n";
+    const auto found = problems(branches, settings);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_THAT(found[0].message, ::testing::ContainsRegex("gone through 1[0-9][0-9][0-9][0-9] lines"));
+}
+
 TEST(GcodeFlow, IsCheckedOnceHoweverOftenALineIsGoneThrough) {
     const Check check = check_program("G0\no1 repeat [100]\nX9999\nY1\no1 endrepeat\nX1\nM2\n", testing::machine(), 20);
     ASSERT_EQ(check.problems.size(), 1u);

@@ -192,6 +192,27 @@ TEST(GcodeParameters, AreShownByDebugAndPrint) {
     EXPECT_THAT(out, HasSubstr("MESSAGE(\"2 2.50\")"));
 }
 
+TEST(GcodeParameters, AreShownAsBeforeTheMoveOfTheirLine) {
+    std::string out;
+    ASSERT_TRUE(print_canon("G21 F100\nG1 X3\n#1=7 G1 X5 (PRINT,%d#5420 #1) (PRINT,#<_x>)\n(PRINT,#5420)\n", testing::machine(), {}, [&](std::string_view line) { out += line; }));
+    EXPECT_THAT(out, HasSubstr("MESSAGE(\"3 7\")"));
+    EXPECT_THAT(out, HasSubstr("MESSAGE(\"3.000000\")"));
+    EXPECT_THAT(out, HasSubstr("MESSAGE(\"5.000000\")"));
+}
+
+TEST(GcodeParameters, OfALineAreAllSetOrNone) {
+    std::string names;
+    for (int i = 0; i < 999; ++i) names += "#<n" + std::to_string(i) + ">=1\n";
+    const auto read = testing::read(names + "#5=4 #<n3>=2 #<last>=3 #<too_many>=4\n#<last>=9\n#<_global>=1\n#<n3>=5\nG0 X[#5] Y[#<n3>] Z[#<last>]", testing::machine());
+    ASSERT_EQ(read.problems.size(), 1u);
+    EXPECT_EQ(read.problems[0].place.line, 1000);
+    EXPECT_THAT(read.problems[0].message, HasSubstr("#<too_many> is one named parameter too many; there may be 1000"));
+    ASSERT_EQ(read.moves().size(), 1u);
+    EXPECT_EQ(read.moves()[0].end[0], 0);
+    EXPECT_EQ(read.moves()[0].end[1], 5);
+    EXPECT_EQ(read.moves()[0].end[2], 9);
+}
+
 TEST(GcodeParameters, AreNotTakenFromSenders) {
     struct Row {
         const char* line;

@@ -119,6 +119,10 @@ TEST(GcodeTools, AreSetByG10) {
     // The tool stands at machine Z 12; that shall be Z 2 in G54 (offset 4): its length is 6.
     expect_near(last_end("G10 L2 P1 Z4\nG53 G0 Z12\nG10 L10 P1 Z2\nG43 H1 Z0"), 0, 0, 10);
     expect_near(last_end("G10 L2 P9 Z3\nG53 G0 Z12\nG10 L11 P1 Z2\nG43 H1 Z0"), 0, 0, 7);
+    // In a turned system the offset goes along the system's axes, so that the tool stays where it is.
+    expect_near(last_end("G10 L2 P1 R30\nG0 X10 Y5\nG10 L10 P1 X2 Y1\nG43 H1\nX2 Y1"), 6.1602540378443873, 9.3301270189221928, 0);
+    expect_near(last_end("G10 L2 P1 R30\nG0 X10 Y5\nG10 L10 P1 X2\nG43 H1\nX2"), 6.1602540378443873, 9.3301270189221928, 0);
+    expect_near(last_end("G10 L2 P9 R90\nG0 X10 Y5\nG10 L11 P1 X2 Y1\nG59.3 G43 H1\nX2 Y1"), 10, 5, 0);
     EXPECT_THAT(problem_of("G10 L1 P0 Z1"), HasSubstr("the number of a tool"));
     EXPECT_THAT(problem_of("G10 L1 Z1"), HasSubstr("P word missing"));
     EXPECT_THAT(problem_of("G10 L1 P1 Z1 R-1"), HasSubstr("0 or more"));

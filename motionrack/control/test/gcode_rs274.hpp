@@ -46,7 +46,7 @@ inline std::string table_in_inches() {
 /// What rs274 prints for a file in the folder.
 inline std::string of_rs274(const Folder& at, const std::string& name, bool tools) {
     std::filesystem::remove(at.file("x.var"));
-    const std::string command = fmt::format("cd '{}' && timeout 20 rs274 -g {} -v x.var {}.ngc 2>&1", at.path().string(), tools ? "-t tools.tbl" : "", name);
+    const std::string command = fmt::format("cd '{}' && timeout 120 rs274 -g {} -v x.var {}.ngc 2>&1", at.path().string(), tools ? "-t tools.tbl" : "", name);
     std::FILE* pipe = ::popen(command.c_str(), "r");
     std::string out;
     char part[4096];

@@ -177,13 +177,7 @@ TEST(GcodeSpline, CurveStaysWithinTheTravel) {
 
 namespace {
 
-struct Refused {
-    const char* program;
-    int column;
-    const char* says;
-};
-
-const Refused refused[] = {
+const testing::Refused refused[] = {
     {"G5 X10 Y0 I1 J1", 1, "needs P and Q"},
     {"G5 X10 Y0 I1 J1 P1", 1, "needs P and Q"},
     {"G5 X10 Y0 P1 Q1", 1, "only a G5 right after another goes on"},
@@ -210,15 +204,7 @@ const Refused refused[] = {
 }  // namespace
 
 TEST(GcodeSpline, RefusesWithPlaceAndSentence) {
-    for (const Refused& row : refused) {
-        SCOPED_TRACE(row.program);
-        const std::string text = std::string(preamble) + row.program;
-        const auto program = read(text);
-        ASSERT_EQ(program.problems.size(), 1u);
-        EXPECT_EQ(program.problems[0].place.line, 1 + std::count(text.begin(), text.end(), '\n'));
-        EXPECT_EQ(program.problems[0].place.column, row.column);
-        EXPECT_THAT(program.problems[0].message, HasSubstr(row.says));
-    }
+    testing::expect_refused(preamble, refused);
 }
 
 }  // namespace motionrack::control::gcode

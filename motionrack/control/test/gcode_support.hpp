@@ -1,7 +1,11 @@
 // What the G-code tests share: a machine, a whole program as a list of steps, and one line's problem.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
 #include <motionrack/control/gcode/reader.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,6 +51,25 @@ inline Program read(std::string_view text, const Settings& settings = machine())
         } else {
             program.steps.push_back(**step);
         }
+    }
+}
+
+/// A program whose last line is refused first: at this column, with this in its sentence.
+struct Refused {
+    const char* program;
+    int column;
+    const char* says;
+};
+
+inline void expect_refused(const std::string& preamble, std::span<const Refused> rows, const Settings& settings = machine()) {
+    for (const Refused& row : rows) {
+        SCOPED_TRACE(row.program);
+        const std::string text = preamble + row.program;
+        const auto program = read(text, settings);
+        ASSERT_GE(program.problems.size(), 1u);
+        EXPECT_EQ(program.problems[0].place.line, 1 + std::count(text.begin(), text.end(), '\n'));
+        EXPECT_EQ(program.problems[0].place.column, row.column);
+        EXPECT_NE(program.problems[0].message.find(row.says), std::string::npos) << program.problems[0].message;
     }
 }
 

@@ -10,22 +10,19 @@ void Parameters::set(int number, double value) {
 }
 
 std::optional<double> Parameters::named(std::string_view name) const {
-    const Names& names = name.starts_with('_') ? global_ : calls_.empty() ? main_ : calls_.back().names;
+    const Names& names = names_of(name);
     const auto found = names.find(name);
     if (found == names.end()) return std::nullopt;
     return found->second;
 }
 
-bool Parameters::set(const std::string& name, double value) {
-    Names& names = name.starts_with('_') ? global_ : calls_.empty() ? main_ : calls_.back().names;
-    const auto found = names.find(name);
-    if (found != names.end()) {
-        found->second = value;
-        return true;
-    }
-    if (names.size() >= most_names) return false;
-    names.emplace(name, value);
-    return true;
+void Parameters::set(const std::string& name, double value) {
+    (is_global(name) ? global_ : calls_.empty() ? main_ : calls_.back().names)[name] = value;
+}
+
+std::size_t Parameters::room_for(std::string_view name) const {
+    const std::size_t kept = names_of(name).size();
+    return kept < most_names ? most_names - kept : 0;
 }
 
 bool Parameters::enter(std::span<const double> arguments) {

@@ -16,6 +16,11 @@ inline constexpr int deepest_call = 100;
 /// Named parameters, global ones or those of one call.
 inline constexpr std::size_t most_names = 1000;
 
+/// Names that begin with '_' are seen everywhere, others only in the call that set them.
+inline bool is_global(std::string_view name) {
+    return name.starts_with('_');
+}
+
 /// The parameters that a program sets itself; those of the machine are not here. Copies are independent.
 class Parameters {
   public:
@@ -24,10 +29,10 @@ class Parameters {
         return numbered_.empty() ? 0 : numbered_[static_cast<std::size_t>(number)];
     }
     void set(int number, double value);
-    /// Names that begin with '_' are seen everywhere, others only in the call that set them.
     std::optional<double> named(std::string_view name) const;
-    /// False: there are most_names of them already.
-    bool set(const std::string& name, double value);
+    void set(const std::string& name, double value);
+    /// How many more names there may be where this one goes.
+    std::size_t room_for(std::string_view name) const;
 
     /// A call begins: #1 .. #30 are its arguments, or 0, and it has names of its own. False: deepest_call.
     bool enter(std::span<const double> arguments);
@@ -46,6 +51,10 @@ class Parameters {
         std::array<double, most_arguments> kept;
         Names names;
     };
+
+    const Names& names_of(std::string_view name) const {
+        return is_global(name) ? global_ : calls_.empty() ? main_ : calls_.back().names;
+    }
 
     std::vector<double> numbered_;  ///< empty until one is set
     Names global_;

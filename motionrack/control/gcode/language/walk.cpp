@@ -144,6 +144,7 @@ bool Walk::choose(std::int32_t at, Interpreter& interpreter) {
             jump(place);
             return true;
         }
+        ++walked_;
         double value = 0;
         if (!evaluate(place, interpreter, value)) {
             jump(place_at(place.end));

@@ -34,6 +34,9 @@ class Walk {
         return {};
     }
 
+    /// There are no lines any more.
+    void end() { over_ = true; }
+
     /// Line of the program; in another file the line that called it.
     std::int32_t number() const { return called_at_ != 0 ? called_at_ : lines_.number(); }
     /// The greatest number() so far.

@@ -108,7 +108,8 @@ bool Walk::find_sub(const FlowPlace& place, const std::string& label, Target& ta
 bool Walk::load(const FlowPlace& place, const std::string& label, Target& target) {
     const std::string name(without_marks(label));
     if (!subprogram_) {
-        return fail(place, place.column, fmt::format("o{} call: this program has no o{} sub, and it is no file beside which one could lie; put the sub into it",
+        return fail(place, place.column, fmt::format("o{} call: this program has no o{} sub, and it came without a folder in which another file could have it; put the "
+                                                     "sub into it",
                                                      label, label));
     }
     if (!is_plain(name)) {
