@@ -13,7 +13,6 @@ namespace motionrack::databoard4002 {
 constexpr std::int64_t signed24(std::int64_t x) {
     return ((x + 0x80'0000) & 0xFF'FFFF) - 0x80'0000;
 }
-inline constexpr std::int64_t least_position = -0x80'0000, greatest_position = 0x7F'FFFF;
 /// The longest move, counts.
 inline constexpr std::int64_t longest_move = 0x7F'FFFF;
 

@@ -48,7 +48,6 @@ class PulseTrain final : public Motion {
     /// The line's level, and the instant after `now` of its next change (never: it stands).
     int level(Instant now) const;
     Instant next_edge(Instant now) const;
-    bool has_edge_listener() const { return edges_ != nullptr; }
     void hand_over(Instant now);
 
     // ---- Motion
