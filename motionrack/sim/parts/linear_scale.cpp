@@ -129,9 +129,7 @@ Range LinearScale::place_range(const Range& counts) const {
 // ---- listeners ------------------------------------------------------------------------------------------------------
 
 int LinearScale::listen(sim::MotionListener& listener) {
-    MOTIONRACK_ASSERT(listener_count_ < slots);
-    listeners_[static_cast<std::size_t>(listener_count_)] = &listener;
-    return listener_count_++;
+    return listeners_.add(listener);
 }
 
 void LinearScale::watch(int slot, std::int64_t below, std::int64_t above) {
@@ -143,13 +141,7 @@ void LinearScale::watch(int slot, std::int64_t below, std::int64_t above) {
 void LinearScale::look(Instant now) {
     looking_ = true;
     if (live()) show(now);
-    const std::int64_t here = count(now);
-    for (int i = 0; i < listener_count_; ++i) {
-        Range& watch = state_.watches[static_cast<std::size_t>(i)];
-        if (!watch.left(here)) continue;
-        watch = {};
-        listeners_[static_cast<std::size_t>(i)]->crossed(now);
-    }
+    listeners_.tell_crossed(state_.watches, count(now), now);
     looking_ = false;
     aim(now);
 }
@@ -159,7 +151,7 @@ void LinearScale::aim(Instant now) {
     const std::int64_t here = count(now);
     Range places;
     Instant next = never;
-    for (int i = 0; i < listener_count_; ++i) {
+    for (int i = 0; i < listeners_.size(); ++i) {
         const Range& watch = state_.watches[static_cast<std::size_t>(i)];
         if (watch.left(here)) next = now;
         places = places.within(place_range(watch));
@@ -191,8 +183,7 @@ void LinearScale::rate_changed(double before, double rate, Instant now) {
         report(AxisCondition::scale_lost, gone, state_.lost);
     }
     const double factor = state_.direction * counts_per_place();
-    for (int i = 0; i < listener_count_; ++i)
-        listeners_[static_cast<std::size_t>(i)]->rate_changed(was ? 0 : before * factor, fast ? 0 : rate * factor, now);
+    listeners_.tell_rate(was ? 0 : before * factor, fast ? 0 : rate * factor, now);
     if (was != fast) look(now);
 }
 

@@ -48,25 +48,19 @@ Instant TrackMotion::leaves(const Range& range, Instant from) const {
 }
 
 void TrackMotion::schedule(Instant now) {
-    Range all;
-    for (int i = 0; i < listener_count_; ++i) all = all.within(state_.watches[static_cast<std::size_t>(i)]);
-    kernel_.schedule(id_, all.left(count(now)) ? now : leaves(all, now));
+    const Range quiet = sim::Listeners::quiet(state_.watches);
+    kernel_.schedule(id_, quiet.left(count(now)) ? now : leaves(quiet, now));
 }
 
 void TrackMotion::act(Instant now) {
-    for (int i = 0; i < listener_count_; ++i) {
-        Range& watch = state_.watches[static_cast<std::size_t>(i)];
-        if (!watch.left(count(now))) continue;
-        watch = {};
-        listeners_[static_cast<std::size_t>(i)]->crossed(now);
-    }
+    listeners_.tell_crossed(state_.watches, count(now), now);
     schedule(now);
 }
 
 void TrackMotion::changed(double before) {
     const Instant now = kernel_.now();
     const double after = rate(now);
-    for (int i = 0; i < listener_count_; ++i) listeners_[static_cast<std::size_t>(i)]->rate_changed(before, after, now);
+    listeners_.tell_rate(before, after, now);
     schedule(now);
 }
 
@@ -76,9 +70,7 @@ void TrackMotion::watch(int slot, std::int64_t below, std::int64_t above) {
 }
 
 int TrackMotion::listen(sim::MotionListener& listener) {
-    MOTIONRACK_ASSERT(listener_count_ < slots);
-    listeners_[static_cast<std::size_t>(listener_count_)] = &listener;
-    return listener_count_++;
+    return listeners_.add(listener);
 }
 
 void TrackMotion::listen_edges(sim::EdgeListener* listener) {

@@ -5,9 +5,9 @@
 // The count is a closed form of the time; nothing is done for a count that nobody watches.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/parts/range.hpp>
 #include <motionrack/sim/parts/track.hpp>
@@ -35,9 +35,8 @@ class TrackMotion final : public sim::Device, public sim::Motion {
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
   private:
-    static constexpr int slots = sim::Motion::max_listeners;
     struct State {
-        std::array<Range, slots> watches{};
+        sim::Listeners::Watches watches{};
         Instant handed{};
         std::int64_t handed_count = 0;  ///< after the last edge handed over
     };
@@ -51,8 +50,7 @@ class TrackMotion final : public sim::Device, public sim::Motion {
     double per_unit_;
     sim::DeviceId id_{};
     State state_{};
-    std::array<sim::MotionListener*, slots> listeners_{};
-    int listener_count_ = 0;
+    sim::Listeners listeners_;
     sim::EdgeListener* edges_ = nullptr;
     sim::EdgeBatch batch_{};
 };
