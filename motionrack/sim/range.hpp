@@ -1,4 +1,4 @@
-// The range that a count has not left.
+// The range that a count has not left, and the interval that it comes into.
 #pragma once
 
 #include <algorithm>
@@ -24,6 +24,20 @@ struct Range {
         return {below == unwatched_below ? below : below + offset, above == unwatched_above ? above : above + offset};
     }
     friend constexpr bool operator==(const Range&, const Range&) = default;
+};
+
+/// Places in a row, both ends included: a cam, a block.
+struct Interval {
+    std::int64_t from = 0;
+    std::int64_t to = 0;
+
+    constexpr bool has(std::int64_t count) const { return count >= from && count <= to; }
+    /// The range around `count` in which it stays in the interval, before it or behind it.
+    constexpr Range side_of(std::int64_t count) const {
+        if (count < from) return {unwatched_below, from};
+        if (count > to) return {to, unwatched_above};
+        return {from - 1, to + 1};
+    }
 };
 
 }  // namespace motionrack::sim
