@@ -218,7 +218,7 @@ void LinearScale::show(Instant now) {
         const int step = here > state_.shown ? 1 : -1;
         state_.shown += step;
         state_.free_at = now + spacing_;
-        if (edges_) edge(step, now);
+        if (edges_) row_.add(*edges_, now, state_.shown, step);
     }
     put_out(now);
 }
@@ -228,22 +228,8 @@ void LinearScale::put_out(Instant now) {
         if (state_.wanted >> i & 1) kernel_.set_wire(wires_[i], level_at(static_cast<int>(i), now));
 }
 
-/// An edge that led to `shown`.
-void LinearScale::edge(int step, Instant now) {
-    const bool far = batch_.size > 0 && (now - batch_.origin).count() > 0xFFFF'FFFF;
-    if (far || batch_.size == sim::EdgeBatch::capacity || batch_.step != step) flush();
-    if (batch_.size == 0) {
-        batch_.origin = now;
-        batch_.tick = Duration{1};
-        batch_.first_count = state_.shown;
-        batch_.step = step;
-    }
-    batch_.at[batch_.size++] = static_cast<std::uint32_t>((now - batch_.origin).count());
-}
-
 void LinearScale::flush() {
-    if (edges_ && batch_.size > 0) edges_->edges(batch_);
-    batch_.size = 0;
+    if (edges_) row_.hand_over(*edges_);
 }
 
 // ---- faults ---------------------------------------------------------------------------------------------------------

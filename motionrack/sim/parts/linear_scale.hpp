@@ -17,6 +17,7 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/sim/edge_row.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/motion.hpp>
@@ -117,7 +118,6 @@ class LinearScale final : public sim::Device, public sim::Motion, private sim::M
     void aim(Instant now);
     void show(Instant now);
     void put_out(Instant now);
-    void edge(int step, Instant now);
     void flush();
 
     sim::Kernel& kernel_;
@@ -132,7 +132,7 @@ class LinearScale final : public sim::Device, public sim::Motion, private sim::M
     State state_{};
     sim::Listeners listeners_;
     sim::EdgeListener* edges_ = nullptr;
-    sim::EdgeBatch batch_{};
+    sim::EdgeRow row_;
     bool looking_ = false;
 };
 

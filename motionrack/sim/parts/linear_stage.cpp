@@ -310,22 +310,10 @@ void LinearStage::hand_over(Instant now) {
     state_.handed = now;
     const int way = direction();
     if (!edges_ || way == 0) return;
-    std::int64_t at = count(from);
     const std::int64_t last = count(now);
-    while (at != last) {
-        batch_.size = 0;
-        batch_.origin = std::max(reaches(at + way), from);
-        batch_.tick = Duration{1};
-        batch_.step = way;
-        batch_.first_count = at + way;
-        while (at != last && batch_.size < sim::EdgeBatch::capacity) {
-            const std::int64_t ticks = (std::max(reaches(at + way), from) - batch_.origin).count();
-            if (ticks > 0xFFFF'FFFF) break;
-            batch_.at[batch_.size++] = static_cast<std::uint32_t>(ticks);
-            at += way;
-        }
-        edges_->edges(batch_);
-    }
+    for (std::int64_t here = count(from); here != last; here += way)
+        row_.add(*edges_, std::max(reaches(here + way), from), here + way, way);
+    row_.hand_over(*edges_);
 }
 
 }  // namespace motionrack::parts

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/sim/edge_row.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/motion.hpp>
@@ -121,7 +122,7 @@ class LinearStage final : public sim::Device, public sim::Motion {
     std::array<Wide, slots> marks_{};
     int mark_count_ = 0;
     sim::EdgeListener* edges_ = nullptr;
-    sim::EdgeBatch batch_{};
+    sim::EdgeRow row_;
 };
 
 }  // namespace motionrack::parts

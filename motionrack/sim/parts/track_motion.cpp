@@ -84,8 +84,6 @@ void TrackMotion::hand_over(Instant now) {
     Instant at = state_.handed;
     state_.handed = now;
     if (edges_ == nullptr) return;
-    batch_.size = 0;
-    batch_.tick = Duration{1};
     std::int64_t& here = state_.handed_count;
     for (;;) {
         const Range stay{here - 1, here + 1};
@@ -94,17 +92,10 @@ void TrackMotion::hand_over(Instant now) {
             at = next;
             continue;
         }
-        const int step = next <= now && count(next) > here ? 1 : -1;
-        const bool fits = batch_.size > 0 && batch_.size < sim::EdgeBatch::capacity && step == batch_.step &&
-                          (next - batch_.origin).count() <= 0xFFFF'FFFF;
-        if (batch_.size > 0 && (next > now || !fits)) {
-            edges_->edges(batch_);
-            batch_.size = 0;
-        }
-        if (next > now) return;
-        if (batch_.size == 0) batch_.origin = next, batch_.step = step, batch_.first_count = here + step;
-        batch_.at[batch_.size++] = static_cast<std::uint32_t>((next - batch_.origin).count());
+        if (next > now) return row_.hand_over(*edges_);
+        const int step = count(next) > here ? 1 : -1;
         here += step;
+        row_.add(*edges_, next, here, step);
         at = next;
     }
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <motionrack/sim/edge_row.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/motion.hpp>
@@ -52,7 +53,7 @@ class TrackMotion final : public sim::Device, public sim::Motion {
     State state_{};
     sim::Listeners listeners_;
     sim::EdgeListener* edges_ = nullptr;
-    sim::EdgeBatch batch_{};
+    sim::EdgeRow row_;
 };
 
 }  // namespace motionrack::parts
