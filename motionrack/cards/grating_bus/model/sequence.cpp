@@ -6,12 +6,6 @@
 
 namespace motionrack::grating_bus {
 
-namespace {
-
-enum Bad : std::uint8_t { bad_missed = 1, bad_alien = 2, bad_lines = 4, bad_content = 8 };
-
-}  // namespace
-
 std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t most) {
     const std::uint64_t mixed = mixed_bits(seed * golden_step + static_cast<std::uint64_t>(n));
     return static_cast<std::int64_t>(mixed % static_cast<std::uint64_t>(most + 1));
