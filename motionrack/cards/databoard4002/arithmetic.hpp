@@ -19,8 +19,8 @@ inline constexpr std::int64_t longest_move = 0x7F'FFFF;
 // ---- Rate and frequency ---------------------------------------------------------------------------------------------
 
 inline constexpr std::int64_t clock_hz = 400'000;
-inline constexpr int rate_mask = 0x3FFF;
 inline constexpr int most_rate = 0x3FFF;
+inline constexpr int rate_mask = most_rate;
 
 /// The divider of the 400 kHz clock (rate 0 .. 16383).
 constexpr std::int64_t divisor_of(int rate) {

@@ -11,7 +11,6 @@ namespace motionrack::databoard4002 {
 
 namespace {
 
-constexpr Duration contacts_rest = milliseconds(5);
 constexpr std::array<std::string_view, 9> names = {"", "BACK", "BACK_STOP", "SEARCH", "SEARCH_STOP", "SLOW", "SLOW_STOP", "HOMED", "FAILED"};
 
 }  // namespace

@@ -12,7 +12,6 @@ namespace motionrack::databoard4002 {
 namespace {
 
 constexpr Duration look_every = milliseconds(1);
-constexpr Duration contacts_rest = milliseconds(5);
 
 }  // namespace
 
