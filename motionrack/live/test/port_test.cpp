@@ -149,7 +149,9 @@ TEST(LivePort, FindsAUioMapByItsFolderInSys) {
     ASSERT_FALSE(none);
     EXPECT_THAT(none.error().message, HasSubstr("uio7 has no map 0"));
     folder.file("uio7/maps/map0/size", "what\n");
-    EXPECT_FALSE(read_uio_map(folder.path() + "/uio7", 0));
+    const auto no_number = read_uio_map(folder.path() + "/uio7", 0);
+    ASSERT_FALSE(no_number);
+    EXPECT_THAT(no_number.error().message, HasSubstr("size holds no number"));
 }
 
 TEST(LivePort, ItsClockNeverWaitsTooShort) {
