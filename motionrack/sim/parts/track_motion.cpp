@@ -57,10 +57,9 @@ void TrackMotion::act(Instant now) {
     schedule(now);
 }
 
-void TrackMotion::changed(double before) {
+void TrackMotion::changed(double speed_before) {
     const Instant now = kernel_.now();
-    const double after = rate(now);
-    listeners_.tell_rate(before, after, now);
+    listeners_.tell_rate(speed_before * per_unit_, rate(now), now);
     schedule(now);
 }
 
