@@ -163,6 +163,16 @@ TEST(LivePort, ItsClockNeverWaitsTooShort) {
     }
 }
 
+TEST(LivePort, ItsClockCanWaitForAFileForEver) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    ASSERT_EQ(::write(ends[1], "x", 1), 1);
+    MonotonicClock clock;
+    EXPECT_TRUE(clock.wait_readable(ends[0], never));
+    ::close(ends[0]);
+    ::close(ends[1]);
+}
+
 /// A clock that passes only when somebody waits.
 class Counted final : public Clock {
   public:

@@ -171,7 +171,7 @@ std::array<tIOFlexSts, axis_count> Flex2Pos::statuses() {
 motionrack::Result<void> Flex2Pos::wait_calibrated(int axis, Duration timeout) {
     MOTIONRACK_ASSERT(axis >= 0 && axis < axis_count);
     if (!ok()) return fail(Trouble::machine, why());
-    const Instant until = now() + timeout;
+    const Instant until = later(now(), timeout);
     while (statuses()[static_cast<std::size_t>(axis)] != sCal) {
         if (stop_requested()) return fail(Trouble::stopped, fmt::format("Waiting for the calibration of axis {} was stopped by the user.", axis));
         if (now() >= until)
