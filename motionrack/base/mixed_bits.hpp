@@ -14,5 +14,6 @@ constexpr std::uint64_t mixed_bits(std::uint64_t x) {
 
 /// The odd number that SplitMix64 counts on by: 2^64 divided by the golden ratio.
 inline constexpr std::uint64_t golden_step = 0x9E3779B97F4A7C15ull;
+static_assert(mixed_bits(golden_step) == 0xE220A8397B1DCDAFull, "SplitMix64's first number after 0");
 
 }  // namespace motionrack
