@@ -185,8 +185,7 @@ std::string describe_text(const CardMap& map) {
 std::string describe_markdown(const CardMap& map) {
     std::string out = fmt::format(
         "# {}\n\n{}\n\nThis page is made from the card's map: `motionrack describe {} --markdown`. What is not "
-        "reproduced is "
-        "there on the real\ncard; the virtual one ignores it and says so.\n\n## Registers\n",
+        "reproduced is there on the real\ncard; the virtual one ignores it and says so.\n\n## Registers\n",
         map.name, map.title, map.name);
     for (const RegisterInfo& reg : map.registers) add_markdown(out, reg);
     out += "\n## Commands\n\n| code | name | data | range | unit | meaning |\n|---|---|---|---|---|---|\n";

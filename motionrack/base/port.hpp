@@ -29,7 +29,7 @@ class BytePort {
 class Interrupt {
   public:
     virtual ~Interrupt() = default;
-    /// Waits until the line is active or `timeout` has passed; true if the line is active.
+    /// Waits until the line is active or `timeout` has passed (`never`: however long it takes); true if the line is active.
     virtual bool wait(Duration timeout) = 0;
     /// Lets `duration` pass, whatever the line does.
     virtual void pass(Duration duration) = 0;

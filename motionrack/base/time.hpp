@@ -32,29 +32,4 @@ constexpr Duration from_seconds(double seconds) {
     return Duration{static_cast<std::int64_t>(seconds * 1e10 + (seconds < 0 ? -0.5 : 0.5))};
 }
 
-/// A clock whose period need not be a whole number of ticks: edge n is computed from n in 128 bits, never by adding.
-class ClockEdges {
-  public:
-    /// `hertz`: 1 .. 10'000'000'000; `origin`: the instant of edge 0.
-    constexpr explicit ClockEdges(std::int64_t hertz, Instant origin = Instant{0}) : hertz_(hertz), origin_(origin) {}
-
-    /// The instant of edge n (n >= 0), rounded down to a tick.
-    constexpr Instant edge(std::int64_t n) const {
-        __extension__ using Wide = __int128;
-        return origin_ + Duration{static_cast<std::int64_t>(Wide{n} * 10'000'000'000 / hertz_)};
-    }
-
-    /// The number of the last edge at or before `t` (t >= origin).
-    constexpr std::int64_t last_edge(Instant t) const {
-        __extension__ using Wide = __int128;
-        const Wide elapsed = (t - origin_).count();
-        // edge(n) = floor(n * 1e10 / hertz) <= elapsed  <=>  n * 1e10 < (elapsed + 1) * hertz
-        return static_cast<std::int64_t>(((elapsed + 1) * hertz_ - 1) / 10'000'000'000);
-    }
-
-  private:
-    std::int64_t hertz_;
-    Instant origin_;
-};
-
 }  // namespace motionrack

@@ -52,11 +52,12 @@ class Looked final : public Source {
     std::size_t at_ = 0, size_ = 0;
 };
 
-/// The line that sigrok-cli puts before binary samples; "" if it is not there.
+constexpr std::string_view sigrok_begin = "META samplerate: ";
+
+/// The line that sigrok-cli puts before binary samples, with its end; "" if it is not there.
 std::string_view sigrok_line(std::string_view head) {
-    static constexpr std::string_view begin = "META samplerate: ";
     const std::size_t end = head.substr(0, 64).find('\n');
-    return head.rfind(begin, 0) == 0 && end != std::string_view::npos ? head.substr(0, end + 1) : std::string_view();
+    return head.starts_with(sigrok_begin) && end != std::string_view::npos ? head.substr(0, end + 1) : std::string_view();
 }
 
 Format guess(const std::string& name, std::string_view head) {
@@ -87,9 +88,9 @@ Result<std::unique_ptr<Capture>> open_capture(std::unique_ptr<Source> source, co
         return fail(Trouble::bad_input, "This is a packed file (a session of sigrok or Saleae?). Nothing was decoded; make a VCD file of it, for instance with "
                                         "sigrok-cli -i in.sr -O vcd -o out.vcd.", {}, name);
     if (format == Format::raw && !sigrok_line(head).empty()) {
-        const std::string_view line = sigrok_line(head);
+        const std::string_view line = sigrok_line(head), said = line.substr(sigrok_begin.size(), line.size() - sigrok_begin.size() - 1);
         CaptureSettings told = settings;
-        if (const auto rate = read_rate(line.substr(17, line.size() - 18)); rate && !(told.sample_rate_hz > 0)) told.sample_rate_hz = *rate;
+        if (const auto rate = read_rate(said); rate && !(told.sample_rate_hz > 0)) told.sample_rate_hz = *rate;
         looked->skip(line.size());
         return open_raw(std::move(looked), name, told);
     }

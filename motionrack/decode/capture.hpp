@@ -76,6 +76,11 @@ class Capture {
     tl::unexpected<Error> refuse(std::string message, Place place) const {
         return fail(Trouble::bad_input, std::move(message), place, name_);
     }
+    /// What a reader of bytes says, who does not know the file's name.
+    Error in_file(Error error) const {
+        error.file = name_;
+        return error;
+    }
 
     std::unique_ptr<Source> source_;
     std::string name_;

@@ -76,7 +76,7 @@ class CsvCapture final : public Capture {
     };
 
     bool next_row(Row& row);
-    bool is_comment(std::string_view text);
+    bool take_comment(std::string_view text);
     void split(std::string_view text);
     Result<void> take_head();
     bool looks_timed(const std::vector<Row>& rows);
@@ -97,7 +97,8 @@ class CsvCapture final : public Capture {
     bool begun_ = false;
 };
 
-bool CsvCapture::is_comment(std::string_view text) {
+/// False if it is none; what a comment says of rate and channels is kept.
+bool CsvCapture::take_comment(std::string_view text) {
     if (text.rfind("META samplerate:", 0) == 0) {
         if (const auto rate = read_rate(trimmed(text.substr(16)))) rate_hz_ = *rate;
         return true;
@@ -122,7 +123,7 @@ bool CsvCapture::next_row(Row& row) {
     std::string_view line;
     while (text_.line(line)) {
         if (text_.place().line == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) line.remove_prefix(3);
-        if (is_comment(line)) continue;
+        if (take_comment(line)) continue;
         row.text.assign(line);
         row.place = text_.place();
         row.cut = text_.cut();
@@ -143,7 +144,7 @@ void CsvCapture::split(std::string_view text) {
 Result<void> CsvCapture::read_head(double rate_hz) {
     std::vector<Row> rows;
     for (Row row; rows.size() < rows_looked_at && next_row(row);) rows.push_back(row);
-    if (text_.error()) return tl::unexpected(Error{text_.error()->trouble, text_.error()->message, name_, text_.error()->place});
+    if (text_.error()) return tl::unexpected(in_file(*text_.error()));
     if (rows.empty()) return refuse("The file has no rows. Nothing was decoded.", {});
     std::ptrdiff_t most = 0;
     for (const char candidate : {',', ';', '\t'}) {
@@ -253,7 +254,7 @@ Result<bool> CsvCapture::next(Block& block) {
             row = std::move(waiting_.back());
             waiting_.pop_back();
         } else if (!next_row(row)) {
-            if (text_.error()) return tl::unexpected(Error{text_.error()->trouble, text_.error()->message, name_, text_.error()->place});
+            if (text_.error()) return tl::unexpected(in_file(*text_.error()));
             break;
         }
         const Result<void> done = take(row);

@@ -71,11 +71,7 @@ class VcdCapture final : public Capture {
 };
 
 Error VcdCapture::ends_in(const char* what) {
-    if (text_.error()) {
-        Error error = *text_.error();
-        error.file = name_;
-        return error;
-    }
+    if (text_.error()) return in_file(*text_.error());
     over_ = true;
     return {Trouble::bad_input, fmt::format("The file ends inside {}: it is cut off.{}", what, head_read_ ? "" : " Nothing was decoded."), name_, text_.place()};
 }

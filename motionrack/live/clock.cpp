@@ -17,9 +17,9 @@ Instant since_boot() {
     return whole_seconds(time.tv_sec) + nanoseconds(time.tv_nsec);
 }
 
-/// Rounded up: a wait is never too short.
+/// Rounded up: a wait is never too short. `duration`: 0 or more.
 timespec timespec_of(Duration duration) {
-    const std::int64_t ns = (duration.count() + 9) / 10;
+    const std::int64_t ns = duration.count() / 10 + (duration.count() % 10 != 0);
     return {static_cast<time_t>(ns / 1'000'000'000), static_cast<long>(ns % 1'000'000'000)};
 }
 
@@ -32,7 +32,7 @@ Instant MonotonicClock::now() const {
 }
 
 void MonotonicClock::sleep(Duration duration) {
-    const Instant end = since_boot() + duration;
+    const Instant end = later(since_boot(), duration);
     if (duration < worth_a_sleep) {
         while (since_boot() < end) continue;
         return;

@@ -18,20 +18,17 @@ std::string sentence(const std::string& path, int error) {
         case ENXIO:
             return fmt::format(
                 "There is no {}, or no card behind it. Look with 'ls /dev/uio*' or 'lspci -v', and load the card's "
-                "driver "
-                "(for UIO: modprobe uio_pci_generic and bind the card to it).",
+                "driver (for UIO: modprobe uio_pci_generic and bind the card to it).",
                 path);
         case EACCES:
             return fmt::format(
                 "User {} may not read and write {}. Give the right to it with a udev rule or chgrp and chmod g+rw; "
-                "files of "
-                "PCI regions and /dev/port belong to root.",
+                "files of PCI regions and /dev/port belong to root.",
                 ::geteuid(), path);
         case EPERM:
             return fmt::format(
                 "The kernel does not allow {} to be opened. With Secure Boot it is locked down and lets no program "
-                "reach "
-                "cards like this; UIO still works.",
+                "reach cards like this; UIO still works.",
                 path);
         case EISDIR:
             return fmt::format("{} is a folder, not a file.", path);

@@ -201,7 +201,6 @@ void Kernel::mix(std::uint64_t value) {
 
 namespace {
 
-// Calls visit(span) for every piece of a kernel's state, always in the same order.
 template <class T>
 std::span<std::byte> bytes_of_vector(std::vector<T>& v) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -210,20 +209,30 @@ std::span<std::byte> bytes_of_vector(std::vector<T>& v) {
 
 }  // namespace
 
+/// Calls visit(span) for every piece of the rack's state, always in the same order; conditions are what was told of it.
+template <class Visit>
+void Kernel::each_piece(Visit visit) {
+    visit(bytes_of(state_));
+    visit(bytes_of_vector(due_));
+    visit(bytes_of_vector(wire_state_));
+    for (Slot& slot : devices_) visit(slot.device->state());
+}
+
+/// Those that are kept, in the order of the ring.
+std::span<std::byte> Kernel::condition_bytes() {
+    const std::size_t kept = std::min<std::size_t>(state_.condition_count, condition_capacity);
+    return bytes_of_vector(conditions_).first(kept * sizeof(Condition));
+}
+
 Snapshot Kernel::snapshot() {
     MOTIONRACK_ASSERT(started_);
     Snapshot out;
-    auto append = [&out](std::span<std::byte> piece) { out.bytes.insert(out.bytes.end(), piece.begin(), piece.end()); };
-    std::size_t size = sizeof(State) + bytes_of_vector(due_).size() + bytes_of_vector(wire_state_).size() +
-                       bytes_of_vector(conditions_).size();
-    for (Slot& slot : devices_) size += slot.device->state().size();
+    std::size_t size = condition_bytes().size();
+    each_piece([&size](std::span<std::byte> piece) { size += piece.size(); });
     out.bytes.reserve(size);
-    append(bytes_of(state_));
-    append(bytes_of_vector(due_));
-    append(bytes_of_vector(wire_state_));
-    for (Slot& slot : devices_) append(slot.device->state());
-    const std::size_t kept = std::min<std::size_t>(state_.condition_count, condition_capacity);
-    append(bytes_of_vector(conditions_).first(kept * sizeof(Condition)));
+    const auto append = [&out](std::span<std::byte> piece) { out.bytes.insert(out.bytes.end(), piece.begin(), piece.end()); };
+    each_piece(append);
+    append(condition_bytes());
     return out;
 }
 
@@ -235,25 +244,17 @@ void Kernel::restore(const Snapshot& snapshot) {
         std::memcpy(piece.data(), snapshot.bytes.data() + at, piece.size());
         at += piece.size();
     };
-    take(bytes_of(state_));
-    take(bytes_of_vector(due_));
-    take(bytes_of_vector(wire_state_));
-    for (Slot& slot : devices_) take(slot.device->state());
-    const std::size_t kept = std::min<std::size_t>(state_.condition_count, condition_capacity);
-    take(bytes_of_vector(conditions_).first(kept * sizeof(Condition)));
+    each_piece(take);
+    take(condition_bytes());  // their number has just been taken
     MOTIONRACK_ASSERT(at == snapshot.bytes.size());
     queue_head_ = queue_size_ = 0;
 }
 
 std::uint64_t Kernel::state_hash() {
     std::uint64_t h = 0xCBF29CE484222325ull;
-    auto add = [&h](std::span<const std::byte> piece) {
+    each_piece([&h](std::span<const std::byte> piece) {
         for (const std::byte b : piece) h = (h ^ static_cast<std::uint64_t>(b)) * 0x100000001B3ull;
-    };
-    add(bytes_of(state_));
-    add(bytes_of_vector(due_));
-    add(bytes_of_vector(wire_state_));
-    for (Slot& slot : devices_) add(slot.device->state());
+    });
     return h;
 }
 

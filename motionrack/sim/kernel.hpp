@@ -169,6 +169,9 @@ class Kernel {
     void sync_all();
     void change(WireId wire, int level);
     void mix(std::uint64_t value);
+    template <class Visit>
+    void each_piece(Visit visit);
+    std::span<std::byte> condition_bytes();
 
     std::vector<Slot> devices_;
     std::vector<Wire> wires_;

@@ -16,11 +16,11 @@ void VirtualHost::begin_access(InputKind kind, std::uint32_t offset, std::uint16
 }
 
 bool VirtualHost::wait(Duration timeout) {
-    run_to(kernel_.now() + timeout, true);
+    run_to(later(kernel_.now(), timeout), true);
     return kernel_.level(interrupt_) == active_;
 }
 
-void VirtualHost::pass(Duration duration) { run_to(kernel_.now() + duration, false); }
+void VirtualHost::pass(Duration duration) { run_to(later(kernel_.now(), duration), false); }
 
 void VirtualHost::run_to(Instant until, bool until_interrupt) {
     while (true) {

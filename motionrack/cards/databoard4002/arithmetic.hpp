@@ -13,15 +13,14 @@ namespace motionrack::databoard4002 {
 constexpr std::int64_t signed24(std::int64_t x) {
     return ((x + 0x80'0000) & 0xFF'FFFF) - 0x80'0000;
 }
-inline constexpr std::int64_t least_position = -0x80'0000, greatest_position = 0x7F'FFFF;
 /// The longest move, counts.
 inline constexpr std::int64_t longest_move = 0x7F'FFFF;
 
 // ---- Rate and frequency ---------------------------------------------------------------------------------------------
 
 inline constexpr std::int64_t clock_hz = 400'000;
-inline constexpr int rate_mask = 0x3FFF;
 inline constexpr int most_rate = 0x3FFF;
+inline constexpr int rate_mask = most_rate;
 
 /// The divider of the 400 kHz clock (rate 0 .. 16383).
 constexpr std::int64_t divisor_of(int rate) {

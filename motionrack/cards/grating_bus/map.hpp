@@ -161,7 +161,6 @@ inline constexpr CardMap card = {"grating_bus", "Motion card that reads all scal
 inline constexpr std::uint16_t signature = 0x4742;
 inline constexpr std::uint16_t decoder_signature = 0x4744;
 inline constexpr int output_count = 4;             ///< analog outputs of a motion card
-inline constexpr std::uint32_t counts_at = 0x100;  ///< offset of the first count
 
 /// A register's offset by its name; names that are not declared do not compile.
 consteval std::uint32_t offset(std::string_view name) {
@@ -170,6 +169,9 @@ consteval std::uint32_t offset(std::string_view name) {
 consteval std::uint32_t decoder_offset(std::string_view name) {
     return register_named(map::decoder_registers, name).offset;
 }
+/// Offset of the first count, of a motion card and of a decoder.
+inline constexpr std::uint32_t counts_at = offset("COUNT_L");
+static_assert(decoder_offset("COUNT_L") == counts_at);
 /// A field of a register: field("STATUS", "STALE").
 consteval Field field(std::string_view reg, std::string_view name) {
     return {mask_of(register_named(map::registers, reg), name)};

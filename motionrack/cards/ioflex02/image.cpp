@@ -32,6 +32,18 @@ bool ImageHeader::named(std::string_view project) const {
     return true;
 }
 
+std::uint8_t ImageHeader::ident() const {
+    return bytes[ident_at];
+}
+
+std::uint32_t ImageHeader::length() const {
+    return number(length_at);
+}
+
+std::uint32_t ImageHeader::crc() const {
+    return number(crc_at);
+}
+
 std::uint32_t ImageHeader::number(std::size_t at) const {
     return std::uint32_t{bytes[at]} | std::uint32_t{bytes[at + 1]} << 8 | std::uint32_t{bytes[at + 2]} << 16 | std::uint32_t{bytes[at + 3]} << 24;
 }

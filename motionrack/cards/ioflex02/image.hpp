@@ -53,9 +53,9 @@ struct ImageHeader {
     std::array<std::uint8_t, image_header> bytes{};
     bool ours() const;
     bool named(std::string_view project) const;
-    std::uint8_t ident() const { return bytes[24]; }
-    std::uint32_t length() const { return number(28); }
-    std::uint32_t crc() const { return number(32); }
+    std::uint8_t ident() const;
+    std::uint32_t length() const;
+    std::uint32_t crc() const;
 
   private:
     std::uint32_t number(std::size_t at) const;

@@ -22,7 +22,7 @@ struct flex2pos {
 
 namespace {
 
-constexpr const char* no_object = "There is no object; open one with flex2pos_open.";
+constexpr const char* no_object = "There is no object: it is a null pointer; open one with flex2pos_open. Nothing was done.";
 
 /// What `call` gives, or 0: for no object, and if there is no memory for a sentence.
 template <class Call>

@@ -149,7 +149,9 @@ TEST(LivePort, FindsAUioMapByItsFolderInSys) {
     ASSERT_FALSE(none);
     EXPECT_THAT(none.error().message, HasSubstr("uio7 has no map 0"));
     folder.file("uio7/maps/map0/size", "what\n");
-    EXPECT_FALSE(read_uio_map(folder.path() + "/uio7", 0));
+    const auto no_number = read_uio_map(folder.path() + "/uio7", 0);
+    ASSERT_FALSE(no_number);
+    EXPECT_THAT(no_number.error().message, HasSubstr("size holds no number"));
 }
 
 TEST(LivePort, ItsClockNeverWaitsTooShort) {
@@ -159,6 +161,16 @@ TEST(LivePort, ItsClockNeverWaitsTooShort) {
         clock.sleep(wanted);
         EXPECT_GE((clock.now() - before).count(), wanted.count());
     }
+}
+
+TEST(LivePort, ItsClockCanWaitForAFileForEver) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    ASSERT_EQ(::write(ends[1], "x", 1), 1);
+    MonotonicClock clock;
+    EXPECT_TRUE(clock.wait_readable(ends[0], never));
+    ::close(ends[0]);
+    ::close(ends[1]);
 }
 
 /// A clock that passes only when somebody waits.

@@ -27,8 +27,7 @@ void PulseTrain::bring_to(Instant now) {
 
 void PulseTrain::tell_rate(double before, Instant now) {
     const double after = rate(now);
-    if (after == before) return;
-    for (int i = 0; i < listener_count_; ++i) listeners_[static_cast<std::size_t>(i)]->rate_changed(before, after, now);
+    if (after != before) listeners_.tell_rate(before, after, now);
 }
 
 void PulseTrain::run(std::int64_t divisor, int direction, Instant now) {
@@ -73,35 +72,20 @@ void PulseTrain::watch(int slot, std::int64_t below, std::int64_t above) {
 }
 
 int PulseTrain::listen(MotionListener& listener) {
-    MOTIONRACK_ASSERT(listener_count_ < max_listeners);
-    listeners_[static_cast<std::size_t>(listener_count_)] = &listener;
-    return listener_count_++;
+    return listeners_.add(listener);
 }
 
 Instant PulseTrain::next(Instant now) const {
-    const std::int64_t here = count(now);
-    Instant next = never;
-    for (int i = 0; i < listener_count_; ++i) {
-        const auto& watch = state_.watches[static_cast<std::size_t>(i)];
-        const bool no_below = watch.below == unwatched_below, no_above = watch.above == unwatched_above;
-        if ((!no_below && here <= watch.below) || (!no_above && here >= watch.above)) return now;
-        if (!running() || (state_.direction > 0 ? no_above : no_below)) continue;
-        const std::int64_t n = (state_.direction > 0 ? watch.above - state_.count : state_.count - watch.below);
-        if (n < 1'000'000'000) next = std::min(next, pulse_instant(n));
-    }
-    return next;
+    const Range quiet = Listeners::quiet(state_.watches);
+    if (quiet.left(count(now))) return now;
+    const bool up = state_.direction > 0;
+    if (!running() || (up ? quiet.above == unwatched_above : quiet.below == unwatched_below)) return never;
+    const std::int64_t n = up ? quiet.above - state_.count : state_.count - quiet.below;
+    return n < 1'000'000'000 ? pulse_instant(n) : never;
 }
 
 void PulseTrain::act(Instant now) {
-    for (int i = 0; i < listener_count_; ++i) {
-        auto& watch = state_.watches[static_cast<std::size_t>(i)];
-        const std::int64_t here = count(now);
-        const bool low = watch.below != unwatched_below && here <= watch.below;
-        const bool high = watch.above != unwatched_above && here >= watch.above;
-        if (!low && !high) continue;
-        watch = {};
-        listeners_[static_cast<std::size_t>(i)]->crossed(now);
-    }
+    listeners_.tell_crossed(state_.watches, count(now), now);
 }
 
 // ---- the line and its edges -----------------------------------------------------------------------------------------

@@ -7,19 +7,15 @@
 // Nothing is done for a pulse. The owner (a device) asks next(), calls act() then, and hands over edges at its sync.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <motionrack/base/time.hpp>
+#include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/motion.hpp>
 
 namespace motionrack::sim {
 
 /// Trivially copyable; a part of its owner's state.
 struct PulseTrainState {
-    struct Bounds {
-        std::int64_t below = unwatched_below;
-        std::int64_t above = unwatched_above;
-    };
     std::int64_t count = 0;  ///< at `origin`
     Instant origin{};        ///< the running period's start, or one before it with the same `then`
     Instant handed{};        ///< edges up to here have been handed over
@@ -27,7 +23,7 @@ struct PulseTrainState {
     std::int64_t then = 0;   ///< length of those after it
     std::int32_t direction = 1;
     std::int32_t pulse_at_origin = 0;
-    std::array<Bounds, Motion::max_listeners> watches{};
+    Listeners::Watches watches{};
 };
 
 class PulseTrain final : public Motion {
@@ -48,7 +44,6 @@ class PulseTrain final : public Motion {
     /// The line's level, and the instant after `now` of its next change (never: it stands).
     int level(Instant now) const;
     Instant next_edge(Instant now) const;
-    bool has_edge_listener() const { return edges_ != nullptr; }
     void hand_over(Instant now);
 
     // ---- Motion
@@ -77,8 +72,7 @@ class PulseTrain final : public Motion {
 
     PulseTrainState& state_;
     Duration clock_;
-    std::array<MotionListener*, max_listeners> listeners_{};
-    int listener_count_ = 0;
+    Listeners listeners_;
     EdgeListener* edges_ = nullptr;
     EdgeBatch batch_{};
     Owner* owner_ = nullptr;

@@ -1,7 +1,6 @@
 // Two scan mirrors and an f-theta lens: where the spot is in the image plane for what the mirrors are told.
 //
-//   beam ──► X mirror ──► Y mirror ──► lens ──► (x, y) mm       tan of the two optical angles, then height = f1 t + f2
-//   t^2 + ..
+//   beam ──► X mirror ──► Y mirror ──► lens ──► (x, y) mm      tan of the two optical angles, then height = f1 t + f2 t^2 + ..
 //
 // Card (correction tables) and part (the lens in the beam) are the same optics; it reproduces a maker's own tables
 // to 1.5 bits.
@@ -16,8 +15,8 @@ struct Spot {
 };
 
 struct ScanLens {
-    double f_mm[4] = {163.064, -1.259, -21.465,
-                      -26.664};     ///< height in mm = f[0] theta + f[1] theta^2 + ..; f[0]: 1 .. 10000
+    /// Height in mm = f[0] theta + f[1] theta^2 + ..; f[0]: 1 .. 10000.
+    double f_mm[4] = {163.064, -1.259, -21.465, -26.664};
     double calibration_deg = 11.7;  ///< mechanical deflection at 96 % of the range, 1 .. 22
     double bits_per_mm = 8656;      ///< K, 1 .. 1e6
 };

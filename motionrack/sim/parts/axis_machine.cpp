@@ -127,10 +127,10 @@ void AxisMachine::give_way(Instant now) {
 
 void AxisMachine::tell_rate(double before, Instant now) {
     const double rate = motor_.rotor_rate(state_.motor.rate_hz);
-    for (int i = 0; i < listener_count_[rotor_face]; ++i) listeners_[rotor_face][i]->rate_changed(before, rate, now);
-    if (listener_count_[encoder_face] == 0) return;
-    const double counts = encoder_.present() ? encoder_.rate(rate) : 0;
-    for (int i = 0; i < listener_count_[encoder_face]; ++i) listeners_[encoder_face][i]->rate_changed(encoder_.present() ? encoder_.rate(before) : 0, counts, now);
+    listeners_[rotor_face].tell_rate(before, rate, now);
+    if (listeners_[encoder_face].size() == 0) return;
+    const auto counts = [this](double rotor) { return encoder_.present() ? encoder_.rate(rotor) : 0; };
+    listeners_[encoder_face].tell_rate(counts(before), counts(rate), now);
 }
 
 void AxisMachine::crossed(Instant now) {
@@ -217,13 +217,13 @@ void AxisMachine::check_index(std::int64_t rotor) {
 
 void AxisMachine::check_faces(std::int64_t rotor, Instant now) {
     for (int face = 0; face < face_count; ++face) {
-        for (int i = 0; i < listener_count_[face]; ++i) {
+        for (int i = 0; i < listeners_[face].size(); ++i) {
             Watch& w = state_.watches[face][i];
             if (!w.rotor.left(rotor)) continue;
             const std::int64_t count = face == rotor_face ? rotor : encoder_.count(rotor);
             if (w.counts.left(count)) {
                 w = {};
-                listeners_[face][i]->crossed(now);
+                listeners_[face][i].crossed(now);
             } else {
                 w.rotor = encoder_.rotor_range(w.counts, rotor);
             }
@@ -246,7 +246,7 @@ void AxisMachine::aim(Instant now) {
     for (const LimitSwitch& s : switches_) add(axle_.rotor_range(s.range()));
     if (state_.index_wanted) add(state_.index);
     for (int face = 0; face < face_count; ++face)
-        for (int i = 0; i < listener_count_[face]; ++i) add(state_.watches[face][i].rotor);
+        for (int i = 0; i < listeners_[face].size(); ++i) add(state_.watches[face][i].rotor);
     state_.pending = left ? now + Duration{1} : never;
     put_off();
     all = motor_.in_step() ? all.moved(state_.motor.lost) : Range{};
@@ -319,7 +319,7 @@ bool AxisMachine::encoder_fault(std::string_view name, double value, Instant now
     encoder_.set_fault(value != 0 ? fault : LineFault::none, rotor);
     if (edge_listeners_[encoder_face])
         maker_->count_jump(*edge_listeners_[encoder_face], now, before, encoder_.count(rotor));
-    for (int i = 0; i < listener_count_[encoder_face]; ++i) {
+    for (int i = 0; i < listeners_[encoder_face].size(); ++i) {
         Watch& w = state_.watches[encoder_face][i];
         w.rotor = encoder_.rotor_range(w.counts, rotor);
     }

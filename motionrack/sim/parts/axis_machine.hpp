@@ -12,6 +12,7 @@
 #include <array>
 #include <memory>
 #include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/parts/axle.hpp>
 #include <motionrack/sim/parts/conditions.hpp>
@@ -194,8 +195,7 @@ class AxisMachine final : public sim::Device, private sim::MotionListener, priva
     sim::Motion* pulses_ = nullptr;
     int slot_ = 0;
     std::array<FaceMotion, face_count> faces_;
-    std::array<std::array<sim::MotionListener*, slots>, face_count> listeners_{};
-    std::array<int, face_count> listener_count_{};
+    std::array<sim::Listeners, face_count> listeners_;
     std::array<sim::EdgeListener*, face_count> edge_listeners_{};
     sim::EdgeListener* pulse_edges_ = nullptr;
     std::unique_ptr<EdgeMaker> maker_;

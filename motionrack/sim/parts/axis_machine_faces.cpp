@@ -23,13 +23,11 @@ double AxisMachine::face_rate(Face face, Instant t) const {
 }
 
 int AxisMachine::listen(Face face, sim::MotionListener& listener) {
-    MOTIONRACK_ASSERT(listener_count_[face] < slots);
-    listeners_[face][static_cast<std::size_t>(listener_count_[face])] = &listener;
-    return listener_count_[face]++;
+    return listeners_[face].add(listener);
 }
 
 void AxisMachine::watch(Face face, int slot, Range counts) {
-    MOTIONRACK_ASSERT(slot >= 0 && slot < listener_count_[face]);
+    MOTIONRACK_ASSERT(slot >= 0 && slot < listeners_[face].size());
     Watch& w = state_.watches[face][static_cast<std::size_t>(slot)];
     const Instant now = kernel_.now();
     w.counts = counts;

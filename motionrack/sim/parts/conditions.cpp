@@ -11,14 +11,12 @@ std::string describe(const sim::Condition& c, std::string_view axis) {
         case AxisCondition::fell_out_of_step:
             return fmt::format(
                 "axis {}: at {:.6f} s the motor fell out of step when the pulse rate went from {} to {} Hz, more than "
-                "it "
-                "follows at once or above its pull-out rate",
+                "it follows at once or above its pull-out rate",
                 axis, at, c.a, c.b);
         case AxisCondition::lost_steps:
             return fmt::format(
                 "axis {}: at {:.6f} s the motor was in step again and had {} {} pulses ({} in all); the machine is not "
-                "where the "
-                "controller believes it is, so find home again",
+                "where the controller believes it is, so find home again",
                 axis, at, c.a < 0 ? "run on by" : "lost", c.a < 0 ? -c.a : c.a, c.b);
         case AxisCondition::end_of_travel:
             return fmt::format(

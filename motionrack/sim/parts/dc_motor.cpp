@@ -1,5 +1,6 @@
 // Laws of the rotor, and where they bring it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <motionrack/base/exponential.hpp>
 #include <motionrack/base/result.hpp>
@@ -135,7 +136,7 @@ void DcMotor::tell(double before, Instant now) {
     const double after = rate(now);
     if (after == state_.told && before == after) return;
     state_.told = after;
-    for (int i = 0; i < listener_count_; ++i) listeners_[static_cast<std::size_t>(i)]->rate_changed(before, after, now);
+    listeners_.tell_rate(before, after, now);
 }
 
 Instant DcMotor::law_end() const {
@@ -168,18 +169,12 @@ Instant DcMotor::reaches(std::int64_t there) const {
 Instant DcMotor::next(Instant now) const {
     Instant next = law_end();
     const int direction = state_.law.direction();
-    const std::int64_t here = count(now);
-    std::int64_t low = sim::unwatched_below, high = sim::unwatched_above;
-    for (int i = 0; i < listener_count_; ++i) {
-        const Range& watch = state_.watches[static_cast<std::size_t>(i)];
-        if (watch.left(here)) return now;
-        low = std::max(low, watch.below);
-        high = std::min(high, watch.above);
-    }
-    if (settings_.end_plus) high = std::min(high, *settings_.end_plus);
-    if (settings_.end_minus) low = std::max(low, *settings_.end_minus);
-    if (direction > 0 && high != sim::unwatched_above) next = std::min(next, reaches(high));
-    if (direction < 0 && low != sim::unwatched_below) next = std::min(next, reaches(low));
+    Range quiet = sim::Listeners::quiet(state_.watches);
+    if (quiet.left(count(now))) return now;
+    if (settings_.end_plus) quiet.above = std::min(quiet.above, *settings_.end_plus);
+    if (settings_.end_minus) quiet.below = std::max(quiet.below, *settings_.end_minus);
+    if (direction > 0 && quiet.above != sim::unwatched_above) next = std::min(next, reaches(quiet.above));
+    if (direction < 0 && quiet.below != sim::unwatched_below) next = std::min(next, reaches(quiet.below));
     return std::max(next, now);
 }
 
@@ -202,22 +197,13 @@ bool DcMotor::meet_ends(Instant now) {
     return true;
 }
 
-void DcMotor::tell_watches(Instant now) {
-    for (int i = 0; i < listener_count_; ++i) {
-        Range& watch = state_.watches[static_cast<std::size_t>(i)];
-        if (!watch.left(count(now))) continue;
-        watch = {};
-        listeners_[static_cast<std::size_t>(i)]->crossed(now);
-    }
-}
-
 void DcMotor::act(Instant now) {
     if (!meet_ends(now) && law_end() <= now) {
         const double before = state_.law.after;
         begin_law(before, now);
         tell(before, now);
     }
-    tell_watches(now);
+    listeners_.tell_crossed(state_.watches, count(now), now);
     reschedule();
 }
 
@@ -253,9 +239,7 @@ void DcMotor::watch(int slot, std::int64_t below, std::int64_t above) {
 }
 
 int DcMotor::listen(sim::MotionListener& listener) {
-    MOTIONRACK_ASSERT(listener_count_ < slots);
-    listeners_[static_cast<std::size_t>(listener_count_)] = &listener;
-    return listener_count_++;
+    return listeners_.add(listener);
 }
 
 void DcMotor::listen_edges(sim::EdgeListener* listener) {

@@ -12,9 +12,9 @@
 // looked at every whole microsecond of a law.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/parts/range.hpp>
 #include <optional>
@@ -86,7 +86,6 @@ class DcMotor final : public sim::Device, public sim::Motion {
     bool fault(std::string_view name, double value, Instant now) override;
 
   private:
-    static constexpr int slots = sim::Motion::max_listeners;
     struct State {
         std::int64_t base = 0;  ///< counts at `since`
         double part = 0.5;      ///< of a count, at `since`
@@ -96,7 +95,7 @@ class DcMotor final : public sim::Device, public sim::Motion {
         double load = 0;
         double told = 0;        ///< the rate that listeners know
         Instant handed{};
-        std::array<Range, slots> watches{};
+        sim::Listeners::Watches watches{};
         std::int32_t blocked = 0;
         std::int32_t held = 0;
     };
@@ -108,7 +107,6 @@ class DcMotor final : public sim::Device, public sim::Motion {
     void change(Instant now);
     void tell(double before, Instant now);
     bool meet_ends(Instant now);
-    void tell_watches(Instant now);
     Instant law_end() const;
     Instant reaches(std::int64_t count) const;
     Instant next(Instant now) const;
@@ -120,8 +118,7 @@ class DcMotor final : public sim::Device, public sim::Motion {
     sim::DeviceId id_{};
     sim::WireId drive_{};
     State state_{};
-    std::array<sim::MotionListener*, slots> listeners_{};
-    int listener_count_ = 0;
+    sim::Listeners listeners_;
     sim::EdgeListener* edges_ = nullptr;
     sim::EdgeBatch batch_{};
 };

@@ -77,10 +77,14 @@ void EncoderPart::act(Instant now) {
     schedule();
 }
 
-bool EncoderPart::fault(std::string_view name, double value, Instant now) {
+std::string_view EncoderPart::bare(std::string_view fault_name) {
     constexpr std::string_view prefix = "encoder.";
-    if (name.substr(0, prefix.size()) == prefix) name.remove_prefix(prefix.size());
-    if (!output_.fault(name, value, now)) return false;
+    if (fault_name.starts_with(prefix)) fault_name.remove_prefix(prefix.size());
+    return fault_name;
+}
+
+bool EncoderPart::fault(std::string_view name, double value, Instant now) {
+    if (!output_.fault(bare(name), value, now)) return false;
     schedule();
     return true;
 }

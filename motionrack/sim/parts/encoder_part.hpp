@@ -40,6 +40,8 @@ class EncoderPart : public sim::Device, private sim::MotionListener {
     virtual double displacement(std::int64_t n) const = 0;
     /// True: nothing can be seen, the lines stay.
     virtual bool blind() const { return false; }
+    /// A fault's name without the "encoder." that may stand before it.
+    static std::string_view bare(std::string_view fault_name);
     /// After displacement or blind have changed.
     void look_again(Instant now);
     std::int64_t turn() const { return turn_; }

@@ -1,4 +1,5 @@
 // Thresholds and bounce of a switch.
+#include <motionrack/base/mixed_bits.hpp>
 #include <motionrack/base/result.hpp>
 #include <motionrack/sim/parts/limit_switch.hpp>
 
@@ -6,12 +7,9 @@ namespace motionrack::parts {
 
 namespace {
 
-// SplitMix64: well-mixed bits of a counter.
+/// Well-mixed bits of a counter.
 std::uint64_t mixed(std::uint64_t x) {
-    x += 0x9E3779B97F4A7C15ull;
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
-    return x ^ (x >> 31);
+    return mixed_bits(x + golden_step);
 }
 
 }  // namespace

@@ -41,9 +41,8 @@ class LimitSwitch {
     LimitSwitch(const LimitSwitchSettings& settings, const Axle& axle, LimitSwitchState& state);
 
     bool present() const { return settings_.position.has_value(); }
-    /// The places of the table (microsteps) at which it acts and is released.
+    /// The place of the table (microsteps) at which it acts.
     std::int64_t acts_at() const { return on_; }
-    std::int64_t released_at() const { return off_; }
     /// The range of the table in which it does not change; all of it if there is no switch.
     Range range() const;
     /// The table has come to `table`: changes if that is beyond the range.

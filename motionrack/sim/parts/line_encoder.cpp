@@ -32,7 +32,7 @@ double LineEncoder::displacement(std::int64_t n) const {
 }
 
 bool LineEncoder::fault(std::string_view name, double value, Instant now) {
-    if (name != "eccentricity" && name != "encoder.eccentricity") return EncoderPart::fault(name, value, now);
+    if (bare(name) != "eccentricity") return EncoderPart::fault(name, value, now);
     if (!(value >= 0 && value <= static_cast<double>(turn()) / 7)) return false;
     state_.own[0] = static_cast<std::int64_t>(value * fine);
     look_again(now);

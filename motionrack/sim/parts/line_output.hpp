@@ -75,8 +75,6 @@ class LineOutput {
 
     std::int64_t shown() const { return state_.shown; }
     std::int64_t lost() const { return state_.lost; }
-    /// How many counts a decoder misses for each passage of the dirt.
-    std::int64_t dirt_counts() const { return 4 * state_.dirt_lines; }
     const LineOutputSettings& settings() const { return settings_; }
     sim::WireId a() const { return wires_[0]; }
     sim::WireId b() const { return wires_[1]; }

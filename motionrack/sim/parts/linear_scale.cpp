@@ -129,9 +129,7 @@ Range LinearScale::place_range(const Range& counts) const {
 // ---- listeners ------------------------------------------------------------------------------------------------------
 
 int LinearScale::listen(sim::MotionListener& listener) {
-    MOTIONRACK_ASSERT(listener_count_ < slots);
-    listeners_[static_cast<std::size_t>(listener_count_)] = &listener;
-    return listener_count_++;
+    return listeners_.add(listener);
 }
 
 void LinearScale::watch(int slot, std::int64_t below, std::int64_t above) {
@@ -143,13 +141,7 @@ void LinearScale::watch(int slot, std::int64_t below, std::int64_t above) {
 void LinearScale::look(Instant now) {
     looking_ = true;
     if (live()) show(now);
-    const std::int64_t here = count(now);
-    for (int i = 0; i < listener_count_; ++i) {
-        Range& watch = state_.watches[static_cast<std::size_t>(i)];
-        if (!watch.left(here)) continue;
-        watch = {};
-        listeners_[static_cast<std::size_t>(i)]->crossed(now);
-    }
+    listeners_.tell_crossed(state_.watches, count(now), now);
     looking_ = false;
     aim(now);
 }
@@ -159,7 +151,7 @@ void LinearScale::aim(Instant now) {
     const std::int64_t here = count(now);
     Range places;
     Instant next = never;
-    for (int i = 0; i < listener_count_; ++i) {
+    for (int i = 0; i < listeners_.size(); ++i) {
         const Range& watch = state_.watches[static_cast<std::size_t>(i)];
         if (watch.left(here)) next = now;
         places = places.within(place_range(watch));
@@ -191,8 +183,7 @@ void LinearScale::rate_changed(double before, double rate, Instant now) {
         report(AxisCondition::scale_lost, gone, state_.lost);
     }
     const double factor = state_.direction * counts_per_place();
-    for (int i = 0; i < listener_count_; ++i)
-        listeners_[static_cast<std::size_t>(i)]->rate_changed(was ? 0 : before * factor, fast ? 0 : rate * factor, now);
+    listeners_.tell_rate(was ? 0 : before * factor, fast ? 0 : rate * factor, now);
     if (was != fast) look(now);
 }
 
@@ -227,7 +218,7 @@ void LinearScale::show(Instant now) {
         const int step = here > state_.shown ? 1 : -1;
         state_.shown += step;
         state_.free_at = now + spacing_;
-        if (edges_) edge(step, now);
+        if (edges_) row_.add(*edges_, now, state_.shown, step);
     }
     put_out(now);
 }
@@ -237,22 +228,8 @@ void LinearScale::put_out(Instant now) {
         if (state_.wanted >> i & 1) kernel_.set_wire(wires_[i], level_at(static_cast<int>(i), now));
 }
 
-/// An edge that led to `shown`.
-void LinearScale::edge(int step, Instant now) {
-    const bool far = batch_.size > 0 && (now - batch_.origin).count() > 0xFFFF'FFFF;
-    if (far || batch_.size == sim::EdgeBatch::capacity || batch_.step != step) flush();
-    if (batch_.size == 0) {
-        batch_.origin = now;
-        batch_.tick = Duration{1};
-        batch_.first_count = state_.shown;
-        batch_.step = step;
-    }
-    batch_.at[batch_.size++] = static_cast<std::uint32_t>((now - batch_.origin).count());
-}
-
 void LinearScale::flush() {
-    if (edges_ && batch_.size > 0) edges_->edges(batch_);
-    batch_.size = 0;
+    if (edges_) row_.hand_over(*edges_);
 }
 
 // ---- faults ---------------------------------------------------------------------------------------------------------

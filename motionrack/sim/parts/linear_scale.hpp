@@ -17,7 +17,9 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/sim/edge_row.hpp>
 #include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/parts/conditions.hpp>
 #include <motionrack/sim/parts/linear_stage.hpp>
@@ -81,7 +83,6 @@ class LinearScale final : public sim::Device, public sim::Motion, private sim::M
     bool fault(std::string_view name, double value, Instant now) override;
 
   private:
-    static constexpr int slots = sim::Motion::max_listeners;
     struct State {
         Wide num = 1;               ///< counts of the grating for a count of the place, in lowest terms
         Wide den = 1;
@@ -92,7 +93,7 @@ class LinearScale final : public sim::Device, public sim::Motion, private sim::M
         std::int64_t dirt = 0;      ///< counts that cannot be seen
         std::int64_t shown = 0;     ///< the count whose lines are out
         Instant free_at{};          ///< no edge of the lines before
-        std::array<Range, slots> watches{};
+        sim::Listeners::Watches watches{};
         std::int32_t direction = 1;
         std::int32_t swapped = 0;
         std::int32_t too_fast = 0;
@@ -117,7 +118,6 @@ class LinearScale final : public sim::Device, public sim::Motion, private sim::M
     void aim(Instant now);
     void show(Instant now);
     void put_out(Instant now);
-    void edge(int step, Instant now);
     void flush();
 
     sim::Kernel& kernel_;
@@ -130,10 +130,9 @@ class LinearScale final : public sim::Device, public sim::Motion, private sim::M
     std::array<sim::WireId, 3> wires_{};
     int slot_ = 0;
     State state_{};
-    std::array<sim::MotionListener*, slots> listeners_{};
-    int listener_count_ = 0;
+    sim::Listeners listeners_;
     sim::EdgeListener* edges_ = nullptr;
-    sim::EdgeBatch batch_{};
+    sim::EdgeRow row_;
     bool looking_ = false;
 };
 

@@ -176,7 +176,7 @@ void LinearStage::tell(double before, Instant now) {
     const double after = rate(now);
     if (after == state_.told && before == after) return;
     state_.told = after;
-    for (int i = 0; i < listener_count_; ++i) listeners_[static_cast<std::size_t>(i)]->rate_changed(before, after, now);
+    listeners_.tell_rate(before, after, now);
 }
 
 // ---- when something happens -----------------------------------------------------------------------------------------
@@ -220,17 +220,11 @@ Instant LinearStage::reaches(std::int64_t there) const {
 }
 
 Instant LinearStage::next(Instant now) const {
-    const std::int64_t here = count(now);
-    std::int64_t low = end_minus_, high = end_plus_;
-    for (int i = 0; i < listener_count_; ++i) {
-        const Range& watch = state_.watches[static_cast<std::size_t>(i)];
-        if (watch.left(here)) return now;
-        low = std::max(low, watch.below);
-        high = std::min(high, watch.above);
-    }
+    const Range quiet = sim::Listeners::quiet(state_.watches);
+    if (quiet.left(count(now))) return now;
     Instant next = law_end();
-    if (direction() > 0) next = std::min(next, reaches(high));
-    if (direction() < 0) next = std::min(next, reaches(low));
+    if (direction() > 0) next = std::min(next, reaches(std::min(quiet.above, end_plus_)));
+    if (direction() < 0) next = std::min(next, reaches(std::max(quiet.below, end_minus_)));
     return std::max(next, now);
 }
 
@@ -251,15 +245,6 @@ bool LinearStage::meet_ends(Instant now) {
     return true;
 }
 
-void LinearStage::tell_watches(Instant now) {
-    for (int i = 0; i < listener_count_; ++i) {
-        Range& watch = state_.watches[static_cast<std::size_t>(i)];
-        if (!watch.left(count(now))) continue;
-        watch = {};
-        listeners_[static_cast<std::size_t>(i)]->crossed(now);
-    }
-}
-
 void LinearStage::act(Instant now) {
     if (!meet_ends(now) && now >= law_end()) {
         const double before = rate(now);
@@ -267,7 +252,7 @@ void LinearStage::act(Instant now) {
         begin_law();
         tell(before, now);
     }
-    tell_watches(now);
+    listeners_.tell_crossed(state_.watches, count(now), now);
     reschedule();
 }
 
@@ -305,9 +290,7 @@ void LinearStage::watch(int slot, std::int64_t below, std::int64_t above) {
 }
 
 int LinearStage::listen(sim::MotionListener& listener) {
-    MOTIONRACK_ASSERT(listener_count_ < slots);
-    listeners_[static_cast<std::size_t>(listener_count_)] = &listener;
-    return listener_count_++;
+    return listeners_.add(listener);
 }
 
 void LinearStage::mark_rate(double rate) {
@@ -327,22 +310,10 @@ void LinearStage::hand_over(Instant now) {
     state_.handed = now;
     const int way = direction();
     if (!edges_ || way == 0) return;
-    std::int64_t at = count(from);
     const std::int64_t last = count(now);
-    while (at != last) {
-        batch_.size = 0;
-        batch_.origin = std::max(reaches(at + way), from);
-        batch_.tick = Duration{1};
-        batch_.step = way;
-        batch_.first_count = at + way;
-        while (at != last && batch_.size < sim::EdgeBatch::capacity) {
-            const std::int64_t ticks = (std::max(reaches(at + way), from) - batch_.origin).count();
-            if (ticks > 0xFFFF'FFFF) break;
-            batch_.at[batch_.size++] = static_cast<std::uint32_t>(ticks);
-            at += way;
-        }
-        edges_->edges(batch_);
-    }
+    for (std::int64_t here = count(from); here != last; here += way)
+        row_.add(*edges_, std::max(reaches(here + way), from), here + way, way);
+    row_.hand_over(*edges_);
 }
 
 }  // namespace motionrack::parts

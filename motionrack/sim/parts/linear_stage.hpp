@@ -12,7 +12,9 @@
 
 #include <array>
 #include <cstdint>
+#include <motionrack/sim/edge_row.hpp>
 #include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/parts/range.hpp>
 #include <span>
@@ -83,7 +85,7 @@ class LinearStage final : public sim::Device, public sim::Motion {
         double told = 0;              ///< the rate that listeners know
         double load = 0;
         double rubbing = 0;           ///< m/s2, of the fault
-        std::array<Range, slots> watches{};
+        sim::Listeners::Watches watches{};
         std::int32_t microvolts = 0;
         std::int32_t blocked = 0;
         std::int32_t held = 0;
@@ -101,7 +103,6 @@ class LinearStage final : public sim::Device, public sim::Motion {
     void change(Instant now);
     void tell(double before, Instant now);
     bool meet_ends(Instant now);
-    void tell_watches(Instant now);
     Instant law_end() const;
     Instant reaches(std::int64_t count) const;
     std::int64_t guess(Wide way, std::int64_t last) const;
@@ -117,12 +118,11 @@ class LinearStage final : public sim::Device, public sim::Motion {
     sim::DeviceId id_{};
     sim::WireId drive_{};
     State state_{};
-    std::array<sim::MotionListener*, slots> listeners_{};
-    int listener_count_ = 0;
+    sim::Listeners listeners_;
     std::array<Wide, slots> marks_{};
     int mark_count_ = 0;
     sim::EdgeListener* edges_ = nullptr;
-    sim::EdgeBatch batch_{};
+    sim::EdgeRow row_;
 };
 
 }  // namespace motionrack::parts

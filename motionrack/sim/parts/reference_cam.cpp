@@ -8,8 +8,7 @@ ReferenceCam::ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::Mo
                            int active_level)
     : kernel_(kernel),
       place_(place),
-      from_(from),
-      to_(to),
+      interval_{from, to},
       active_level_(active_level),
       id_(kernel.add(*this, sim::Phase::parts, name)),
       wire_(kernel.add_wire(name, 1 - active_level)),
@@ -19,8 +18,7 @@ ReferenceCam::ReferenceCam(sim::Kernel& kernel, const std::string& name, sim::Mo
 }
 
 bool ReferenceCam::active(Instant t) const {
-    const std::int64_t here = place_.count(t);
-    return here >= from_ && here <= to_;
+    return interval_.has(place_.count(t));
 }
 
 void ReferenceCam::act(Instant now) {
@@ -28,14 +26,9 @@ void ReferenceCam::act(Instant now) {
 }
 
 void ReferenceCam::look(Instant now) {
-    const std::int64_t here = place_.count(now);
     kernel_.set_wire(wire_, active(now) ? active_level_ : 1 - active_level_);
-    if (here < from_)
-        place_.watch(slot_, sim::unwatched_below, from_);
-    else if (here > to_)
-        place_.watch(slot_, to_, sim::unwatched_above);
-    else
-        place_.watch(slot_, from_ - 1, to_ + 1);
+    const sim::Range side = interval_.side_of(place_.count(now));
+    place_.watch(slot_, side.below, side.above);
 }
 
 }  // namespace motionrack::parts

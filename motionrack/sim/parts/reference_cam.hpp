@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/range.hpp>
 #include <string>
 
 namespace motionrack::parts {
@@ -28,8 +29,7 @@ class ReferenceCam final : public sim::Device, private sim::MotionListener {
 
     sim::Kernel& kernel_;
     sim::Motion& place_;
-    std::int64_t from_;
-    std::int64_t to_;
+    sim::Interval interval_;
     int active_level_;
     sim::DeviceId id_{};
     sim::WireId wire_{};

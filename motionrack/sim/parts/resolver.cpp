@@ -42,9 +42,8 @@ double Resolver::displacement(std::int64_t n) const {
     return early * counts / (2 * pi);
 }
 
-bool Resolver::fault(std::string_view name, double value, Instant now) {
-    constexpr std::string_view prefix = "encoder.";
-    if (name.substr(0, prefix.size()) == prefix) name.remove_prefix(prefix.size());
+bool Resolver::fault(std::string_view fault_name, double value, Instant now) {
+    const std::string_view name = bare(fault_name);
     if (name == "broken_sin" || name == "broken_cos") {
         const std::int64_t bit = name == "broken_sin" ? 1 : 2;
         state_.own[broken] = value != 0 ? state_.own[broken] | bit : state_.own[broken] & ~bit;

@@ -12,14 +12,11 @@ TouchProbe::TouchProbe(sim::Kernel& kernel, const std::string& name)
 
 void TouchProbe::add_range(sim::Motion& place, std::int64_t from, std::int64_t to) {
     MOTIONRACK_ASSERT(from <= to);
-    sides_.emplace_back(*this, place, from, to);
+    sides_.emplace_back(*this, place, sim::Interval{from, to});
 }
 
 bool TouchProbe::touches(Instant t) const {
-    const auto within = [&](const Side& side) {
-        const std::int64_t here = side.place.count(t);
-        return here >= side.from && here <= side.to;
-    };
+    const auto within = [t](const Side& side) { return side.interval.has(side.place.count(t)); };
     return !sides_.empty() && std::all_of(sides_.begin(), sides_.end(), within);
 }
 
@@ -29,16 +26,10 @@ void TouchProbe::act(Instant now) {
 
 void TouchProbe::look(Instant now) {
     kernel_.set_wire(wire_, touches(now));
-    for (Side& side : sides_) side.aim(side.place.count(now));
-}
-
-void TouchProbe::Side::aim(std::int64_t here) {
-    if (here < from)
-        place.watch(slot, sim::unwatched_below, from);
-    else if (here > to)
-        place.watch(slot, to, sim::unwatched_above);
-    else
-        place.watch(slot, from - 1, to + 1);
+    for (Side& side : sides_) {
+        const sim::Range around = side.interval.side_of(side.place.count(now));
+        side.place.watch(side.slot, around.below, around.above);
+    }
 }
 
 }  // namespace motionrack::parts

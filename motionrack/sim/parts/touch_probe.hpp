@@ -10,6 +10,7 @@
 #include <deque>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/range.hpp>
 #include <string>
 
 namespace motionrack::parts {
@@ -30,16 +31,14 @@ class TouchProbe final : public sim::Device {
   private:
     /// One axis of the block.
     struct Side final : sim::MotionListener {
-        Side(TouchProbe& its, sim::Motion& motion, std::int64_t lower, std::int64_t upper)
-            : probe(its), place(motion), from(lower), to(upper), slot(motion.listen(*this)) {}
+        Side(TouchProbe& its, sim::Motion& motion, sim::Interval of_block)
+            : probe(its), place(motion), interval(of_block), slot(motion.listen(*this)) {}
         void crossed(Instant now) override { probe.look(now); }
         void rate_changed(double, double, Instant) override {}
-        void aim(std::int64_t here);
 
         TouchProbe& probe;
         sim::Motion& place;
-        std::int64_t from;
-        std::int64_t to;
+        sim::Interval interval;
         int slot;
     };
     void look(Instant now);

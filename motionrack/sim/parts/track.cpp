@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <motionrack/base/mixed_bits.hpp>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/sim/parts/track.hpp>
 
@@ -15,10 +16,7 @@ constexpr double tick_s = 1e-5;
 
 /// -1 .. 1, the same for the same tick.
 double tremble(std::int64_t tick) {
-    auto z = static_cast<std::uint64_t>(tick) + 0x9E3779B97F4A7C15ull;
-    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ z >> 27) * 0x94D049BB133111EBull;
-    return static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-52 - 1;
+    return static_cast<double>(mixed_bits(static_cast<std::uint64_t>(tick) + golden_step) >> 11) * 0x1p-52 - 1;
 }
 
 sim::Spot turned(sim::Spot p, sim::Spot centre, double degrees) {

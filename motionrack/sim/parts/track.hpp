@@ -1,8 +1,7 @@
 // What moves the part under a scan head: a belt or a rotary table with a speed profile and an encoder on it.
 //
-//   speed  ___                     travel(t) is the integral, in closed form; the encoder sees travel * (1 - slip) and
-//   trembles
-//      ___/   \___
+//   speed     ___
+//         ___/   \___      travel(t) is the integral, in closed form; the encoder sees travel * (1 - slip) and trembles
 #pragma once
 
 #include <cstdint>
@@ -17,8 +16,8 @@ namespace motionrack::parts {
 inline constexpr double greatest_track_speed = 1e5;
 
 struct SpeedPoint {
-    double at_s = 0,
-           speed = 0;  ///< mm/s or degrees/s; straight between points, constant before the first and after the last
+    double at_s = 0;
+    double speed = 0;  ///< mm/s or degrees/s; straight between points, constant before the first and after the last
 };
 
 struct TrackSettings {

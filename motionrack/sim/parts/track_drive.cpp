@@ -21,12 +21,12 @@ bool TrackDrive::fault(std::string_view name, double value, Instant now) {
     if (!by_hand && name != all_faults[1]) return false;
     if (!(std::fabs(value) <= greatest_speed_)) return false;
     for (TrackMotion* motion : motions_) motion->hand_over_edges();
-    const double before = track_.speed(to_seconds(now));
+    const double speed_before = track_.speed(to_seconds(now));
     if (by_hand)
         track_.drive(to_seconds(now), value);
     else
         track_.follow_profile(to_seconds(now));
-    for (TrackMotion* motion : motions_) motion->changed(before);
+    for (TrackMotion* motion : motions_) motion->changed(speed_before);
     return true;
 }
 

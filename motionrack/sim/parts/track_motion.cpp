@@ -48,25 +48,18 @@ Instant TrackMotion::leaves(const Range& range, Instant from) const {
 }
 
 void TrackMotion::schedule(Instant now) {
-    Range all;
-    for (int i = 0; i < listener_count_; ++i) all = all.within(state_.watches[static_cast<std::size_t>(i)]);
-    kernel_.schedule(id_, all.left(count(now)) ? now : leaves(all, now));
+    const Range quiet = sim::Listeners::quiet(state_.watches);
+    kernel_.schedule(id_, quiet.left(count(now)) ? now : leaves(quiet, now));
 }
 
 void TrackMotion::act(Instant now) {
-    for (int i = 0; i < listener_count_; ++i) {
-        Range& watch = state_.watches[static_cast<std::size_t>(i)];
-        if (!watch.left(count(now))) continue;
-        watch = {};
-        listeners_[static_cast<std::size_t>(i)]->crossed(now);
-    }
+    listeners_.tell_crossed(state_.watches, count(now), now);
     schedule(now);
 }
 
-void TrackMotion::changed(double before) {
+void TrackMotion::changed(double speed_before) {
     const Instant now = kernel_.now();
-    const double after = rate(now);
-    for (int i = 0; i < listener_count_; ++i) listeners_[static_cast<std::size_t>(i)]->rate_changed(before, after, now);
+    listeners_.tell_rate(speed_before * per_unit_, rate(now), now);
     schedule(now);
 }
 
@@ -76,9 +69,7 @@ void TrackMotion::watch(int slot, std::int64_t below, std::int64_t above) {
 }
 
 int TrackMotion::listen(sim::MotionListener& listener) {
-    MOTIONRACK_ASSERT(listener_count_ < slots);
-    listeners_[static_cast<std::size_t>(listener_count_)] = &listener;
-    return listener_count_++;
+    return listeners_.add(listener);
 }
 
 void TrackMotion::listen_edges(sim::EdgeListener* listener) {
@@ -92,8 +83,6 @@ void TrackMotion::hand_over(Instant now) {
     Instant at = state_.handed;
     state_.handed = now;
     if (edges_ == nullptr) return;
-    batch_.size = 0;
-    batch_.tick = Duration{1};
     std::int64_t& here = state_.handed_count;
     for (;;) {
         const Range stay{here - 1, here + 1};
@@ -102,17 +91,10 @@ void TrackMotion::hand_over(Instant now) {
             at = next;
             continue;
         }
-        const int step = next <= now && count(next) > here ? 1 : -1;
-        const bool fits = batch_.size > 0 && batch_.size < sim::EdgeBatch::capacity && step == batch_.step &&
-                          (next - batch_.origin).count() <= 0xFFFF'FFFF;
-        if (batch_.size > 0 && (next > now || !fits)) {
-            edges_->edges(batch_);
-            batch_.size = 0;
-        }
-        if (next > now) return;
-        if (batch_.size == 0) batch_.origin = next, batch_.step = step, batch_.first_count = here + step;
-        batch_.at[batch_.size++] = static_cast<std::uint32_t>((next - batch_.origin).count());
+        if (next > now) return row_.hand_over(*edges_);
+        const int step = count(next) > here ? 1 : -1;
         here += step;
+        row_.add(*edges_, next, here, step);
         at = next;
     }
 }

@@ -5,9 +5,10 @@
 // The count is a closed form of the time; nothing is done for a count that nobody watches.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <motionrack/sim/edge_row.hpp>
 #include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/parts/range.hpp>
 #include <motionrack/sim/parts/track.hpp>
@@ -27,17 +28,16 @@ class TrackMotion final : public sim::Device, public sim::Motion {
     void listen_edges(sim::EdgeListener* listener) override;
     void hand_over_edges() override { hand_over(kernel_.now()); }
 
-    /// The track goes otherwise from now on; `before`: rate() until now. Edges up to now must have been handed over.
-    void changed(double before);
+    /// The track goes otherwise from now on; `speed_before`: its speed() until now. Edges up to now must have been handed over.
+    void changed(double speed_before);
 
     void act(Instant now) override;
     void sync(Instant now) override { hand_over(now); }
     std::span<std::byte> state() override { return sim::bytes_of(state_); }
 
   private:
-    static constexpr int slots = sim::Motion::max_listeners;
     struct State {
-        std::array<Range, slots> watches{};
+        sim::Listeners::Watches watches{};
         Instant handed{};
         std::int64_t handed_count = 0;  ///< after the last edge handed over
     };
@@ -51,10 +51,9 @@ class TrackMotion final : public sim::Device, public sim::Motion {
     double per_unit_;
     sim::DeviceId id_{};
     State state_{};
-    std::array<sim::MotionListener*, slots> listeners_{};
-    int listener_count_ = 0;
+    sim::Listeners listeners_;
     sim::EdgeListener* edges_ = nullptr;
-    sim::EdgeBatch batch_{};
+    sim::EdgeRow row_;
 };
 
 }  // namespace motionrack::parts

@@ -126,6 +126,20 @@ TEST(VirtualPort, EveryAccessTakesItsTimeAndSlicesAreCalledBetweenRuns) {
     EXPECT_EQ(slices, 10);
 }
 
+TEST(VirtualPort, WaitsForAnInterruptForEverIfItMay) {
+    World w;
+    VirtualPort port(w.kernel, w.card, w.card.id, w.card.interrupt, nanoseconds(250));
+    port.write(0, 0);
+    port.on_slice(milliseconds(10), [&w] {
+        if (w.kernel.now() < milliseconds(30)) return;
+        w.card.write(0, 100);
+        w.kernel.settle();
+    });
+    EXPECT_TRUE(port.wait(never));
+    EXPECT_GE(port.now(), milliseconds(30));
+    EXPECT_LT(port.now(), milliseconds(50));
+}
+
 TEST(VirtualPort, ABufferThatIsNearlyFullIsDrainedBeforeTheRunGoesOn) {
     class Filler final : public Device {
       public:

@@ -79,6 +79,29 @@ TEST(TrackMotion, MakesEveryEdgeAtItsInstantThereAndBack) {
     }
 }
 
+TEST(TrackMotion, ListenersHearBothRatesInCountsASecondWhenTheSpeedIsChanged) {
+    struct Ear final : sim::MotionListener {
+        void crossed(Instant) override {}
+        void rate_changed(double from, double to, Instant) override { before = from, after = to; }
+        double before = 0, after = 0;
+    };
+    sim::Kernel kernel;
+    TrackDrive drive(kernel, "belt", track_of({{0, 100}}));
+    TrackMotion fine(kernel, "fine", drive.track(), 1000), turned(kernel, "turned", drive.track(), -10);
+    drive.add(fine);
+    drive.add(turned);
+    Ear of_fine, of_turned;
+    fine.listen(of_fine);
+    turned.listen(of_turned);
+    kernel.start();
+    kernel.run_until(milliseconds(5));
+    ASSERT_TRUE(drive.fault("drive.speed", 20, kernel.now()));
+    EXPECT_DOUBLE_EQ(of_fine.before, 100'000);
+    EXPECT_DOUBLE_EQ(of_fine.after, 20'000);
+    EXPECT_DOUBLE_EQ(of_turned.before, -1'000);
+    EXPECT_DOUBLE_EQ(of_turned.after, -200);
+}
+
 TEST(PartSensor, IsLowWhileAPartIsThereAndCountsThem) {
     sim::Kernel kernel;
     TrackDrive drive(kernel, "belt", track_of({{0, 100}}));

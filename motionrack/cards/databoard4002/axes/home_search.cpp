@@ -11,7 +11,6 @@ namespace motionrack::databoard4002 {
 
 namespace {
 
-constexpr Duration contacts_rest = milliseconds(5);
 constexpr std::array<std::string_view, 9> names = {"", "BACK", "BACK_STOP", "SEARCH", "SEARCH_STOP", "SLOW", "SLOW_STOP", "HOMED", "FAILED"};
 
 }  // namespace
@@ -66,7 +65,7 @@ void HomeSearch::stop() {
 
 void HomeSearch::leave(Instant now) {
     if (state_ == State::idle) return;
-    outcome_.stays.push_back({std::string(state_name()), to_seconds(entered_ - outcome_.from), to_seconds(now - entered_), entered_way_, way_});
+    outcome_.stays.push_back({std::string(state_name()), since(entered_), to_seconds(now - entered_), entered_way_, way_});
 }
 
 /// Turns ways into places, which are known from here on.
@@ -75,7 +74,7 @@ void HomeSearch::finish(State state, std::string sentence, Instant now) {
     state_ = state;
     outcome_.homed = state == State::homed;
     outcome_.sentence = std::move(sentence);
-    outcome_.took_s = to_seconds(now - outcome_.from);
+    outcome_.took_s = since(now);
     const double zero = zeroed_ ? home_way_ : 0, called = zeroed_ ? order_.position : frame_.offset;
     const auto place_of = [&](double way) { return called + (way - zero) / frame_.counts_per_unit; };
     for (control::HomeStay& stay : outcome_.stays) stay.from = place_of(stay.from), stay.to = place_of(stay.to);
@@ -205,7 +204,7 @@ Result<void> HomeSearch::look_back(Instant now) {
         off_ = true;
         off_way_ = way_;
         outcome_.edges.push_back({"switch off", std::string(state_name()), way_, std::fabs(pace_) * 1e-3 / frame_.counts_per_unit,
-                                  std::fabs(pace_) / frame_.counts_per_unit, to_seconds(now - outcome_.from)});
+                                  std::fabs(pace_) / frame_.counts_per_unit, since(now)});
     }
     if (!off_ || std::fabs(way_ - off_way_) < order_.clearance * frame_.counts_per_unit) return {};
     return enter(State::back_stop, now);
@@ -214,7 +213,7 @@ Result<void> HomeSearch::look_back(Instant now) {
 Result<void> HomeSearch::look_search(Instant now) {
     if (!marked_) return {};
     outcome_.edges.push_back({(marks() & event::ZERO) != 0 ? "index" : "switch on", std::string(state_name()), home_way_, 0,
-                              std::fabs(pace_) / frame_.counts_per_unit, to_seconds(now - outcome_.from)});
+                              std::fabs(pace_) / frame_.counts_per_unit, since(now)});
     zeroed_ = true;
     return enter(state_ == State::search ? State::search_stop : State::slow_stop, now);
 }

@@ -68,7 +68,8 @@ class HomeSearch {
     void finish(State state, std::string sentence, Instant now);
     tl::unexpected<Error> failed(const std::string& why) const;
     double place(double way) const { return frame_.offset + way / frame_.counts_per_unit; }
-    double since(Instant now) const { return to_seconds(now - outcome_.from); }
+    /// Seconds from the beginning of the search to `then`.
+    double since(Instant then) const { return to_seconds(then - outcome_.from); }
 
     Driver& driver_;
     Interrupt& host_;

@@ -12,7 +12,6 @@ namespace motionrack::databoard4002 {
 namespace {
 
 constexpr Duration look_every = milliseconds(1);
-constexpr Duration contacts_rest = milliseconds(5);
 
 }  // namespace
 
@@ -243,7 +242,7 @@ void PositionAxis::look_at_events(Instant now) {
 }
 
 /// The contacts of a stop are at rest: does it hold the axis? One on the other side does no harm.
-void PositionAxis::look_at_stop(Instant) {
+void PositionAxis::look_at_stop() {
     stop_seen_ = never;
     const Status status = driver_.status();
     std::string why = status.emergency() || status.end_stop(forward_) ? status.stops() : std::string();
@@ -293,7 +292,7 @@ void PositionAxis::step(Instant now) {
     }
     if (doing_ == Doing::nothing) return;
     look_at_events(now);
-    if (now >= stop_seen_) look_at_stop(now);
+    if (now >= stop_seen_) look_at_stop();
     switch (doing_) {
         case Doing::jogging: return jog_on(now);
         case Doing::stopping: return ramp_down(now);

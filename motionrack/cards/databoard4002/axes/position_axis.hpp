@@ -70,7 +70,7 @@ class PositionAxis final : public control::Axis {
     bool stop_search();
     void ramp_down(Instant now);
     void look_at_events(Instant now);
-    void look_at_stop(Instant now);
+    void look_at_stop();
     void settle(Instant now);
     void rest(Instant now);
     void end_with(Error error);

@@ -14,11 +14,14 @@
 
 namespace motionrack::databoard4002 {
 
+/// After the edge of a stop its contacts bounce so long at most.
+inline constexpr Duration contacts_rest = milliseconds(5);
+
 struct DriverSettings {
     std::uint8_t select = 13;                   ///< the card's number on the bus
     Duration ready_timeout = milliseconds(127); ///< > 0: longest wait for Ready before an access; `never`: no limit
     Duration poll = microseconds(20);           ///< > 0: between two looks at STAT
-    Duration bounce = milliseconds(5);          ///< >= 0: after the edge of a stop, until its contacts are at rest
+    Duration bounce = contacts_rest;            ///< >= 0: after the edge of a stop, until its contacts are at rest
     double counts_per_mm = 1000;                ///< > 0; for positions in mm
 };
 

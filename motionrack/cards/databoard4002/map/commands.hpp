@@ -2,12 +2,15 @@
 #pragma once
 
 #include <motionrack/base/commands.hpp>
+#include <motionrack/cards/databoard4002/arithmetic.hpp>
+#include <motionrack/cards/databoard4002/slope_table.hpp>
 
 namespace motionrack::databoard4002::map {
 
 inline constexpr std::int64_t least_24 = -8'388'608, greatest_24 = 8'388'607;
-inline constexpr std::int64_t greatest_rate = 16'383;
-inline constexpr int table_bytes = 240;
+inline constexpr std::int64_t greatest_rate = most_rate;
+inline constexpr int table_bytes = SlopeTable::size;
+static_assert(signed24(least_24) == least_24 && signed24(greatest_24) == greatest_24 && signed24(greatest_24 + 1) == least_24);
 
 inline constexpr CommandInfo commands[] = {
     {"A", 'A', 0, 0, 0, "", "", "athome: the present position is 0"},

@@ -59,7 +59,7 @@ void Card::begin() {
 
 void Card::act(Instant now) {
     begin();
-    if (state_.watchdog_at <= now) watchdog(now);
+    if (state_.watchdog_at <= now) watchdog();
     if (state_.reset_pulse_end <= now) {
         state_.reset_pulse_end = never;
         kernel_.set_wire(wires_[rst_pin], 0);
@@ -71,7 +71,7 @@ void Card::act(Instant now) {
     reschedule();
 }
 
-void Card::watchdog(Instant) {
+void Card::watchdog() {
     report(CardCondition::watchdog_reset);
     reset();
 }

@@ -83,7 +83,7 @@ class Card final : public sim::Device,
     void want_pass(Instant now);
     void reschedule();
     void begin();
-    void watchdog(Instant now);
+    void watchdog();
     void access(Work kind, std::uint8_t port, std::uint8_t value);
     std::uint8_t status() const;
     void reset();

@@ -78,7 +78,9 @@ Result<Reading> GratingCard::wait(Duration timeout) {
     const Instant end = later(interrupt_.now(), timeout);
     while (!FRAME.test(port_.read(offset("STATUS")))) {
         const Duration left = end - interrupt_.now();
-        if (left <= Duration{0} || interrupt_.stop_requested())
+        if (interrupt_.stop_requested())
+            return fail(Trouble::stopped, "Waiting for a frame was stopped by the user; none was read. The card goes on reading frames.");
+        if (left <= Duration{0})
             return fail(Trouble::refused, fmt::format("No frame came within {} us. Is there a host on the bus, and does it run?", to_seconds(timeout) * 1e6));
         interrupt_.wait(left);
     }

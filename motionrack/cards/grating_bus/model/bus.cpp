@@ -108,7 +108,7 @@ void Bus::settle(Instant now) {
         state_.told |= 1u << i;
         const Conflict& conflict = state_.lines.conflict(state_.lines.all_conflicts() - 1);
         kernel_.report(id_, static_cast<std::uint16_t>(BusCondition::conflict), static_cast<std::int64_t>(i),
-                       std::countr_zero(conflict.high) * 64 + std::countr_zero(conflict.low));
+                       std::countr_zero(conflict.high) * most_drivers + std::countr_zero(conflict.low));
     }
     show();
 }

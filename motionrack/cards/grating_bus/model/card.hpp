@@ -82,7 +82,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
         sim::PingPong<Frame> buffers;
         // the sequence
         State fsm = State::S0;
-        std::uint8_t bad = 0;           // of the frame under way: bits of BusCondition::bad_frame
+        std::uint8_t bad = 0;           // of the frame under way: bits of BadFrame
         std::uint8_t was_bad = 0;       // the last frame was, and was told of
         std::uint8_t stale = 1;
         std::int32_t word = 0;
@@ -97,7 +97,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
         Instant pulse_at = never;
         Instant fall_at = never;        // of its clk
         // what it drives through its shifters
-        std::uint32_t clk = 0, hold = 0, read_n = 1, addr = 0xFF;
+        std::uint32_t clk = 0, hold = 0, read_n = 1, addr = rest_of(Line::addr);
         std::uint32_t quiet = 0;        // in reset: drives nothing
         std::uint32_t off = 0;
         Instant stale_at = never;
@@ -137,7 +137,7 @@ class Card final : public sim::Device, public sim::RegisterDevice {
     void begin_frame(Instant now);
     void put_words(const std::uint32_t* counts, int words);
     void publish(Instant now, const Frame* like);
-    /// The frame under way was bad: nobody gets it. `why`: bits of BusCondition::bad_frame.
+    /// The frame under way was bad: nobody gets it. `why`: bits of BadFrame.
     void give_up(std::uint32_t sequence, std::uint8_t why);
     /// The current buffer is whole, and its age counts from `since`.
     void hand_out(Instant now, Instant since);

@@ -12,10 +12,10 @@ namespace {
 
 std::string reasons(std::int64_t bits) {
     std::vector<std::string_view> out;
-    if (bits & 1) out.push_back("read_n was high when data was to be taken");
-    if (bits & 2) out.push_back("another address than the expected one was on the bus");
-    if (bits & 4) out.push_back("clk, hold or read_n did not have the level that it should have");
-    if (bits & 8) out.push_back("its CRC or its number of scales is wrong");
+    if (bits & bad_missed) out.push_back("read_n was high when data was to be taken");
+    if (bits & bad_alien) out.push_back("another address than the expected one was on the bus");
+    if (bits & bad_lines) out.push_back("clk, hold or read_n did not have the level that it should have");
+    if (bits & bad_content) out.push_back("its CRC or its number of scales is wrong");
     return fmt::format("{}", fmt::join(out, ", and "));
 }
 
@@ -55,8 +55,8 @@ std::string describe(const sim::Condition& condition, std::string_view card) {
 std::string describe(const sim::Condition& c, const Bus& bus) {
     return fmt::format("bus: at {:.7f} s two cards drive {} at once, {} high and {} low: a conflict; low wins, and what is read is wrong. More on this "
                        "line are only listed. A bus has one host",
-                       to_seconds(c.at), line_types[static_cast<std::size_t>(c.a)].name, bus.driver_name(static_cast<int>(c.b / 64)),
-                       bus.driver_name(static_cast<int>(c.b % 64)));
+                       to_seconds(c.at), line_types[static_cast<std::size_t>(c.a)].name, bus.driver_name(static_cast<int>(c.b / most_drivers)),
+                       bus.driver_name(static_cast<int>(c.b % most_drivers)));
 }
 
 }  // namespace motionrack::grating_bus

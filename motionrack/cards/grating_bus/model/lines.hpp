@@ -54,8 +54,6 @@ class Lines {
     void leave(Line line, int driver) { driving_[at(line)] &= ~(std::uint64_t{1} << driver); }
     /// From now on the bits `mask` of the line have the levels `value`, whatever is driven.
     void force(Line line, std::uint32_t mask, std::uint32_t value) { forced_[at(line)] = mask, stuck_[at(line)] = value & mask; }
-    std::uint32_t forced(Line line) const { return forced_[at(line)]; }
-    std::uint32_t stuck(Line line) const { return stuck_[at(line)]; }
     bool any_forced() const { return (forced_[0] | forced_[1] | forced_[2] | forced_[3] | forced_[4]) != 0; }
 
     /// Makes the levels of what is driven.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <motionrack/cards/grating_bus/map.hpp>
+#include <motionrack/cards/grating_bus/model/lines.hpp>
 
 namespace motionrack::grating_bus {
 
@@ -65,8 +66,8 @@ struct Outputs {
 };
 constexpr Outputs outputs_of(const Moment& moment, int first) {
     const State s = moment.state;
-    if (s == State::S0) return {0, 1, 0xFF};
-    if (s == State::S1) return {1, 1, 0xFF};
+    if (s == State::S0) return {0, 1, rest_of(Line::addr)};
+    if (s == State::S1) return {1, 1, rest_of(Line::addr)};
     const bool reads = s == State::S2 || s == State::S3 || s == State::S8 || s == State::S9;
     return {1, reads ? 0u : 1u, static_cast<std::uint32_t>(first + (s == State::S7 ? moment.word - 1 : moment.word))};
 }

@@ -1,6 +1,8 @@
 // The processor's interface.
+#include <initializer_list>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
 #include <motionrack/cards/grating_bus/model/card.hpp>
+#include <utility>
 
 namespace motionrack::grating_bus {
 
@@ -8,6 +10,19 @@ namespace {
 
 constexpr Field CLAIM = field("CONTROL", "CLAIM"), RELEASE = field("CONTROL", "RELEASE"), CLEAR = field("CONTROL", "CLEAR_ERRORS"),
                 RESET = field("CONTROL", "RESET");
+constexpr Field HOST = field("ROLE", "HOST"), CLOCK_OUT = field("ROLE", "CLOCK_OUT"), ADDRESS_OUT = field("ROLE", "ADDRESS_OUT"),
+                CHECKS = field("ROLE", "CHECKS");
+constexpr Field FRAME = field("STATUS", "FRAME"), CLAIMED = field("STATUS", "CLAIMED"), STALE = field("STATUS", "STALE"),
+                DIRECTION = field("STATUS", "DIRECTION"), BUSY = field("STATUS", "BUSY"), OFF = field("STATUS", "OFF");
+constexpr Field STATE = field("STATE", "STATE"), WORD = field("STATE", "WORD");
+static_assert((offset("OVERRUN") - offset("BROKEN")) / 2 + 1 == Card::counter_count, "Card::Counter has the registers' order");
+
+/// A word with these flags.
+std::uint16_t flags(std::initializer_list<std::pair<Field, bool>> all) {
+    std::uint16_t out = 0;
+    for (const auto& [flag, set] : all) out = flag.set(out, set ? 1 : 0);
+    return out;
+}
 
 constexpr std::uint16_t low(std::uint64_t value, int word = 0) {
     return static_cast<std::uint16_t>(value >> (16 * word));
@@ -54,11 +69,11 @@ std::uint16_t Card::peek(std::uint32_t at) const {
     switch (at) {
         case offset("SIGNATURE"): return signature;
         case offset("ROLE"):
-            return static_cast<std::uint16_t>((is_host() ? 1 : 0) | (s.clock_out() ? 2 : 0) | (s.address_out() ? 4 : 0) | (s.checks ? 8 : 0));
+            return flags({{HOST, is_host()}, {CLOCK_OUT, s.clock_out()}, {ADDRESS_OUT, s.address_out()}, {CHECKS, s.checks}});
         case offset("STATUS"):
-            return static_cast<std::uint16_t>((state_.fresh != 0 ? 1 : 0) | (state_.buffers.held() ? 2 : 0) | (stale() ? 4 : 0) |
-                                              (s.wrong_direction() ? 8 : 0) | (m.state != State::S0 ? 16 : 0) | (off() ? 32 : 0));
-        case offset("STATE"): return static_cast<std::uint16_t>(static_cast<int>(m.state) | m.word << 8);
+            return flags({{FRAME, state_.fresh != 0}, {CLAIMED, state_.buffers.held() != nullptr}, {STALE, stale()},
+                          {DIRECTION, s.wrong_direction()}, {BUSY, m.state != State::S0}, {OFF, off()}});
+        case offset("STATE"): return WORD.set(STATE.set(0, static_cast<unsigned>(m.state)), static_cast<unsigned>(m.word));
         case offset("SCALES"): return static_cast<std::uint16_t>(s.scales);
         case offset("FIRST"): return static_cast<std::uint16_t>(s.first);
         case offset("T1"): return ticks(s.timing.t1);

@@ -1,21 +1,14 @@
 // The sequence S0 .. S12 of a card, step by step, and what comes of a frame.
 #include <algorithm>
+#include <motionrack/base/mixed_bits.hpp>
 #include <motionrack/cards/grating_bus/model/bus.hpp>
 #include <motionrack/cards/grating_bus/model/card.hpp>
 
 namespace motionrack::grating_bus {
 
-namespace {
-
-enum Bad : std::uint8_t { bad_missed = 1, bad_alien = 2, bad_lines = 4, bad_content = 8 };
-
-}  // namespace
-
 std::int64_t scatter(std::uint32_t seed, std::int64_t n, std::int64_t most) {
-    std::uint64_t h = seed * 0x9E3779B97F4A7C15ull + static_cast<std::uint64_t>(n);
-    h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9ull;
-    h = (h ^ (h >> 27)) * 0x94D049BB133111EBull;
-    return static_cast<std::int64_t>((h ^ (h >> 31)) % static_cast<std::uint64_t>(most + 1));
+    const std::uint64_t mixed = mixed_bits(seed * golden_step + static_cast<std::uint64_t>(n));
+    return static_cast<std::int64_t>(mixed % static_cast<std::uint64_t>(most + 1));
 }
 
 Instant Card::next() const {

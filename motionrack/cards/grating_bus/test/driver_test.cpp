@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <motionrack/cards/grating_bus/driver/grating_card.hpp>
 #include <motionrack/sim/virtual_port.hpp>
 
@@ -93,6 +94,17 @@ TEST(GratingCardLibrary, SaysThatThereIsNoFrameYetAndThatTheHostIsGone) {
     bench.run(3 * period);
     EXPECT_TRUE(bench.libraries[1]->stale());
     EXPECT_THAT(bench.libraries[1]->read().error().message, HasSubstr("stale"));
+}
+
+TEST(GratingCardLibrary, AUserWhoStopsTheWaitingIsNotToldOfATimeOut) {
+    Bench bench(crew(1));
+    ASSERT_TRUE(bench.cards[0]->fault("off", 1, bench.kernel.now()));
+    const std::atomic<bool> stop{true};
+    bench.ports[1]->set_stop_flag(&stop);
+    const auto reading = bench.libraries[1]->wait(period);
+    ASSERT_FALSE(reading);
+    EXPECT_EQ(reading.error().trouble, Trouble::stopped);
+    EXPECT_THAT(reading.error().message, HasSubstr("stopped by the user"));
 }
 
 TEST(GratingCardLibrary, FollowsAScaleBeyond32Bits) {

@@ -88,7 +88,7 @@ bool Flex02::feed(std::span<const std::uint8_t> raw) {
 }
 
 bool Flex02::wait_until_running() {
-    const Instant until = interrupt_.now() + settings_.start_timeout;
+    const Instant until = later(interrupt_.now(), settings_.start_timeout);
     while (true) {
         const std::uint16_t state = in(offset("STATUS"));
         if (status::RUNNING.test(state)) return true;

@@ -16,6 +16,12 @@ std::uint32_t of_axis(std::uint32_t first, std::size_t axis) {
     return first + 4 * static_cast<std::uint32_t>(axis);
 }
 
+/// Counts for a line of the encoder, by the field EDGES.
+int edges_of(std::uint16_t mode_word) {
+    const unsigned edges = EDGES.get(mode_word);
+    return edges == 0 ? 4 : edges == 1 ? 2 : 1;
+}
+
 }  // namespace
 
 void Flex2Pos::Init(std::uint16_t Addr) {
@@ -99,8 +105,7 @@ std::array<AxisDetail, axis_count> Flex2Pos::read_details() {
         d.index_at = d.at.raw - signed24(std::int64_t{raw_[i].last} - get24(offset("INDEX_AT_L")));
         d.illegal = get(offset("ILLEGAL"));
         d.illegal_at = d.at.raw - signed24(std::int64_t{raw_[i].last} - get24(offset("ILLEGAL_AT_L")));
-        const unsigned edges = EDGES.get(get(offset("MODE_NOW")));
-        d.edges = edges == 0 ? 4 : edges == 1 ? 2 : 1;
+        d.edges = edges_of(get(offset("MODE_NOW")));
     }
     return out;
 }
@@ -166,7 +171,7 @@ std::array<tIOFlexSts, axis_count> Flex2Pos::statuses() {
 motionrack::Result<void> Flex2Pos::wait_calibrated(int axis, Duration timeout) {
     MOTIONRACK_ASSERT(axis >= 0 && axis < axis_count);
     if (!ok()) return fail(Trouble::machine, why());
-    const Instant until = now() + timeout;
+    const Instant until = later(now(), timeout);
     while (statuses()[static_cast<std::size_t>(axis)] != sCal) {
         if (stop_requested()) return fail(Trouble::stopped, fmt::format("Waiting for the calibration of axis {} was stopped by the user.", axis));
         if (now() >= until)
@@ -198,8 +203,7 @@ AxisMode Flex2Pos::mode(int axis) {
     MOTIONRACK_ASSERT(axis >= 0 && axis < axis_count);
     put(offset("AXIS"), static_cast<std::uint16_t>(axis));
     const std::uint16_t word = get(offset("MODE_NOW"));
-    const unsigned edges = EDGES.get(word);
-    return {REVERSED.test(word), edges == 0 ? 4 : edges == 1 ? 2 : 1, INDEX_LOW.test(word), static_cast<int>(FILTER.get(word))};
+    return {REVERSED.test(word), edges_of(word), INDEX_LOW.test(word), static_cast<int>(FILTER.get(word))};
 }
 
 void Flex2Pos::clear_errors() {

@@ -85,7 +85,7 @@ class Flex2Pos final : public Flex02 {
     /// Commands and statuses as lists.
     void calibrate(const std::array<tIOFlexCmd, axis_count>& commands);
     std::array<tIOFlexSts, axis_count> statuses();
-    /// Waits until the axis is sCal. Errors: machine, if that has not come within `timeout`; stopped.
+    /// Waits until the axis is sCal, with `never` however long it takes. Errors: machine, if that has not come within `timeout`; stopped.
     motionrack::Result<void> wait_calibrated(int axis, Duration timeout);
     /// Errors: refused (edges or filter out of range; nothing was written), machine (Init has not succeeded).
     motionrack::Result<void> set_mode(int axis, const AxisMode& mode);

@@ -261,6 +261,15 @@ TEST(Flex2Pos, TellsWhenNoIndexCame) {
     EXPECT_THAT(done.error().message, HasSubstr("Axis 0 was not calibrated within 0.050 s"));
 }
 
+TEST(Flex2Pos, WaitsForAnIndexForEverIfItMay) {
+    Ready r;
+    r.card.calibrate({cResNm, cNop, cNop, cNop});
+    const Instant begun = r.rig.kernel.now();
+    r.rig.port.on_slice(milliseconds(20), [&] { r.rig.set("z0", r.rig.kernel.now() - begun > milliseconds(100) ? 1 : 0); });
+    EXPECT_TRUE(r.card.wait_calibrated(0, never));
+    EXPECT_GT(r.rig.kernel.now() - begun, milliseconds(100));
+}
+
 TEST(Flex2Pos, ReadsInputsAndWritesOutputs) {
     Ready r;
     r.rig.set("in1", 1);
