@@ -222,8 +222,15 @@ class GrblPorts::Inside {
     void accept_on() {
         acceptor_.async_accept([this](error_code trouble, tcp::socket socket) {
             if (trouble == asio::error::operation_aborted) return;
-            if (!trouble) accept(std::move(socket));
-            accept_on();
+            if (!trouble) {
+                accept(std::move(socket));
+                return accept_on();
+            }
+            // Most likely no file descriptors are left: some will come back.
+            pause_.expires_after(std::chrono::milliseconds(50));
+            pause_.async_wait([this](error_code stopped) {
+                if (!stopped) accept_on();
+            });
         });
     }
     void accept(tcp::socket socket) {
@@ -324,6 +331,7 @@ class GrblPorts::Inside {
     authority::ControlLease& lease_;
     std::shared_ptr<asio::io_context> io_ = std::make_shared<asio::io_context>(1);
     tcp::acceptor acceptor_{*io_};
+    asio::steady_timer pause_{*io_};
     asio::posix::stream_descriptor watch_{*io_};
     std::shared_ptr<Port> tcp_port_, terminal_port_;
     std::vector<std::shared_ptr<TcpLine>> lines_;
