@@ -99,11 +99,17 @@ void FeedPlanner::approach_again() {
     bound();
     slope_limits();
     left_.assign(cells_.size() + 2, 0);
-    std::size_t k = 0;
+    std::size_t k = 0, known = before_.size();  // the piece whose speeds these are
+    double begin = 0, end = 0;
     const auto square_at = [&](double place) {
         while (k + 1 < before_.size() && before_[k + 1].begin <= place) ++k;
         const FeedPiece& piece = before_[k];
-        const double begin = piece.at(0).speed, end = piece.last().speed, part = std::clamp((place - piece.begin) / piece.length, 0.0, 1.0);
+        if (known != k) {
+            begin = piece.at(0).speed;
+            end = piece.last().speed;
+            known = k;
+        }
+        const double part = std::clamp((place - piece.begin) / piece.length, 0.0, 1.0);
         return begin * begin + part * (end * end - begin * begin);
     };
     double at_begin = cells_.empty() ? 0 : square_at(cells_.front().begin);
