@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <motionrack/trace/diff_parts.hpp>
+#include <motionrack/trace/recording_parts.hpp>
 #include <span>
 
 namespace motionrack::trace {
@@ -113,22 +114,6 @@ class SignalComparison {
     Window& b_;
 };
 
-/// Only so far counts, where one of the two was cut off.
-Result<void> limit(Window& window, Instant until) {
-    std::uint64_t low = 0, high = window.columns.size;
-    while (low < high) {
-        const std::uint64_t middle = low + (high - low) / 2;
-        std::int64_t at = 0;
-        MOTIONRACK_CHECK(window.columns.time.read(middle, 1, &at));
-        if (at < until.count())
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    window.columns.size = low;
-    return {};
-}
-
 std::optional<std::int64_t> initial_of(const RecordingReader& recording, const std::string& name) {
     for (const RecordedSignal& signal : recording.head().signals)
         if (signal.name == name) return signal.initial;
@@ -143,10 +128,10 @@ Result<void> compare_signal(const RecordingReader& a, const RecordingReader& b, 
     Window of_a, of_b;
     MOTIONRACK_TRY(of_a.columns, a.columns(in_a));
     MOTIONRACK_TRY(of_b.columns, b.columns(in_b));
-    if (diff.until) {
-        MOTIONRACK_CHECK(limit(of_a, *diff.until));
-        MOTIONRACK_CHECK(limit(of_b, *diff.until));
-    }
+    if (diff.until)  // only so far counts, where one of the two was cut off
+        for (RecordingReader::Columns* columns : {&of_a.columns, &of_b.columns}) {
+            MOTIONRACK_TRY(columns->size, count_before(columns->time, columns->size, *diff.until));
+        }
     diff.compared += of_a.columns.size;
     MOTIONRACK_TRY(std::optional<Difference> found, SignalComparison(in_a, of_a, of_b).run());
     if (found) diff.differences.push_back(std::move(*found));

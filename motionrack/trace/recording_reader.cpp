@@ -45,10 +45,8 @@ Result<void> RecordingReader::read_head() {
     MOTIONRACK_TRY(head_.program, file_.text("run/program"));
     MOTIONRACK_TRY(head_.rack, file_.text("run/rack"));
     began_ = Instant{file_.attribute_number("began_ticks")};
-    for (const RecordedSignal& signal : head_.signals) {
-        const char* value = signal.kind == SignalKind::steps ? "/direction" : signal.kind == SignalKind::counts ? "/count" : "/value";
-        series_.push_back({signal.name, signal.unit, true, signal.path + "/time", signal.path + value});
-    }
+    for (const RecordedSignal& signal : head_.signals)
+        series_.push_back({signal.name, signal.unit, true, signal.path + "/time", signal.path + "/" + value_column(signal.kind)});
     const auto sampled = [&](const std::string& name, const std::string& unit, const std::string& path) {
         series_.push_back({name, unit, false, "samples/time", "samples/" + path});
     };
@@ -113,19 +111,22 @@ Result<RecordingReader::Columns> RecordingReader::columns(const RecordedSeries& 
     if (whole_ && out.time.size() != out.value.size())
         return fail(Trouble::bad_input, fmt::format("The recording is damaged: {} has {} times, but {} values.", series.name, out.time.size(), out.value.size()), {}, path());
     if (whole_) return out;
-    // Times rise: the last one that is known is found by halving.
-    std::uint64_t low = 0, high = out.size;
+    MOTIONRACK_TRY(out.size, count_before(out.time, out.size, known_to_));
+    return out;
+}
+
+Result<std::uint64_t> count_before(const hdf5::Reader& times, std::uint64_t size, Instant until) {
+    std::uint64_t low = 0, high = size;
     while (low < high) {
         const std::uint64_t middle = low + (high - low) / 2;
         std::int64_t at = 0;
-        MOTIONRACK_CHECK(out.time.read(middle, 1, &at));
-        if (at < known_to_.count())
+        MOTIONRACK_CHECK(times.read(middle, 1, &at));
+        if (at < until.count())
             low = middle + 1;
         else
             high = middle;
     }
-    out.size = low;
-    return out;
+    return low;
 }
 
 // ---- the report -------------------------------------------------------------------------------------------------------
