@@ -38,8 +38,12 @@ bool write_down(int file, const std::string& text) {
 
 Result<void> Doorkeeper::read() {
     const std::string path = settings_.users_file.string();
-    struct stat about;
-    if (path.empty() || (::stat(path.c_str(), &about) != 0 && errno == ENOENT)) return {};
+    struct stat about {};
+    if (path.empty()) return {};
+    if (::stat(path.c_str(), &about) != 0) {
+        if (errno == ENOENT) return {};
+        return fail(Trouble::io, fmt::format("The users file cannot be looked at: {}. Nothing was started; name another file, or put right what is in the way.", std::strerror(errno)), {}, path);
+    }
     if (!S_ISREG(about.st_mode)) return fail(Trouble::bad_input, "This is no file: users are kept in one.", {}, path);
     if ((about.st_mode & (S_IWGRP | S_IWOTH)) != 0)
         return fail(Trouble::bad_input, fmt::format("Others may write the users file (mode {:o}); whoever can, can let himself in. Nothing was started; "

@@ -43,9 +43,8 @@ class PathLimits {
     /// exact_stop: 0. exact_path: 0 if the direction changes (see same_direction).
     /// continuous: the machine goes through the corner itself, so the velocity of each axis jumps; it stays within
     ///   - the jump the axis can take: |v (out - in)| <= start_speed;
-    ///   - the tolerance (junction deviation): v^2 = a d s / (1 - s), s = sin(half the inner angle), d the tolerance, a
-    ///   the
-    ///     acceleration the axes have along the change of direction;
+    ///   - the tolerance (junction deviation): v^2 = a d s / (1 - s), s = sin(half the inner angle), d the tolerance,
+    ///     a the acceleration the axes have along the change of direction;
     ///   - the mean acceleration from the middle of the one move to the middle of the next, so that a curve made
     ///     of many short lines is not taken faster than the same curve as an arc.
     /// 0 between moves of XYZ and of ABC alone, because their lengths are not of one kind.

@@ -206,11 +206,16 @@ Result<StreamState> Stream::hand_over(const PlannedMove& planned) {
     if (!path_begun_) {
         if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
         path_begun_ = true;
-        front_block_ = 0;
+        front_block_ = first_block_ = 0;
         block_began_ = never;
+        blocks_.clear();
     }
-    while (!entries_[handed_].is_move()) ++handed_;
-    entries_[handed_++].seconds = seconds_of(planned);
+    if (ride_) {
+        blocks_.push_back(planned.number);
+    } else {
+        while (!entries_[handed_].is_move()) ++handed_;
+        entries_[handed_++].seconds = seconds_of(planned);
+    }
     state_ = StreamState::driving;
     const Result<void> followed = axes_->follow(planned);
     take_starts();
@@ -223,8 +228,10 @@ Result<StreamState> Stream::finish_path() {
     take_starts();
     if (!finished) return interrupted(finished.error());
     path_begun_ = false;
+    if (ride_) pop_driven(ride_->rider().first_left());
     while (handed_ > 0) pop();
     if (single_step_ && has_work() && wish_ == Wish::none) return state_ = StreamState::paused;
+    if (ride_ && wish_ == Wish::hold && !has_work()) ride_->rider().resume();
     return stand();
 }
 
@@ -330,7 +337,8 @@ void Stream::take_starts() {
         if (start.block < 0) continue;
         line_driven_ = start.line;
         block_began_ = start.at;
-        while (!entries_.empty() && (!entries_.front().is_move() || front_block_ < start.block)) pop();
+        if (ride_) pop_before_block(start.block);
+        while (!entries_.empty() && (!entries_.front().is_move() || (!ride_ && front_block_ < start.block))) pop();
     }
 }
 

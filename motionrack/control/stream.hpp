@@ -166,9 +166,7 @@ class Stream {
     Result<StreamState> drive_ride(bool more_may_come);
     Result<void> fill_ride();
     bool ride_may_wait(bool rest_follows) const;
-    Result<StreamState> hand_over_ride(const PlannedMove& planned);
-    Result<StreamState> finish_ride();
-    void take_ride_starts();
+    void pop_before_block(std::int64_t block);
     void pop_driven(std::int64_t first_left);
     RideMoves new_ride(const Point& place) const;
 

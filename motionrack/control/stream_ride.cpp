@@ -43,10 +43,10 @@ Result<StreamState> Stream::drive_ride(bool more_may_come) {
         ride_->flush();
         ride_ends_ = true;
     }
-    if (PlannedMove planned; ride_->pull(planned, true)) return hand_over_ride(planned);
+    if (PlannedMove planned; ride_->pull(planned, true)) return hand_over(planned);
     const bool more_follows = !ride_ends_ && !rest_follows && wish_ == Wish::none;
     if (path_begun_) {
-        const Result<StreamState> finished = finish_ride();
+        const Result<StreamState> finished = finish_path();  // where the ride stands: at the end of what is known, or held
         if (!finished || !more_follows) return finished;
     }
     return more_follows ? state_ = StreamState::waiting : stand();
@@ -69,41 +69,10 @@ Result<void> Stream::fill_ride() {
     return {};
 }
 
-Result<StreamState> Stream::hand_over_ride(const PlannedMove& planned) {
-    if (!path_begun_) {
-        if (Result<void> begun = axes_->begin(); !begun) return interrupted(begun.error());
-        path_begun_ = true;
-        first_block_ = 0;
-        blocks_.clear();
-    }
-    blocks_.push_back(planned.number);
-    state_ = StreamState::driving;
-    const Result<void> followed = axes_->follow(planned);
-    take_ride_starts();
-    if (!followed) return interrupted(followed.error());
-    return state_;
-}
-
-/// The ride stands: at the end of what is known, or held.
-Result<StreamState> Stream::finish_ride() {
-    const Result<void> finished = axes_->finish();
-    take_ride_starts();
-    if (!finished) return interrupted(finished.error());
-    path_begun_ = false;
-    pop_driven(ride_->rider().first_left());
-    if (single_step_ && has_work() && wish_ == Wish::none) return state_ = StreamState::paused;
-    if (wish_ == Wish::hold && !has_work()) ride_->rider().resume();
-    return stand();
-}
-
-void Stream::take_ride_starts() {
-    for (const BlockStart& start : axes_->take_starts()) {
-        if (start.block < 0) continue;
-        line_driven_ = start.line;
-        for (; first_block_ < start.block; ++first_block_) blocks_.pop_front();
-        pop_driven(blocks_.front());
-        while (!entries_.empty() && !entries_.front().is_move()) pop();
-    }
+/// Of one move the axes get several blocks.
+void Stream::pop_before_block(std::int64_t block) {
+    for (; first_block_ < block; ++first_block_) blocks_.pop_front();
+    pop_driven(blocks_.front());
 }
 
 /// All up to the last move before this one.

@@ -15,7 +15,6 @@ enum Error : int {
     error_not_idle = 8,
     error_locked = 9,
     error_line_length = 11,
-    error_travel = 15,       ///< a jog past the travel
     error_jog = 16,
     error_unsupported = 20,
     error_no_feed = 22,

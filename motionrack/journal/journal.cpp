@@ -107,13 +107,18 @@ Result<void> Journal::begin() {
     return {};
 }
 
-Journal::~Journal() {
+Journal::~Journal() { end_work(); }
+
+/// What waits is written first. False: it had ended already.
+bool Journal::end_work() {
     {
         const std::lock_guard<std::mutex> guard(alone_);
         quit_ = true;
     }
     news_.notify_one();
-    if (thread_.joinable()) thread_.join();
+    if (!thread_.joinable()) return false;
+    thread_.join();
+    return true;
 }
 
 void Journal::write(Instant at, std::string kind, std::string text, std::string data, Done done) {
@@ -182,13 +187,7 @@ Result<void> Journal::store(std::vector<Waiting>& entries, const std::map<std::s
 }
 
 Result<void> Journal::close() {
-    {
-        const std::lock_guard<std::mutex> guard(alone_);
-        quit_ = true;
-    }
-    news_.notify_one();
-    if (!thread_.joinable()) return {};
-    thread_.join();
+    if (!end_work()) return {};
     return writer_->run(fmt::format("UPDATE run SET ended_ms = {} WHERE number = {}", utc_ms(), run_).c_str());
 }
 

@@ -89,6 +89,7 @@ class Journal {
     Journal(std::unique_ptr<FileLock> lock, std::unique_ptr<Database> writer, std::unique_ptr<Database> reader);
     Result<void> begin();
     void work();
+    bool end_work();
     Result<void> store(std::vector<Waiting>& entries, const std::map<std::string, std::string>& kept);
 
     std::unique_ptr<FileLock> lock_;

@@ -8,8 +8,7 @@
 namespace motionrack::operate {
 
 Result<void> Machine::set_work_zero(char axis, double value) {
-    const rack::RackAxis* found = rack_.config().axis(axis);
-    if (found == nullptr) return fail(Trouble::bad_input, fmt::format("The work zero was not set: the machine has no axis {}.", axis));
+    MOTIONRACK_TRY(const rack::RackAxis* found, axis_named("The work zero was not set", axis));
     if (!std::isfinite(value)) return fail(Trouble::bad_input, "The work zero was not set: the value is not a number.");
     if (stream_->has_work()) return fail(Trouble::refused, "The work zero was not set: the machine moves. Stop it, or wait until it stands.");
     const bool inches = stream_->interpreter().modes().inch && found->kind == rack::AxisKind::linear;

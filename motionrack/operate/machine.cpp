@@ -71,6 +71,11 @@ Result<void> Machine::ready(const char* what) {
     return {};
 }
 
+Result<const rack::RackAxis*> Machine::axis_named(const char* what, char letter) const {
+    if (const rack::RackAxis* axis = rack_.config().axis(letter)) return axis;
+    return fail(Trouble::bad_input, fmt::format("{}: the machine has no axis {}.", what, letter));
+}
+
 Result<void> Machine::all_enabled(const char* what, std::string_view axes) const {
     for (const rack::RackAxis& axis : rack_.config().axes)
         if (axes.find(axis.letter) != std::string_view::npos && !enabled_[static_cast<std::size_t>(axis.index())])
@@ -90,9 +95,7 @@ Result<void> Machine::ready_for_lines(const char* what) {
 }
 
 Result<void> Machine::enable(bool on, std::string_view axes) {
-    for (const char letter : axes)
-        if (rack_.config().axis(letter) == nullptr)
-            return fail(Trouble::bad_input, fmt::format("Nothing was {}: the machine has no axis {}.", on ? "enabled" : "disabled", letter));
+    for (const char letter : axes) MOTIONRACK_CHECK(axis_named(on ? "Nothing was enabled" : "Nothing was disabled", letter));
     if (!on) stop();
     for (const rack::RackAxis& axis : rack_.config().axes) {
         if (!axes.empty() && axes.find(axis.letter) == std::string_view::npos) continue;
@@ -173,7 +176,7 @@ void Machine::reset() {
 Result<void> Machine::jog(char axis, double speed) {
     if (state_ != MachineState::jogging || stream_->has_work()) MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
-    if (rack_.config().axis(axis) == nullptr) return fail(Trouble::bad_input, fmt::format("Not jogged: the machine has no axis {}.", axis));
+    MOTIONRACK_CHECK(axis_named("Not jogged", axis));
     if (!std::isfinite(speed)) return fail(Trouble::bad_input, "Not jogged: the speed is not a number.");
     jogs_.push_back({axis, speed, std::nullopt});
     enter(MachineState::jogging);
@@ -183,7 +186,7 @@ Result<void> Machine::jog(char axis, double speed) {
 Result<void> Machine::jog_by(char axis, double distance, double speed) {
     MOTIONRACK_CHECK(ready("Not jogged"));
     MOTIONRACK_CHECK(all_enabled("Not jogged", {&axis, 1}));
-    if (rack_.config().axis(axis) == nullptr) return fail(Trouble::bad_input, fmt::format("Not jogged: the machine has no axis {}.", axis));
+    MOTIONRACK_CHECK(axis_named("Not jogged", axis));
     if (!std::isfinite(distance) || !(speed > 0)) return fail(Trouble::bad_input, fmt::format("Not jogged: {} by {} a second is no motion.", distance, speed));
     jogs_.push_back({axis, speed, distance});
     enter(MachineState::jogging);
@@ -235,7 +238,7 @@ Result<void> Machine::home(std::string axes) {
 
 Result<void> Machine::declare_position(char axis, double position) {
     MOTIONRACK_CHECK(ready("The position was not declared"));
-    if (rack_.config().axis(axis) == nullptr) return fail(Trouble::bad_input, fmt::format("The position was not declared: the machine has no axis {}.", axis));
+    MOTIONRACK_CHECK(axis_named("The position was not declared", axis));
     if (!std::isfinite(position)) return fail(Trouble::bad_input, "The position was not declared: it is not a number.");
     positions_wanted_.push_back({axis, position});
     return {};

@@ -42,7 +42,7 @@ struct MachineSettings {
     std::string alarm = {};               ///< the machine begins with it, if there is one
     Duration slice = milliseconds(2);
     Duration quiet = milliseconds(20);  ///< a sender that has said nothing for so long has said all for now
-    std::size_t most_alarms = 100;      ///< the oldest that are over go first
+    std::size_t most_alarms = 100;      ///< those that are over and acknowledged go, then the oldest
 };
 
 class Machine {
@@ -160,6 +160,7 @@ class Machine {
     void watch_button();
     bool button_pressed() const;
     Result<void> ready(const char* what);
+    Result<const rack::RackAxis*> axis_named(const char* what, char letter) const;
     Result<void> all_enabled(const char* what, std::string_view axes) const;
     Result<void> ready_for_lines(const char* what);
     void pass_event(const control::gcode::Step& step);

@@ -40,13 +40,6 @@ void DrivenPath::add(const operate::Status& status) {
     points_.push_back(point);
 }
 
-void Desk::aside(std::function<Result<json>()> work, std::function<void(Result<json>)> ready) {
-    const bool good = worker.post([this, work = std::move(work), ready]() mutable {
-        machine.post([result = work(), ready = std::move(ready)]() mutable { ready(std::move(result)); });
-    });
-    if (!good) ready(fail(Trouble::refused, "Too much is being worked on at this moment; ask again a little later. Nothing was done."));
-}
-
 Result<json> taken(const Result<void>& result) {
     if (!result) return tl::unexpected<Error>(result.error());
     return json::object();

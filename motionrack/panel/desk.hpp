@@ -86,10 +86,20 @@ struct Desk {
     std::string program;                      ///< its text
     std::string letters;                      ///< of the axes
     nlohmann::json facts;                     ///< of the rack
-    Worker worker;                            ///< last: its work uses nothing of these
+    Worker worker;                            ///< last, so that it ends first: its work posts to the machine
 
     /// Runs `work` on the worker; `ready` hears what it gives on the motion thread. Refused: too much waits.
-    void aside(std::function<Result<nlohmann::json>()> work, std::function<void(Result<nlohmann::json>)> ready);
+    template <class Made>
+    void aside(std::function<Result<Made>()> work, std::function<void(Result<Made>)> ready) {
+        const bool taken = worker.post([this, work = std::move(work), ready]() mutable {
+            machine.post([made = work(), ready = std::move(ready)]() mutable { ready(std::move(made)); });
+        });
+        if (!taken) ready(fail(Trouble::refused, "Too much is being worked on at this moment; ask again a little later. Nothing was done."));
+    }
+    /// The same of what is the answer itself.
+    void aside(std::function<Result<nlohmann::json>()> work, std::function<void(Result<nlohmann::json>)> ready) {
+        aside<nlohmann::json>(std::move(work), std::move(ready));
+    }
 };
 
 /// One order or query: gives the answer's members.

@@ -104,12 +104,9 @@ Result<void> check_card(Desk& desk, const std::string& card) {
 void mark(Desk& desk, const json& fields, Ready ready) {
     const std::string card = fields.at("card").get<std::string>();
     if (const Result<void> good = check_card(desk, card); !good) return ready(tl::unexpected<Error>(good.error()));
-    const bool good = desk.worker.post([&desk, ready, card, config = desk.machine.rack().config(), text = fields.at("job").get<std::string>(), drawing = fields.value("drawing", ""),
-                                        on_parts = fields.value("start", "now") == "parts"] {
-        auto lists = std::make_shared<Result<Lists>>(lists_of(config, card, text, drawing, on_parts));
-        desk.machine.post([&desk, ready, card, lists] { ready(*lists ? begin(desk, card, **lists) : tl::unexpected<Error>(lists->error())); });
-    });
-    if (!good) ready(fail(Trouble::refused, "Too much is being worked on at this moment; ask again a little later. Nothing was done."));
+    const auto work = [card, config = desk.machine.rack().config(), text = fields.at("job").get<std::string>(), drawing = fields.value("drawing", ""),
+                       on_parts = fields.value("start", "now") == "parts"] { return lists_of(config, card, text, drawing, on_parts); };
+    desk.aside<Lists>(work, [&desk, ready, card](const Result<Lists>& lists) { ready(lists ? begin(desk, card, *lists) : tl::unexpected<Error>(lists.error())); });
 }
 
 /// Starts are no longer taken, and what runs ends.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <motionrack/trace/diff_parts.hpp>
+#include <motionrack/trace/recording_parts.hpp>
 #include <span>
 
 namespace motionrack::trace {

@@ -4,6 +4,7 @@
 #include <motionrack/trace/recording_parts.hpp>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <type_traits>
 
 namespace motionrack::trace {
 
@@ -35,23 +36,45 @@ std::string path_of(const Json& json) {
     return path;
 }
 
-RecordedAxis axis_of(const Json& json) {
-    RecordedAxis axis;
-    axis.name = json.at("name");
-    if (axis.name.size() != 1) throw std::runtime_error("no axis");
-    axis.unit = json.at("unit");
-    axis.servo = json.at("servo");
-    axis.pulses_per_unit = json.at("pulses_per_unit");
-    axis.counts_per_unit = json.at("counts_per_unit");
-    axis.origin = json.at("origin");
-    axis.min_position = json.at("min_position");
-    axis.max_position = json.at("max_position");
-    axis.max_speed = json.at("max_speed");
-    axis.max_accel = json.at("max_acceleration");
-    return axis;
+/// Calls `field(name, member)` for what is written as it is, in the order of the file; `head` to be read or to be written.
+template <class Head, class Field>
+void each_field_of_head(Head& head, Field field) {
+    field("version", head.version);
+    field("program_name", head.program_name);
+    field("rack_name", head.rack_name);
+    field("rack_file", head.rack_file);
+    field("block_delete", head.block_delete);
+    field("stream", head.stream);
+    field("tools", head.tools);
+    field("subprograms", head.subprograms);
+    field("live", head.live);
+}
+template <class Axis, class Field>
+void each_field_of_axis(Axis& axis, Field field) {
+    field("name", axis.name);
+    field("unit", axis.unit);
+    field("servo", axis.servo);
+    each_number_of_axis(axis, field);
+}
+
+/// Puts fields into an object; takes them out of one, in which each must be.
+auto into(Json& json) {
+    return [&json](const char* name, const auto& value) { json[name] = value; };
+}
+auto out_of(const Json& json) {
+    return [&json](const char* name, auto& value) { value = json.at(name).get<std::decay_t<decltype(value)>>(); };
 }
 
 }  // namespace
+
+const char* value_column(SignalKind kind) {
+    switch (kind) {
+        case SignalKind::steps: return "direction";
+        case SignalKind::counts: return "count";
+        case SignalKind::levels: break;
+    }
+    return "value";
+}
 
 std::string axis_folder(std::string_view name) {
     std::string out;
@@ -60,16 +83,13 @@ std::string axis_folder(std::string_view name) {
 }
 
 std::string head_json(const RecordingHead& head) {
-    Json json = {{"version", head.version}, {"program_name", head.program_name}, {"rack_name", head.rack_name}, {"rack_file", head.rack_file},
-                 {"block_delete", head.block_delete}, {"stream", head.stream}, {"tools", head.tools}, {"subprograms", head.subprograms},
-                 {"live", head.live}, {"sample_period_ticks", head.sample_period.count()}};
+    Json json = Json::object();
+    each_field_of_head(head, into(json));
+    json["sample_period_ticks"] = head.sample_period.count();
     json["inputs"] = Json::array();
     for (const RecordedInput& input : head.inputs) json["inputs"].push_back({{"at_ticks", input.at.count()}, {"text", input.text}});
     json["axes"] = Json::array();
-    for (const RecordedAxis& axis : head.axes)
-        json["axes"].push_back({{"name", axis.name}, {"unit", axis.unit}, {"servo", axis.servo}, {"pulses_per_unit", axis.pulses_per_unit},
-                                {"counts_per_unit", axis.counts_per_unit}, {"origin", axis.origin}, {"min_position", axis.min_position},
-                                {"max_position", axis.max_position}, {"max_speed", axis.max_speed}, {"max_acceleration", axis.max_accel}});
+    for (const RecordedAxis& axis : head.axes) each_field_of_axis(axis, into(json["axes"].emplace_back(Json::object())));
     json["signals"] = Json::array();
     for (const RecordedSignal& signal : head.signals)
         json["signals"].push_back({{"name", signal.name}, {"path", signal.path}, {"kind", name_of(signal.kind)}, {"unit", signal.unit}, {"initial", signal.initial}});
@@ -80,18 +100,13 @@ Result<RecordingHead> head_from_json(std::string_view text) {
     RecordingHead head;
     try {
         const Json json = Json::parse(text);
-        head.version = json.at("version");
-        head.program_name = json.at("program_name");
-        head.rack_name = json.at("rack_name");
-        head.rack_file = json.at("rack_file");
-        head.block_delete = json.at("block_delete");
-        head.stream = json.at("stream");
-        head.tools = json.at("tools");
-        head.subprograms = json.at("subprograms").get<std::map<std::string, std::string>>();
-        head.live = json.at("live");
+        each_field_of_head(head, out_of(json));
         head.sample_period = Duration{json.at("sample_period_ticks").get<std::int64_t>()};
         for (const Json& input : json.at("inputs")) head.inputs.push_back({Instant{input.at("at_ticks").get<std::int64_t>()}, input.at("text")});
-        for (const Json& axis : json.at("axes")) head.axes.push_back(axis_of(axis));
+        for (const Json& axis : json.at("axes")) {
+            each_field_of_axis(head.axes.emplace_back(), out_of(axis));
+            if (head.axes.back().name.size() != 1) throw std::runtime_error("no axis");
+        }
         for (const Json& signal : json.at("signals"))
             head.signals.push_back({signal.at("name"), path_of(signal), kind_of(signal.at("kind")), signal.at("unit"), signal.at("initial")});
         if (head.axes.size() > 6 || head.sample_period <= Duration{0}) throw std::runtime_error("no head");

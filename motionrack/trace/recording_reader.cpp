@@ -45,10 +45,8 @@ Result<void> RecordingReader::read_head() {
     MOTIONRACK_TRY(head_.program, file_.text("run/program"));
     MOTIONRACK_TRY(head_.rack, file_.text("run/rack"));
     began_ = Instant{file_.attribute_number("began_ticks")};
-    for (const RecordedSignal& signal : head_.signals) {
-        const char* value = signal.kind == SignalKind::steps ? "/direction" : signal.kind == SignalKind::counts ? "/count" : "/value";
-        series_.push_back({signal.name, signal.unit, true, signal.path + "/time", signal.path + value});
-    }
+    for (const RecordedSignal& signal : head_.signals)
+        series_.push_back({signal.name, signal.unit, true, signal.path + "/time", signal.path + "/" + value_column(signal.kind)});
     const auto sampled = [&](const std::string& name, const std::string& unit, const std::string& path) {
         series_.push_back({name, unit, false, "samples/time", "samples/" + path});
     };

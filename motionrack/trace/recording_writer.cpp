@@ -108,13 +108,7 @@ void RecordingWriter::tell_axes(const RecordingHead& head) {
         const std::string group = "axes/" + axis_folder(axis.name);
         file_.make_group(group);
         file_.set(group, "unit", axis.unit);
-        file_.set(group, "pulses_per_unit", axis.pulses_per_unit);
-        file_.set(group, "counts_per_unit", axis.counts_per_unit);
-        file_.set(group, "origin", axis.origin);
-        file_.set(group, "min_position", axis.min_position);
-        file_.set(group, "max_position", axis.max_position);
-        file_.set(group, "max_speed", axis.max_speed);
-        file_.set(group, "max_acceleration", axis.max_accel);
+        each_number_of_axis(axis, [&](const char* name, double value) { file_.set(group, name, value); });
     }
 }
 
@@ -127,10 +121,11 @@ void RecordingWriter::make_signals(const RecordingHead& head) {
         one.kind = signal.kind;
         one.last = signal.initial;
         one.times = {file_, signal.path + "/time", chunk, most, "s", tick_s};
+        const std::string column = signal.path + "/" + value_column(signal.kind);
         if (signal.kind == SignalKind::steps)
-            one.directions = {file_, signal.path + "/direction", chunk, most, signal.unit};
+            one.directions = {file_, column, chunk, most, signal.unit};
         else
-            one.values = {file_, signal.path + (edges ? "/count" : "/value"), chunk, most, signal.unit};
+            one.values = {file_, column, chunk, most, signal.unit};
         file_.set(signal.path, "initial", signal.initial);
         signals_.push_back(std::move(one));
     }

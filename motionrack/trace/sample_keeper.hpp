@@ -15,9 +15,12 @@ class SampleKeeper {
     /// `most`: 16 or more are kept.
     explicit SampleKeeper(std::size_t most) : most_(std::max<std::size_t>(most, 16)) {}
 
-    /// Keeps it, or leaves it out.
+    /// Keeps it, or makes it one with the last that is kept.
     void add(const Sample& sample, double deviation) {
-        if (++skipped_ < keep_every_) return;
+        if (++skipped_ < keep_every_) {
+            deviations_.back() = std::max(deviations_.back(), deviation);
+            return;
+        }
         skipped_ = 0;
         samples_.push_back(sample);
         deviations_.push_back(deviation);

@@ -167,6 +167,17 @@ TEST_F(ADoorkeeper, RefusesAFileThatIsDamagedOrThatOthersMayWrite) {
     EXPECT_THAT(try_open().error().message, HasSubstr("Others may write"));
 }
 
+TEST_F(ADoorkeeper, RefusesAPlaceAtWhichItCannotLook) {
+    write("{}");
+    DoorkeeperSettings settings;
+    settings.users_file = file() / "users.json";  // in a file, as if it were a folder
+    const auto opened = Doorkeeper::open(settings);
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().trouble, Trouble::io);
+    EXPECT_THAT(opened.error().message, HasSubstr("Not a directory"));
+    EXPECT_EQ(opened.error().file, settings.users_file.string());
+}
+
 TEST_F(ADoorkeeper, PairsNobodyWhenTheFileCannotBeWritten) {
     fs::remove_all(folder);
     const auto anna = pair(start_codes[0], "anna");

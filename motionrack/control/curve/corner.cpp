@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <motionrack/control/profile.hpp>
 
 namespace motionrack::control {
@@ -9,7 +10,8 @@ namespace motionrack::control {
 namespace {
 
 constexpr double no_limit = 1e300;
-/// Jerk takes at least so long.
+/// An axis without a limit of its jerk reaches its acceleration in so long. Here only legs are compared: how such an axis is driven
+/// says limits_on().
 constexpr double least_jerk_seconds = 1e-6;
 /// Speeds are found to about a part of 2 to this power: times are compared, not driven.
 constexpr int halvings = 12;
@@ -47,27 +49,27 @@ double overlap_seconds(const Leg& before, const Leg& after, const Point& in, con
     return std::min({rise(before), rise(after), overlap_within(room_mm, before.jerk, in, after.jerk, out, limits)});
 }
 
+/// The least of an axis' limit / |tangent|, and of `least`.
+template <class LimitOf>
+double least_along(const Point& tangent, double least, LimitOf limit_of) {
+    for (std::size_t i = 0; i < tangent.size(); ++i)
+        if (tangent[i] != 0) least = std::min(least, limit_of(i) / std::fabs(tangent[i]));
+    return least;
+}
+
 }  // namespace
 
 double speed_along(const Point& tangent, const MachineLimits& limits) {
-    double least = no_limit;
-    for (std::size_t i = 0; i < tangent.size(); ++i)
-        if (tangent[i] != 0) least = std::min(least, limits[i].max_speed / std::fabs(tangent[i]));
-    return least;
+    return least_along(tangent, no_limit, [&](std::size_t i) { return limits[i].max_speed; });
 }
 
 double accel_along(const Point& tangent, const MachineLimits& limits) {
-    double least = no_limit;
-    for (std::size_t i = 0; i < tangent.size(); ++i)
-        if (tangent[i] != 0) least = std::min(least, limits[i].max_accel / std::fabs(tangent[i]));
-    return least;
+    return least_along(tangent, no_limit, [&](std::size_t i) { return limits[i].max_accel; });
 }
 
 double jerk_along(const Point& tangent, const MachineLimits& limits) {
-    double least = accel_along(tangent, limits) / least_jerk_seconds;
-    for (std::size_t i = 0; i < tangent.size(); ++i)
-        if (tangent[i] != 0 && limits[i].max_jerk > 0) least = std::min(least, limits[i].max_jerk / std::fabs(tangent[i]));
-    return least;
+    const double greatest = accel_along(tangent, limits) / least_jerk_seconds;
+    return least_along(tangent, greatest, [&](std::size_t i) { return limits[i].max_jerk > 0 ? limits[i].max_jerk : std::numeric_limits<double>::infinity(); });
 }
 
 // With t from the next one's begin, the one before it has still jerk (T - t)^3 / 6 to go, and the next one has gone jerk t^3 / 6. The path is

@@ -117,8 +117,7 @@ void CurveBuilder::end_curve(CurveItem& item) {
     begun_ = false;
 }
 
-// ---- turns
-// ---------------------------------------------------------------------------------------------------------------------------
+// ---- turns ---------------------------------------------------------------------------------------------------------
 
 /// Makes the next turn, or tells that none follows; false if that is not known yet, or there is no room for it.
 bool CurveBuilder::next_turn() {
@@ -237,8 +236,7 @@ void CurveBuilder::add_arc_corner() {
     turns_.added();
 }
 
-// ---- pieces
-// --------------------------------------------------------------------------------------------------------------------------
+// ---- pieces --------------------------------------------------------------------------------------------------------
 
 bool CurveBuilder::next_piece(CurvePiece& piece) {
     place_turns();

@@ -123,9 +123,7 @@ Span SpanMaker::span_of(const Move& move, const Geometry& path) const {
         make_line(span);
         worst = span.tangent_in;
     }
-    double fastest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < axis_count; ++i)
-        if (worst[i] != 0) fastest = std::min(fastest, limits_[i].max_speed / std::fabs(worst[i]));
+    const double fastest = speed_along(worst, limits_);
     if (move.kind == MoveKind::traverse)
         span.feed = move.haste < 1 ? move.haste * fastest : std::numeric_limits<double>::infinity();
     else

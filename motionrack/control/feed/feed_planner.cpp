@@ -1,4 +1,4 @@
-// Cells, two passes, a hull.
+// Two passes and a hull over the cells.
 #include <motionrack/control/feed/feed_planner.hpp>
 
 #include <algorithm>
@@ -9,31 +9,11 @@ namespace motionrack::control {
 
 namespace {
 
-/// Cells grow away from a rest or a narrow place by this much of the way.
-constexpr double growth = 0.25;
-/// Beside a narrow place cells take so much of the time that the jerk needs to leave it.
-constexpr double unlike_part = 0.25;
-/// Where full acceleration is reached sooner than in a cell's time, cells take as long as that, but no less than this part of their time.
-constexpr double quickest_cell = 0.2;
-/// At least so many cells between two rests, and at most so many of the size that a span's speed asks for.
-constexpr double least_cells = 48, most_cells_of_a_span = 256;
-/// A launch and a landing take this part of a path at most: on a short one constant jerk ends after a twelfth.
-constexpr double most_launch = 1.0 / 14;
-constexpr double alike_jerk = 1.5;
-/// No cell is shorter than this part of the path: places have no more digits.
-constexpr double least_part = 1e-13;
 /// The speed is taken for this much above what a hull found when the next one is sought; then nearer.
 constexpr double first_guess = 2, guess_falls = 0.3;
 
 /// Of the square that a motion goes on with.
 constexpr double least_square = 1e-6;
-
-FeedSpan least_of(const FeedSpan& a, const FeedSpan& b) {
-    return {a.length, std::min(a.speed, b.speed), std::min(a.accel, b.accel), std::min(a.jerk, b.jerk)};
-}
-
-/// With constant jerk from rest.
-double launch_length(double jerk, double seconds) { return jerk * seconds * seconds * seconds / 6; }
 
 bool all_alike(std::span<const FeedSpan> spans) {
     return std::all_of(spans.begin(), spans.end(), [&](const FeedSpan& span) {
@@ -99,11 +79,17 @@ void FeedPlanner::approach_again() {
     bound();
     slope_limits();
     left_.assign(cells_.size() + 2, 0);
-    std::size_t k = 0;
+    std::size_t k = 0, known = before_.size();  // the piece whose speeds these are
+    double begin = 0, end = 0;
     const auto square_at = [&](double place) {
         while (k + 1 < before_.size() && before_[k + 1].begin <= place) ++k;
         const FeedPiece& piece = before_[k];
-        const double begin = piece.at(0).speed, end = piece.last().speed, part = std::clamp((place - piece.begin) / piece.length, 0.0, 1.0);
+        if (known != k) {
+            begin = piece.at(0).speed;
+            end = piece.last().speed;
+            known = k;
+        }
+        const double part = std::clamp((place - piece.begin) / piece.length, 0.0, 1.0);
         return begin * begin + part * (end * end - begin * begin);
     };
     double at_begin = cells_.empty() ? 0 : square_at(cells_.front().begin);
@@ -125,93 +111,6 @@ void FeedPlanner::come_nearer() {
             narrow(square_, guess);
             seek();
         }
-}
-
-// ---- cells --------------------------------------------------------------------------------------------------------------------------
-
-/// As long as acceleration and speed allow with the full jerk, over spans whose jerks are alike, and not so long that the speed cannot come
-/// back to what a span ahead allows: one that ends at half of that speed needs no braking, and one of a fourteenth of the way has the room.
-FeedPlanner::End FeedPlanner::end_of(std::span<const FeedSpan> spans, bool back) const {
-    End end{length_ * most_launch, 0};
-    FeedSpan least = spans[back ? spans.size() - 1 : 0];
-    double before = 0;
-    bool within = true;
-    for (std::size_t n = 0; n < spans.size() && before * most_launch < end.length; ++n) {
-        const FeedSpan& span = spans[back ? spans.size() - 1 - n : n];
-        if (within) {
-            const FeedSpan all = least_of(least, span);
-            const double fits = launch_length(all.jerk, std::min(all.accel / all.jerk, std::sqrt(2 * all.speed / all.jerk)));
-            const bool alike = span.jerk < alike_jerk * least.jerk && least.jerk < alike_jerk * span.jerk;
-            if (n > 0 && (fits <= before || !alike)) {
-                end.length = std::min(end.length, before);
-                within = false;
-            } else {
-                least = all;
-                end.length = std::min(end.length, fits);
-            }
-        }
-        if (n > 0) end.length = std::min(end.length, std::max(before * most_launch, launch_length(least.jerk, std::sqrt(span.speed / least.jerk))));
-        before += span.length;
-        within = within && before < end.length;
-    }
-    end.jerk = least.jerk;
-    return end;
-}
-
-/// How long cells should be for a span's own sake.
-double FeedPlanner::wanted(const FeedSpan& span) const {
-    const double seconds = std::clamp(span.accel / span.jerk, quickest_cell * settings_.cell_seconds, settings_.cell_seconds);
-    return std::min(std::max(span.speed * seconds, span.length / most_cells_of_a_span), length_ / least_cells);
-}
-
-/// Where a motion goes on: no longer than its speed and its acceleration last.
-double FeedPlanner::first_size(double wanted) const {
-    const double by_speed = 2 * settings_.cell_seconds * std::sqrt(start_.square), slope = std::fabs(start_.slope);
-    return std::min({wanted, by_speed, slope > 0 ? 0.25 * start_.square / slope : wanted});
-}
-
-/// How great cells may be at the ends of the spans: what a span's speed asks for there, and growing away from the narrow ones.
-void FeedPlanner::grade(std::span<const FeedSpan> spans) {
-    sizes_.assign(spans.size() + 1, 0);
-    sizes_.front() = moving() ? first_size(wanted(spans.front())) : launch_.length / 3;
-    sizes_.back() = landing_.length / 3;
-    for (std::size_t k = 1; k < spans.size(); ++k) {
-        const FeedSpan least = least_of(spans[k - 1], spans[k]);
-        // Between unlike speeds the jerk needs about this time to reach or leave the lesser one.
-        const double unlike = 1 - least.speed / std::max(spans[k - 1].speed, spans[k].speed);
-        const double seconds = std::min(std::sqrt(least.speed / least.jerk), settings_.cell_seconds);
-        const double ramp = unlike > 0 ? unlike_part * least.speed * seconds / unlike : length_;
-        sizes_[k] = std::min({wanted(spans[k - 1]), wanted(spans[k]), ramp});
-    }
-    for (std::size_t k = 1; k < sizes_.size(); ++k) sizes_[k] = std::min(sizes_[k], sizes_[k - 1] + growth * spans[k - 1].length);
-    for (std::size_t k = sizes_.size() - 1; k-- > 0;) sizes_[k] = std::min(sizes_[k], sizes_[k + 1] + growth * spans[k].length);
-}
-
-void FeedPlanner::cut(std::span<const FeedSpan> spans) {
-    launch_ = moving() ? End{} : end_of(spans, false);
-    landing_ = end_of(spans, true);
-    grade(spans);
-    cells_.clear();
-    const double end = length_ - landing_.length;
-    std::size_t at = 0;
-    for (double begin = launch_.length; begin < end;) {
-        while (at + 1 < spans.size() && ends_[at] <= begin) ++at;
-        const double from_left = begin - (ends_[at] - spans[at].length), to_right = ends_[at] - begin;
-        double size = std::min({wanted(spans[at]), sizes_[at] + growth * from_left, sizes_[at + 1] + growth / (1 + growth) * to_right});
-        size = std::max(size, least_part * length_);
-        if (begin + 1.5 * size >= end) size = end - begin;
-        else if (begin + 2.5 * size >= end) size = (end - begin) / 2;
-        const double next = size == end - begin ? end : begin + size;
-        add_cell(spans, at, begin, next);
-        begin = next;
-    }
-}
-
-/// `at`: the span in which it begins.
-void FeedPlanner::add_cell(std::span<const FeedSpan> spans, std::size_t at, double begin, double end) {
-    FeedSpan least = spans[at];
-    for (; at + 1 < spans.size() && ends_[at] < end; ++at) least = least_of(least, spans[at + 1]);
-    cells_.push_back({begin, end - begin, least.speed * least.speed, 2 * least.accel, 2 * least.jerk});
 }
 
 /// Bounds of control points, and the ways between them.

@@ -67,14 +67,12 @@ std::uint8_t RideMoves::axes_of(const Geometry& path) const {
 /// Where the card has to stand between two moves: also before a corner is cut with more axes than it draws.
 bool RideMoves::has_to_rest(const Geometry& path, std::uint8_t axes) const {
     if (!settings_.drive || path.shape == PathShape::nothing || last_.shape == PathShape::nothing) return false;
-    const auto together = static_cast<std::uint8_t>(run_axes_ | axes);
-    const bool steers = std::popcount(together) > settings_.drive->most_drawn();
-    return (steers && (axes != last_axes_ || run_axes_ != axes)) || settings_.drive->joint_speed(last_, path) <= 0;
+    const bool alike = axes == last_axes_ && axes == run_axes_;
+    return (!alike && steers(static_cast<std::uint8_t>(run_axes_ | axes))) || settings_.drive->joint_speed(last_, path) <= 0;
 }
 
-bool RideMoves::steers(std::int64_t number) const {
-    return settings_.drive && std::popcount(rider_.move(number).axes) > settings_.drive->most_drawn();
-}
+/// More axes than the card draws together.
+bool RideMoves::steers(std::uint8_t axes) const { return settings_.drive && std::popcount(axes) > settings_.drive->most_drawn(); }
 
 bool RideMoves::pull(PlannedMove& planned, bool early) {
     planned = {};
@@ -98,8 +96,9 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
         return pull(planned, early);
     }
     planned.number = rider_.move_of(begin);
-    planned.move = rider_.move(planned.number).move;
-    if (steers(planned.number)) planned.axes = rider_.move(planned.number).axes;
+    const RideMove& move = rider_.move(planned.number);
+    planned.move = move.move;
+    if (steers(move.axes)) planned.axes = move.axes;
     if (planned.move.kind != MoveKind::traverse) planned.move.kind = MoveKind::feed;
     planned.move.end = end.place;
     const double speed_in = size_of(begin.speed), speed_out = size_of(end.speed);
@@ -119,7 +118,7 @@ bool RideMoves::pull(PlannedMove& planned, bool early) {
 /// matters.
 double RideMoves::seconds_of_next() const {
     const RideState begin = rider_.at(0);
-    const double least = steers(rider_.move_of(begin)) ? settings_.drive->steering_seconds() : shortest;
+    const double least = steers(rider_.move(rider_.move_of(begin)).axes) ? settings_.drive->steering_seconds() : shortest;
     double seconds = std::min({settings_.most_seconds, rider_.left(), std::max(4 * last_seconds_, least)});
     for (; seconds >= 2 * shortest; seconds *= 0.5) {
         const Roughness is = roughness_of(begin, seconds);

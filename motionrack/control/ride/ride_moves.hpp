@@ -50,7 +50,7 @@ class RideMoves final : public PathPlanner {
 
     bool has_to_rest(const Geometry& path, std::uint8_t axes) const;
     std::uint8_t axes_of(const Geometry& path) const;
-    bool steers(std::int64_t number) const;
+    bool steers(std::uint8_t axes) const;
     double seconds_of_next() const;
     Roughness roughness_of(const RideState& begin, double seconds) const;
 

@@ -176,11 +176,10 @@ void Rider::begin() {
     drop_passed();
     holding_ = new_feeds_ = false;
     for (std::size_t i = piece_; i < now_.curve.size(); ++i) set_feed(now_, i);
-    const auto from = static_cast<std::ptrdiff_t>(piece_);
-    planner_.plan({}, {now_.curve.begin() + from, now_.curve.end()}, {now_.spans.begin() + from, now_.spans.end()}, place_, now_.known());
     Spot here;
     here.piece = piece_;
     here.along.place = place_;
+    plan_to_end(here.piece, here.along);
     take(here, 0, now_.known());
 }
 

@@ -14,6 +14,7 @@
 #include <motionrack/control/move.hpp>
 #include <motionrack/control/ride/ride_state.hpp>
 #include <motionrack/control/ride/stretch_planner.hpp>
+#include <optional>
 #include <vector>
 
 namespace motionrack::control {
@@ -42,7 +43,7 @@ class Rider {
     Rider(const MachineLimits& limits, const Point& start, RiderSettings settings = {});
 
     bool has_room() const { return builder_.has_room(); }
-    /// Ask has_room() first. A move that begins where the last one ended; all its numbers are finite, and feeds above 0. 
+    /// Ask has_room() first. A move that begins where the last one ended; all its numbers are finite, and feeds above 0.
     void push(const RideMove& move);
     /// The path ends here at rest, for now.
     void flush();
@@ -122,7 +123,8 @@ class Rider {
     bool go_on();
     bool slow_down();
     bool ease_into_feeds();
-    bool find_stop(const Spot& from, double& end);
+    bool plan_to_end(std::size_t piece, const FeedState& along);
+    std::optional<double> find_stop(const Spot& from);
     Part with_feeds(const Spot& from, std::span<const FeedPiece> stop) const;
     void take(const Spot& from, double seconds, double to);
     void measure();

@@ -59,16 +59,20 @@ void Rider::measure() {
     }
 }
 
+/// From a motion on this piece to rest at the end of what is known.
+bool Rider::plan_to_end(std::size_t piece, const FeedState& along) {
+    const auto first = static_cast<std::ptrdiff_t>(piece);
+    return planner_.plan(start_of(along), {now_.curve.begin() + first, now_.curve.end()}, {now_.spans.begin() + first, now_.spans.end()}, along.place,
+                         now_.known());
+}
+
 /// To the end of what is known. What was found for pieces before it would slow down stays; of the others it is not known how fast they are.
 bool Rider::go_on() {
     const Spot from = spot_at(before_left_);
     const double slows_at = spot_at(std::max(0.0, left_ - braking_)).along.place;
     for (std::size_t i = from.piece; i < now_.curve.size(); ++i)
         if (holding_ || now_.curve[i].begin + now_.curve[i].length > slows_at) set_feed(now_, i);
-    const auto first = static_cast<std::ptrdiff_t>(from.piece);
-    if (!planner_.plan(start_of(from.along), {now_.curve.begin() + first, now_.curve.end()}, {now_.spans.begin() + first, now_.spans.end()},
-                       from.along.place, now_.known()))
-        return false;
+    if (!plan_to_end(from.piece, from.along)) return false;
     holding_ = false;
     take(from, before_left_, now_.known());
     return true;
@@ -76,23 +80,26 @@ bool Rider::go_on() {
 
 bool Rider::slow_down() {
     const Spot from = spot_at(before_left_);
-    double end = 0;
-    if (!find_stop(from, end)) return false;
+    const std::optional<double> end = find_stop(from);
+    if (!end) return false;
     holding_ = true;
-    take(from, before_left_, end);
+    take(from, before_left_, *end);
     return true;
 }
 
 /// The nearest place to stand at that is found: a plan to it is the planner's last.
-bool Rider::find_stop(const Spot& from, double& end) {
+std::optional<double> Rider::find_stop(const Spot& from) {
     const FeedStart start = start_of(from.along);
     const double begin = from.along.place, most = planned_to_ - begin;
+    double planned = -1;  // how far the planner's last plan goes; below 0: it found none
     const auto plan_to = [&](double distance) {
         std::size_t last = from.piece;
         while (last + 1 < now_.curve.size() && now_.curve[last + 1].begin < begin + distance) ++last;
         const auto first = static_cast<std::ptrdiff_t>(from.piece), past = static_cast<std::ptrdiff_t>(last + 1);
         stop_spans_.assign(now_.spans.begin() + first, now_.spans.begin() + past);
-        return planner_.plan(start, {now_.curve.begin() + first, now_.curve.begin() + past}, stop_spans_, begin, begin + distance);
+        const bool found = planner_.plan(start, {now_.curve.begin() + first, now_.curve.begin() + past}, stop_spans_, begin, begin + distance);
+        planned = found ? distance : -1;
+        return found;
     };
     const FeedSpan& span = now_.spans[from.piece];
     double distance = 0.25 * from.along.speed * (from.along.speed / span.accel + span.accel / span.jerk), too_near = 0;
@@ -100,22 +107,21 @@ bool Rider::find_stop(const Spot& from, double& end) {
         too_near = distance;
         distance *= 1.5;
     }
-    if (distance >= most) return false;
+    if (distance >= most) return std::nullopt;
     for (int i = 0; i < halvings; ++i) {
         const double nearer = 0.5 * (too_near + distance);
         (plan_to(nearer) ? distance : too_near) = nearer;
     }
-    end = begin + distance;
-    return plan_to(distance);
+    if (planned != distance && !plan_to(distance)) return std::nullopt;
+    return begin + distance;
 }
 
 /// With other feeds. Where the motion is faster than they allow, it may be as fast as if it slowed down to stand.
 bool Rider::ease_into_feeds() {
     const Spot from = spot_at(before_left_);
-    double end = 0;
     const bool slower = std::min(feed_override_, rapid_override_) < 1;
     std::vector<FeedPiece> stop;
-    if (slower && find_stop(from, end)) stop.assign(planner_.feed().begin(), planner_.feed().end());
+    if (slower && find_stop(from)) stop.assign(planner_.feed().begin(), planner_.feed().end());
     Part part = with_feeds(from, stop);
     if (!planner_.plan(start_of(from.along), part.curve, part.spans, from.along.place, now_.known())) {
         ease_ = std::min(2 * ease_, most_ease);

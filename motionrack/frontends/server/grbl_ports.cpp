@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/asio/buffer.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/asio/write.hpp>
 #include <chrono>
-#include <deque>
+#include <motionrack/frontends/server/grbl_line.hpp>
 #include <motionrack/frontends/server/pseudo_terminal.hpp>
 #include <motionrack/grbl/session.hpp>
 #include <mutex>
@@ -27,12 +25,6 @@ namespace {
 namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
-
-/// What a port says; `greets`: it begins with the banner for a new client, who is not to see what comes before it.
-struct Said {
-    std::shared_ptr<const std::string> text;
-    bool greets = false;
-};
 
 /// A page in a browser can send a request to any port of this computer, but not choose how it begins. No line of a sender begins so.
 bool is_http(std::string_view bytes) {
@@ -102,62 +94,8 @@ class Port : public std::enable_shared_from_this<Port> {
     std::string user_ = "a sender", id_ = "grbl";  ///< of who writes
 };
 
-/// One end of a line to a client: reads while somebody listens to it, writes in order, and keeps so much for a client that is slow.
-template <class Stream>
-class Line : public std::enable_shared_from_this<Line<Stream>> {
-  public:
-    Line(Stream stream, std::size_t most_waiting) : stream_(std::move(stream)), most_waiting_(most_waiting) {}
-
-    bool awaits_greeting = false;  ///< hears nothing before it
-
-    std::function<void(std::string)> on_bytes;  ///< read_on() asks for more
-    std::function<void()> on_end;
-
-    void read_on() {
-        stream_.async_read_some(asio::buffer(in_), [self = this->shared_from_this()](error_code trouble, std::size_t got) {
-            if (trouble) return self->end();
-            if (self->on_bytes) self->on_bytes(std::string(self->in_.data(), got));
-        });
-    }
-    /// False: too much waits already.
-    bool write(const Said& said) {
-        if (said.greets) awaits_greeting = false;
-        if (awaits_greeting) return true;
-        if (waiting_ + said.text->size() > most_waiting_) return false;
-        waiting_ += said.text->size();
-        out_.push_back(said.text);
-        if (out_.size() == 1) write_on();
-        return true;
-    }
-    /// Of what waits, only what is on its way.
-    void forget_waiting() {
-        if (out_.size() > 1) out_.erase(out_.begin() + 1, out_.end());
-        waiting_ = out_.empty() ? 0 : out_.front()->size();
-    }
-    void end() {
-        error_code ignored;
-        stream_.close(ignored);
-        on_bytes = nullptr;
-        if (const auto call = std::exchange(on_end, nullptr)) call();
-    }
-
-  private:
-    void write_on() {
-        asio::async_write(stream_, asio::buffer(*out_.front()), [self = this->shared_from_this()](error_code trouble, std::size_t) {
-            if (trouble) return self->end();
-            self->waiting_ -= self->out_.front()->size();
-            self->out_.pop_front();
-            if (!self->out_.empty()) self->write_on();
-        });
-    }
-
-    Stream stream_;
-    std::size_t most_waiting_, waiting_ = 0;
-    std::array<char, 65536> in_{};
-    std::deque<std::shared_ptr<const std::string>> out_;
-};
-using TcpLine = Line<tcp::socket>;
-using TerminalLine = Line<asio::posix::stream_descriptor>;
+using TcpLine = SenderLine<tcp::socket>;
+using TerminalLine = SenderLine<asio::posix::stream_descriptor>;
 
 }  // namespace
 
@@ -222,8 +160,15 @@ class GrblPorts::Inside {
     void accept_on() {
         acceptor_.async_accept([this](error_code trouble, tcp::socket socket) {
             if (trouble == asio::error::operation_aborted) return;
-            if (!trouble) accept(std::move(socket));
-            accept_on();
+            if (!trouble) {
+                accept(std::move(socket));
+                return accept_on();
+            }
+            // Most likely no file descriptors are left: some will come back.
+            pause_.expires_after(std::chrono::milliseconds(50));
+            pause_.async_wait([this](error_code stopped) {
+                if (!stopped) accept_on();
+            });
         });
     }
     void accept(tcp::socket socket) {
@@ -324,6 +269,7 @@ class GrblPorts::Inside {
     authority::ControlLease& lease_;
     std::shared_ptr<asio::io_context> io_ = std::make_shared<asio::io_context>(1);
     tcp::acceptor acceptor_{*io_};
+    asio::steady_timer pause_{*io_};
     asio::posix::stream_descriptor watch_{*io_};
     std::shared_ptr<Port> tcp_port_, terminal_port_;
     std::vector<std::shared_ptr<TcpLine>> lines_;
