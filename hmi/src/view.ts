@@ -9,8 +9,17 @@ export const view = signal<View>('operate');
 export const detail = signal('');
 export const helpOpen = signal(false);
 
+/** What somebody typed into the address need not be well formed. */
+export function decoded(text: string): string {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return text;
+  }
+}
+
 function read(): void {
-  const [name = '', ...rest] = decodeURIComponent(location.hash.replace(/^#\/?/, '')).split('/');
+  const [name = '', ...rest] = decoded(location.hash.replace(/^#\/?/, '')).split('/');
   view.value = (VIEWS as readonly string[]).includes(name) ? (name as View) : 'operate';
   detail.value = rest.join('/');
 }

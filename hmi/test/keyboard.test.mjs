@@ -38,6 +38,14 @@ test('Esc stops, also while a field is typed in', async () => {
   await rest(tab);
 });
 
+test('an address that is not well formed shows the page all the same, and Esc stops', async () => {
+  const tab = await openTab(all.browser, all.server, { hash: '#/cards/100%' });
+  const before = named(tab, 'stop').length;
+  await tab.page.keyboard.press('Escape');
+  await until(() => named(tab, 'stop').length === before + 1, 'a stop');
+  await tab.context.close();
+});
+
 test('Space with the focus on Run holds and does not click Run; a second Space does not resume', async () => {
   const tab = await withProgram();
   await tab.page.keyboard.press('r');

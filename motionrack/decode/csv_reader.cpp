@@ -213,7 +213,7 @@ Result<std::int64_t> CsvCapture::time_of(std::string_view cell, Place place) con
     const auto [end, bad] = std::from_chars(first, text.data() + text.size(), time);
     const double seconds = time * unit_s_;
     if (bad != std::errc() || end != text.data() + text.size() || !std::isfinite(seconds) || std::fabs(seconds) > longest_s)
-        return refuse(fmt::format("'{}' is no time in seconds (up to {:.0f}). Nothing was decoded; export the time as a number.", text.substr(0, 40), longest_s),
+        return refuse(fmt::format("'{}' is no time in seconds (up to {:.0f}). Nothing more was decoded; export the time as a number.", text.substr(0, 40), longest_s),
                       place);
     return std::llround(seconds / tick);
 }
@@ -222,19 +222,19 @@ Result<void> CsvCapture::take(const Row& row) {
     split(row.text);
     if (cells_.size() == width_ + 1 && cells_.back().empty()) cells_.pop_back();
     if (cells_.size() != width_)
-        return refuse(fmt::format("The row has {} columns, the first row {}. Nothing was decoded.", cells_.size(), width_), row.place);
+        return refuse(fmt::format("The row has {} columns, the first row {}. Nothing more was decoded.", cells_.size(), width_), row.place);
     std::int64_t time = 0;
     if (timed_) {
         MOTIONRACK_TRY(time, time_of(cells_[0], row.place));
         if (begun_ && time < now_)
-            return refuse(fmt::format("Time goes backwards, from {} s to {} s. Nothing was decoded; the file is damaged or is two files.",
+            return refuse(fmt::format("Time goes backwards, from {} s to {} s. Nothing more was decoded; the file is damaged or is two files.",
                                       static_cast<double>(now_) * tick, static_cast<double>(time) * tick), row.place);
     }
     for (std::size_t line = 0; line < columns_.size(); ++line) {
         const std::string_view cell = cells_[columns_[line]];
         const char level = level_of(cell);
         if (level == 0)
-            return refuse(fmt::format("Column {} holds '{}'; a level is 0, 1, x or z. Nothing was decoded; export digital lines.", columns_[line] + 1,
+            return refuse(fmt::format("Column {} holds '{}'; a level is 0, 1, x or z. Nothing more was decoded; export digital lines.", columns_[line] + 1,
                                       cell.substr(0, 40)), row.place);
         if (level != 'x')
             sampler_.set(line, level == '1', facts_[line]);

@@ -30,8 +30,9 @@ class FileSource final : public Source {
     Result<std::size_t> read(char* to, std::size_t size) override {
         const std::size_t got = std::fread(to, 1, size, file_);
         if (got == 0 && std::ferror(file_) != 0)
-            return fail(Trouble::io, fmt::format("The capture cannot be read: {}. A capture is a file, not a folder.",
-                                                 std::generic_category().message(errno)),
+            return fail(Trouble::io,
+                        fmt::format("The capture cannot be read: {}. {}", std::generic_category().message(errno),
+                                    errno == EISDIR ? "A capture is a file, not a folder." : "Nothing more was decoded."),
                         {}, path_);
         return got;
     }

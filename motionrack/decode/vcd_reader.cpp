@@ -199,7 +199,7 @@ Result<void> VcdCapture::advance(std::string_view digits) {
     if (bad != std::errc() || end != digits.data() + digits.size() || time < 0 || time > std::int64_t{1} << 61)
         return refuse(fmt::format("'#{}' is no time. Nothing more was decoded.", digits.substr(0, 40)), text_.place());
     if (begun_ && time < now_)
-        return refuse(fmt::format("Time goes backwards, from #{} to #{}. Nothing was decoded; the file is damaged or is two files.", now_, time),
+        return refuse(fmt::format("Time goes backwards, from #{} to #{}. Nothing more was decoded; the file is damaged or is two files.", now_, time),
                       text_.place());
     if (begun_ && time > now_ && (changed_ || !any_)) {
         sampler_.take(now_);

@@ -122,15 +122,17 @@ bool Journal::end_work() {
 }
 
 void Journal::write(Instant at, std::string kind, std::string text, std::string data, Done done) {
-    bool room = true;
+    bool room = true, closed = false;
     {
         const std::lock_guard<std::mutex> guard(alone_);
-        room = waiting_.size() < most_waiting && !quit_;
+        closed = quit_;
+        room = waiting_.size() < most_waiting && !closed;
         if (room) waiting_.push_back({{0, run_, utc_ms(), at, std::move(kind), std::move(text), std::move(data)}, std::move(done)});
     }
     if (room) return news_.notify_one();
-    if (done)
-        done(fail(Trouble::io, fmt::format("It was not written to the journal: {} entries wait for the disk, and no more are taken.", most_waiting)));
+    if (!done) return;
+    done(fail(Trouble::io, closed ? "It was not written to the journal, which is closed."
+                                  : fmt::format("It was not written to the journal: {} entries wait for the disk, and no more are taken.", most_waiting)));
 }
 
 void Journal::keep(std::string key, std::string value) {

@@ -25,9 +25,6 @@ void each_number_of_axis(Axis& axis, Field field) {
 /// The column of a signal's values beside that of its times.
 const char* value_column(SignalKind kind);
 
-/// How many of `times`, which rise, are before `until`; of the first `size` of them. Errors: io.
-Result<std::uint64_t> count_before(const hdf5::Reader& times, std::uint64_t size, Instant until);
-
 /// All of a head but the texts of program and rack, as JSON.
 std::string head_json(const RecordingHead& head);
 /// Errors: bad_input.

@@ -3,6 +3,7 @@ import { signal } from '@preact/signals';
 import { Refusal, type ErrorBody } from './contract';
 import { notice, sentence } from './orders';
 import { showToken, TOKEN_KEY } from './socket';
+import { decoded } from '../view';
 
 export const dialogOpen = signal(false);
 export const inviteOpen = signal(false);
@@ -37,7 +38,7 @@ export async function pairFromAddress(): Promise<void> {
   const found = /(?:^#|&)pair=([^&]+)/.exec(location.hash);
   if (found === null) return;
   history.replaceState(null, '', location.pathname + location.search);
-  const code = decodeURIComponent(found[1] ?? '');
+  const code = decoded(found[1] ?? '');
   try {
     await pair(code, nameText.value || freshName());
     notice('done', 'This browser is paired.');

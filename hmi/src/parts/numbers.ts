@@ -31,7 +31,7 @@ export const percent = (part: number): string => `${Math.round(part * 100)} %`;
 /** "0:12.3", "1:02:03". */
 export function duration(seconds: number | null | undefined): string {
   if (seconds === null || seconds === undefined || !Number.isFinite(seconds)) return '–';
-  const all = Math.max(0, seconds);
+  const all = Math.round(Math.max(0, seconds) * 10) / 10;
   const hours = Math.floor(all / 3600);
   const minutes = Math.floor(all / 60) % 60;
   const rest = all % 60;

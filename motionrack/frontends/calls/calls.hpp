@@ -21,7 +21,7 @@ auto guarded(Call call, Failed failed) noexcept {
         if (result) return static_cast<Value>(*result);
         return failed(result.error().trouble, result.error().text());
     } catch (const std::bad_alloc&) {
-        return failed(Trouble::machine, "There is not enough memory; nothing was done.");
+        return failed(Trouble::machine, "There is not enough memory; the call was not finished.");
     } catch (const std::exception& e) {
         return failed(Trouble::machine, e.what());
     } catch (...) {
