@@ -38,7 +38,7 @@ class AFault : public InFolder, public testing::WithParamInterface<Case> {
     }
     std::string options() const {
         std::string out;
-        for (const std::string& option : fault().inject) out += " " + one().text(option);
+        for (const std::string& option : fault().inject) out.append(" ").append(one().text(option));
         return out;
     }
     Instant broken_at() const { return fault().inject.empty() ? Instant{} : instant_of(one().text(fault().inject.front())); }
@@ -60,7 +60,8 @@ class AFault : public InFolder, public testing::WithParamInterface<Case> {
 
 void AFault::run_program() const {
     write("part.ngc", one().text(fault().setup.program));
-    const std::string arguments = "run part.ngc -q --no-report --json --record run.h5 --rack " + rack_file() + options();
+    std::string arguments = "run part.ngc -q --no-report --json --record run.h5 --rack ";
+    arguments.append(rack_file()).append(options());
     SCOPED_TRACE("motionrack " + arguments);
     const Ran ran = shell("{ " MOTIONRACK_PROGRAM " " + arguments + " > summary.json; }");
     EXPECT_EQ(ran.code, fault().exit) << ran.out;
@@ -236,7 +237,7 @@ std::vector<Case> own_cases() {
     return out;
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, AFault, testing::ValuesIn(own_cases()), [](const auto& info) { return info.param.name(); });
+INSTANTIATE_TEST_SUITE_P(Catalogue, AFault, testing::ValuesIn(own_cases()), [](const auto& each) { return each.param.name(); });
 
 }  // namespace
 }  // namespace motionrack::faults

@@ -228,8 +228,10 @@ void PositionAxis::rest(Instant now) {
     still_since_ = now;
 }
 
-void PositionAxis::end_with(Error error) {
+/// `counted`: the card answers and counts, so that the axis knows where it is.
+void PositionAxis::end_with(Error error, bool counted) {
     error_ = std::move(error);
+    trusted_ = trusted_ && counted;
     hold_after_ = false;
     next_jog_ = 0;
     static_cast<void>(driver_.quit());
@@ -242,11 +244,9 @@ void PositionAxis::look_at_events(Instant now) {
     if (!driver_.status().event()) return;
     const auto seen = driver_.enable_events(event::POSITION | event::STOP);
     if (!seen) return end_with(seen.error());
-    if (seen->was_reset()) {
-        trusted_ = false;
+    if (seen->was_reset())
         return end_with({Trouble::machine, fmt::format("The card of axis {} was reset while it moved (its watchdog, or the bus); its position is not "
                                                        "trusted. Set it up again and home it.", settings_.name)});
-    }
     if (seen->stop()) stop_seen_ = later(now, contacts_rest);
     if (seen->position() && (doing_ == Doing::moving || doing_ == Doing::jogging || doing_ == Doing::stopping)) rest(now);
 }
@@ -258,7 +258,6 @@ void PositionAxis::look_at_progress(Instant now) {
     const std::int64_t gone = (*here - std::exchange(progress_from_, *here)) * (forward_ ? 1 : -1);
     progress_due_ = later(now, progress_time_);
     if (gone >= least_progress) return;
-    trusted_ = false;
     end_with({Trouble::machine, fmt::format("Axis {} does not move as it is driven: {} counts in {:.3f} s in {} direction, at {:.4f} {}. The move was ended and the position is not "
                                             "trusted: the motor is held or has no voltage, or its encoder is not counted. Look at both, then home it.",
                                             settings_.name, gone, to_seconds(progress_time_), forward_ ? "+" : "-",
@@ -277,13 +276,14 @@ void PositionAxis::look_at_stop(Instant) {
         why = "the emergency stop was active";
     }
     end_with({Trouble::machine, fmt::format("Axis {} met a stop at {:.4f} {}: {}. The move was ended; its position is still counted. Move it the "
-                                            "other way, or release the stop.", settings_.name, position(), settings_.unit, why)});
+                                            "other way, or release the stop.", settings_.name, position(), settings_.unit, why)}, true);
 }
 
 void PositionAxis::settle(Instant now) {
     const std::int64_t before = last_counts_;
     if (const auto here = counts(); !here) {
         error_ = here.error();
+        trusted_ = false;
         doing_ = Doing::nothing;
         return;
     } else if (*here != before) {

@@ -75,7 +75,7 @@ class PositionAxis final : public control::Axis {
     void look_at_progress(Instant now);
     void settle(Instant now);
     void rest(Instant now);
-    void end_with(Error error);
+    void end_with(Error error, bool counted = false);
     Result<std::int64_t> counts();
 
     Driver& driver_;
