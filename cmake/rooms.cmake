@@ -35,18 +35,23 @@ function(motionrack_room name)
   endif()
 endfunction()
 
-# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...]): one test program; each of its tests is a ctest test. Those with the label
-# deep take minutes; ./test leaves them out, ctest -L deep passes them.
+# motionrack_test(NAME [SOURCES ...] [DEPS ...] [LABELS ...] [FAULTS FILTER]): one test program; each of its tests is a ctest test. Those with the
+# label deep take minutes; ./test leaves them out, ctest -L deep passes them. FAULTS: those that rows of the catalogue of faults name, which get the
+# label fault; a filter of GoogleTest.
 function(motionrack_test name)
   if(NOT MOTIONRACK_TESTS)
     return()
   endif()
-  cmake_parse_arguments(T "" "" "SOURCES;DEPS;LABELS" ${ARGN})
+  cmake_parse_arguments(T "" "FAULTS" "SOURCES;DEPS;LABELS" ${ARGN})
   if(NOT T_SOURCES)
     return()
   endif()
   add_executable(test_${name} ${T_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${T_DEPS} rapidcheck GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${name} PRIVATE MOTIONRACK_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS "${T_LABELS}")
+  if(T_FAULTS)
+    gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 TEST_FILTER "${T_FAULTS}" PROPERTIES TIMEOUT 600 LABELS fault)
+    set(others TEST_FILTER "-${T_FAULTS}")
+  endif()
+  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 ${others} PROPERTIES TIMEOUT 600 LABELS "${T_LABELS}")
 endfunction()

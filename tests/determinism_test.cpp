@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 #include <vector>
+#include <tests/determinism/histories.hpp>
 #include <tests/text_of.hpp>
 
 namespace motionrack::rack {
@@ -45,17 +46,15 @@ History run(const std::string& program, const std::string& vcd = {}) {
     return history;
 }
 
-std::string line_of(const std::string& name, const History& history) {
-    return fmt::format("{} {:016x} {}\n", name, history.outcome.trace_hash, history.outcome.time.count());
+// tests/determinism/matrix asks the same of other compilers, levels and CPUs.
+TEST(Determinism, ExamplesHaveTheHistoryOfEveryOtherBuild) {
+    EXPECT_EQ(example_histories(root), text_of(root / "tests/golden/trace/examples.txt"))
+        << "If the machine was meant to do something else than before, put the new lines into tests/golden/trace/examples.txt.";
 }
 
-/// Histories of the examples as every build must give them: name, hash of the history, ticks of 100 ps.
-TEST(Determinism, ExamplesHaveTheHistoryOfEveryOtherBuild) {
-    std::string found;
-    for (const char* name : {"01_first_move/first_move.ngc", "02_part/part.ngc", "03_helix/helix.ngc"})
-        found += line_of(name, run(text_of(root / "examples" / name)));
-    EXPECT_EQ(found, text_of(root / "tests/golden/trace/examples.txt"))
-        << "If the machine was meant to do something else than before, put the new lines into tests/golden/trace/examples.txt.";
+TEST(Determinism, RacksHaveTheHistoryOfEveryOtherBuild) {
+    EXPECT_EQ(rack_histories(root), text_of(root / "tests/golden/trace/racks.txt"))
+        << "If the machine was meant to do something else than before, put the new lines into tests/golden/trace/racks.txt.";
 }
 
 TEST(Determinism, RacksInOneProcessDoNotKnowEachOther) {

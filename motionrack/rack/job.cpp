@@ -11,6 +11,10 @@ namespace {
 
 constexpr Duration slice = milliseconds(50);
 
+double counts_per_pulse(const RackAxis& axis) {
+    return static_cast<double>(axis.encoder_counts_per_rev) / static_cast<double>(axis.pulses_per_rev());
+}
+
 }  // namespace
 
 std::vector<WatchedAxis> watched_axes(Rack& rack) {
@@ -115,6 +119,45 @@ void Job::give(std::string_view program, std::string name, control::gcode::Setti
     settings_.reading = std::move(reading);
 }
 
+/// Of every axis whose encoder its own card counts beside the pulses: what the card has counted, less what the motor has turned. Axes
+/// that position by themselves do so by these counts.
+std::vector<std::int64_t> Job::counted_wrongly() {
+    std::vector<std::int64_t> out;
+    const Instant now = rack_.kernel().now();
+    const RackConfig& config = rack_.config();
+    for (std::size_t i = 0; i < rack_.axes().size(); ++i) {
+        const RunningAxis& axis = rack_.axes()[i];
+        const bool counted = std::any_of(config.encoder_links.begin(), config.encoder_links.end(), [&](const EncoderLink& link) {
+            return link.axis == static_cast<int>(i) && !link.swapped && link.channel == axis.channel &&
+                   config.cards[static_cast<std::size_t>(link.card)].name == axis.config.card;
+        });
+        const auto turned = static_cast<std::int64_t>(std::floor(static_cast<double>(axis.machine->rotor().count(now)) * counts_per_pulse(axis.config)));
+        out.push_back(counted && !config.positions_alone(axis.config) ? axis.card->encoder_counter(axis.channel) - turned : 0);
+    }
+    return out;
+}
+
+void Job::tell_wrong_counts(const std::vector<std::int64_t>& before, JobOutcome& out) {
+    const std::vector<std::int64_t> after = counted_wrongly();
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const auto off = static_cast<std::int32_t>(after[i] - before[i]);  // the counters have 32 bits
+        if (std::abs(off) > 1)
+            out.warnings.push_back({rack_.kernel().now(), 0,
+                                    fmt::format("encoder of {}: the card's counter is {} counts off from what the motor turned; a line of the encoder or the card's input is "
+                                                "faulty. Do not go by this counter; mend it, then home again", rack_.axes()[i].config.letter, off)});
+    }
+}
+
+/// Of an axis that positions by itself whether it knows where it is.
+bool Job::trusts_itself(int index) {
+    for (RunningAxis& axis : rack_.axes())
+        if (axis.config.index() == index && rack_.config().positions_alone(axis.config)) {
+            const Result<control::Axis*> one = axis.card->axis(rack_.config(), axis.config.letter);
+            return one && (*one)->trusted();
+        }
+    return true;
+}
+
 JobOutcome Job::run() {
     JobOutcome out;
     const Result<control::PathAxes*> axes = rack_.path_axes();
@@ -122,6 +165,7 @@ JobOutcome Job::run() {
         out.ended = tl::unexpected<Error>(axes.error());
         return out;
     }
+    const std::vector<std::int64_t> counted_before = counted_wrongly();
     lines_ = 1 + std::count(settings_.program.begin(), settings_.program.end(), '\n');
     began_ = rack_.kernel().now();
     const std::uint64_t events_before = rack_.kernel().events();
@@ -138,9 +182,10 @@ JobOutcome Job::run() {
     for (const control::PathNote& note : (*axes)->take_notes())
         out.warnings.push_back({began_, note.line, fmt::format("{} (it costs at most {:.4f} mm)", note.what, note.deviation_mm)});
     collect_conditions(out);
+    tell_wrong_counts(counted_before, out);
     out.axes = axis_outcomes((*axes)->commanded_position());
     for (const AxisOutcome& axis : out.axes) {
-        out.position_trusted = out.position_trusted && axis.lost_pulses == 0;
+        out.position_trusted = out.position_trusted && axis.lost_pulses == 0 && trusts_itself(axis.index);
         if (!axis.servo) continue;
         const double off = std::fabs(axis.real_end - axis.planned_end);
         if (out.rest_axis < 0 || off > out.rest_off) out.rest_off = off, out.rest_axis = axis.index;
@@ -176,9 +221,7 @@ std::vector<AxisOutcome> Job::axis_outcomes(const control::Point& sent_to) {
         one.pulse_start = static_cast<std::int64_t>(std::floor(axis.config.start_position * axis.config.pulses_per_unit() + 0.5));
         one.counts_read = axis.card->encoder_counter(axis.channel);
         one.lost_pulses = commanded - axis.machine->rotor().count(now);
-        const double counts_per_pulse =
-            static_cast<double>(axis.config.encoder_counts_per_rev) / static_cast<double>(axis.config.pulses_per_rev());
-        one.counts_expected = static_cast<std::int64_t>(std::floor(static_cast<double>(commanded) * counts_per_pulse));
+        one.counts_expected = static_cast<std::int64_t>(std::floor(static_cast<double>(commanded) * counts_per_pulse(axis.config)));
         one.planned_end = rack_.config().positions_alone(axis.config)
                               ? sent_to[static_cast<std::size_t>(one.index)]
                               : static_cast<double>(one.pulse_position) / axis.config.pulses_per_unit();

@@ -75,7 +75,7 @@ struct JobOutcome {
     std::uint64_t trace_hash = 0;
     int rest_axis = -1;       ///< of the servos the one that stands farthest from where it was sent; -1: no servo
     double rest_off = 0;      ///< and how far, mm or degrees
-    bool position_trusted = true;      ///< false once steps were lost
+    bool position_trusted = true;      ///< false once steps were lost, or an axis that positions by itself does not know where it is
 };
 
 /// What a monitor watches of a rack: all its axes.
@@ -106,6 +106,9 @@ class Job {
     void listen(const std::vector<control::BlockStart>& starts);
     std::vector<AxisOutcome> axis_outcomes(const control::Point& sent_to);
     void collect_conditions(JobOutcome& out);
+    bool trusts_itself(int index);
+    std::vector<std::int64_t> counted_wrongly();
+    void tell_wrong_counts(const std::vector<std::int64_t>& before, JobOutcome& out);
 
     Rack& rack_;
     JobSettings settings_;

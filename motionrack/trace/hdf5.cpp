@@ -16,8 +16,13 @@ namespace {
 
 constexpr unsigned deflate_level = 2;  // of 9; higher ones take twice the time for a tenth less
 
-/// The library prints its errors by itself unless it is told not to, for each thread.
-void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+/// The library prints its errors by itself unless it is told not to, for each thread. And when the program ends it closes once more what a
+/// full disk did not let it close, which ends in a crash: every file here is closed by its handle instead.
+void be_quiet() {
+    static const herr_t once = H5dont_atexit();  // in time only if nobody else in the program has begun to use the library
+    static_cast<void>(once);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 herr_t keep_deepest(unsigned n, const H5E_error2_t* error, void* out) {
     if (n == 0 && error->desc != nullptr) *static_cast<std::string*>(out) = error->desc;
@@ -180,14 +185,14 @@ void File::set(const std::string& object, const char* name, std::string_view tex
 void File::set(const std::string& object, const char* name, double value) { put_attribute(object, name, H5T_NATIVE_DOUBLE, &value); }
 void File::set(const std::string& object, const char* name, std::int64_t value) { put_attribute(object, name, H5T_NATIVE_INT64, &value); }
 
-void File::begin_streaming() { good(H5Fstart_swmr_write(file_.get()), "begin the recording"); }
-void File::flush() { good(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "write"); }
+void File::begin_streaming() { good(H5Fstart_swmr_write(file_.get()), "begin"); }
+void File::flush() { good(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), "be written"); }
 
 Result<void> File::close() {
     if (!file_.close() && trouble_.empty()) trouble_ = "could not be closed: " + why();
     if (trouble_.empty()) return {};
     return fail(Trouble::io,
-                fmt::format("The recording {}. What was written is kept but ends too early; make room or choose another place, and run again.", trouble_),
+                fmt::format("The recording {}. It is not whole, and perhaps nothing of it can be read; make room or choose another place, and run again.", trouble_),
                 {}, path_);
 }
 

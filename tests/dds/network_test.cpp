@@ -41,7 +41,7 @@ class Network : public testing::Test {
         if (!folder_.empty()) fs::remove_all(folder_, ignored);
     }
     Child publish(int machine, int offset = 0) {
-        return network_->start(machine, {MOTIONRACK_TEST_PUBLISHER, "good", "stage", "2000", std::to_string(scales), std::to_string(offset)});
+        return network_->start(machine, {MOTIONRACK_TEST_PUBLISHER, "good", "stage", std::to_string(period_us_), std::to_string(scales), std::to_string(offset)});
     }
     /// Listens with its frames in `name`.csv.
     Child subscribe(int machine, const std::string& name, int count = 0) {
@@ -79,7 +79,16 @@ class Network : public testing::Test {
     }
     std::unique_ptr<Machines> network_;
     fs::path folder_;
+    int period_us_ = 2000;
 };
+
+/// So many frames a second.
+class NetworkAt : public Network, public testing::WithParamInterface<int> {
+  protected:
+    NetworkAt() { period_us_ = 1'000'000 / GetParam(); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Frames, NetworkAt, testing::Values(500, 1000), [](const auto& info) { return "at_" + std::to_string(info.param) + "_Hz"; });
 
 bool is_event(const json& line, const char* kind) { return line.value("event", "") == kind; }
 std::int64_t count_in(const json& line, const char* name) { return line.contains("counts") ? line["counts"].value(name, std::int64_t{-1}) : -1; }
@@ -109,7 +118,7 @@ TEST_F(Network, TenSubscribersHoldTheSameFrames) {
     EXPECT_GT(holders.size(), 0u);
 }
 
-TEST_F(Network, CountsWhatALossyLinkLosesAndUsesTheRest) {
+TEST_P(NetworkAt, CountsWhatALossyLinkLosesAndUsesTheRest) {
     Child publisher = publish(0), subscriber = subscribe(1, "lossy");
     ASSERT_TRUE(subscriber.wait_for(used_at_least(50))) << subscriber.said();
     if (!network_->begin_loss(1)) GTEST_SKIP() << "Nothing was tested: this kernel has neither netem nor tbf";
@@ -127,7 +136,7 @@ TEST_F(Network, CountsWhatALossyLinkLosesAndUsesTheRest) {
               std::int64_t{got.back().sequence} - std::int64_t{got.front().sequence} + 1);
 }
 
-TEST_F(Network, MarksItsDataStaleWhileTheLinkIsCutAndGoesOnAfterIt) {
+TEST_P(NetworkAt, MarksItsDataStaleWhileTheLinkIsCutAndGoesOnAfterIt) {
     Child publisher = publish(0), subscriber = subscribe(1, "cut");
     ASSERT_TRUE(subscriber.wait_for(used_at_least(50))) << subscriber.said();
     network_->set_link(1, false);
@@ -145,7 +154,7 @@ TEST_F(Network, MarksItsDataStaleWhileTheLinkIsCutAndGoesOnAfterIt) {
     EXPECT_TRUE(subscriber.told("fresh"));
 }
 
-TEST_F(Network, FollowsAPublisherThatWasKilledAndStartedAnew) {
+TEST_P(NetworkAt, FollowsAPublisherThatWasKilledAndStartedAnew) {
     Child subscriber = subscribe(1, "restart");
     {
         Child publisher = publish(0);
@@ -167,7 +176,7 @@ TEST_F(Network, FollowsAPublisherThatWasKilledAndStartedAnew) {
     EXPECT_EQ(check_rows(rows("restart")), 0);
 }
 
-TEST_F(Network, EverySubscriberAndBothPublishersReportTwoOnOneBus) {
+TEST_P(NetworkAt, EverySubscriberAndBothPublishersReportTwoOnOneBus) {
     Child first = publish(0), a = subscribe(2, "a"), b = subscribe(3, "b"), c = subscribe(4, "c");
     std::vector<Child*> subscribers = {&a, &b, &c};
     for (Child* each : subscribers) ASSERT_TRUE(each->wait_for(used_at_least(20))) << each->said();
@@ -197,7 +206,7 @@ TEST_F(Network, EverySubscriberAndBothPublishersReportTwoOnOneBus) {
     for (const char* name : {"a", "b", "c"}) EXPECT_EQ(check_rows(rows(name)), 0) << "only frames of the first";
 }
 
-TEST_F(Network, CountsForeignSamplesAndUsesNone) {
+TEST_P(NetworkAt, CountsForeignSamplesAndUsesNone) {
     Child publisher = publish(0), bad = network_->start(1, {MOTIONRACK_TEST_PUBLISHER, "bad", "stage"}), subscriber = subscribe(2, "foreign");
     EXPECT_TRUE(subscriber.wait_for([](const json& line) {
         return count_in(line, "wrong_crc") > 10 && count_in(line, "foreign") > 10 && count_in(line, "malformed") > 10 && count_in(line, "used") > 50;
@@ -209,7 +218,7 @@ TEST_F(Network, CountsForeignSamplesAndUsesNone) {
     for (const char* kind : {"wrong_crc", "foreign", "malformed"}) EXPECT_TRUE(subscriber.told(kind)) << kind;
 }
 
-TEST_F(Network, AFrozenSubscriberHoldsNobodyUp) {
+TEST_P(NetworkAt, AFrozenSubscriberHoldsNobodyUp) {
     Child publisher = publish(0), frozen = subscribe(1, "frozen"), other = subscribe(2, "other");
     ASSERT_TRUE(frozen.wait_for(used_at_least(50))) << frozen.said();
     ASSERT_TRUE(other.wait_for(used_at_least(50))) << other.said();

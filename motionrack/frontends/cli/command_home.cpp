@@ -9,7 +9,9 @@
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/rack/fault_plan.hpp>
 #include <motionrack/rack/homing.hpp>
+#include <vector>
 
 namespace motionrack::cli {
 
@@ -17,6 +19,7 @@ namespace {
 
 struct HomeOptions {
     std::string axes, rack, picture;
+    std::vector<std::string> faults;
     int type = 0;
     bool json = false, quiet = false;
 };
@@ -47,7 +50,15 @@ int home(const HomeOptions& options) {
     const auto config = load_rack(options.rack, code);
     if (!config) return code;
     rack::Rack rack(*config);
+    std::unique_ptr<rack::FaultPlan> faults;
+    if (!options.faults.empty()) {
+        auto plan = rack::FaultPlan::create(rack, options.faults);
+        if (!plan) return report(plan.error());
+        faults = std::move(*plan);
+        rack.on_slice(milliseconds(50), [&faults] { faults->apply_due(); });
+    }
     rack.start();
+    if (faults) faults->begin();
     rack::HomingSettings settings;
     for (const char c : options.axes)
         if (c != ',' && c != ' ') settings.axes += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -64,6 +75,8 @@ int home(const HomeOptions& options) {
     progress.clear();
     if (!outcome.ended) code = report(outcome.ended.error());
     fmt::print("{}", options.json ? rack::homing_json(outcome) + "\n" : rack::homing_text(outcome));
+    if (faults)
+        for (const std::string& fault : faults->not_done()) print_warning(fault);
     const int wrote = write_pictures(outcome, options);
     return code == exit_done ? wrote : code;
 }
@@ -79,9 +92,11 @@ void add_home(CLI::App& app, Action& chosen) {
                         "1 stop at the switch, 2 and again slowly, 3 as 1 and on to the encoder's index, 4 as 2 and on to it (default: the rack file's)")
         ->check(CLI::Range(1, 4));
     command->add_option("--picture", options->picture, "write position, speed and states over time as SVG; of several axes NAME_X.svg ..");
+    command->add_option("--fault", options->faults, "break something on the way, NAME=VALUE@TIME: X.home.stuck_open@0s, estop=0@0.3s")->allow_extra_args(false);
     command->add_flag("--json", options->json, "print what was found as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");
-    command->footer("Example: motionrack home XY --rack my.toml --picture home.svg\nHow each axis searches is said in [axis.X.homing] of the rack file. "
+    command->footer("Example: motionrack home XY --rack my.toml --picture home.svg\n"
+                    "Example: motionrack home X --rack my.toml --fault X.home.stuck_open@0s\nHow each axis searches is said in [axis.X.homing] of the rack file. "
                     "Ctrl-C stops the axes, decelerating.");
     command->callback([options, &chosen] { chosen = [options] { return home(*options); }; });
 }

@@ -74,13 +74,16 @@ int write_all(const rack::RecordedJob& job, const RunOptions& options, bool whol
     return code;
 }
 
-void print_outcome(const rack::RecordedJob& job, const rack::JobRequest& request, const rack::JobOutcome& outcome, const RunOptions& options) {
-    fmt::print("{}", options.json ? rack::summary_json(request.config, outcome) + "\n" : rack::summary_of(request.config, outcome));
-    if (options.json) return;
+void print_warnings(const rack::JobOutcome& outcome) {
     static constexpr std::size_t warnings_shown = 12;
     for (std::size_t i = 0; i < outcome.warnings.size() && i < warnings_shown; ++i) print_warning(outcome.warnings[i].text);
     if (outcome.warnings.size() > warnings_shown)
         print_warning(fmt::format("{} more are in the report", outcome.warnings.size() - warnings_shown));
+}
+
+void print_outcome(const rack::RecordedJob& job, const rack::JobRequest& request, const rack::JobOutcome& outcome, const RunOptions& options) {
+    fmt::print("{}", options.json ? rack::summary_json(request.config, outcome) + "\n" : rack::summary_of(request.config, outcome));
+    if (!options.json) print_warnings(outcome);
     for (const std::string& one : job.not_done()) print_warning(one);
 }
 

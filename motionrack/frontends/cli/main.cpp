@@ -1,7 +1,9 @@
 // The motionrack program: the command line and nothing else.
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <motionrack/frontends/cli/commands.hpp>
 #include <motionrack/frontends/cli/exit_codes.hpp>
@@ -23,6 +25,17 @@ constexpr const char* footer = R"(Examples:
 Exit codes: 0 done, 1 wrong command line, 2 wrong input (nothing moved), 3 refused (nothing moved),
 4 the machine stopped the job, 5 a file could not be read or written, 130 stopped by Ctrl-C.
 motionrack COMMAND --help tells more of each command.)";
+
+/// What was printed is out, or it is told that it is not.
+int flushed(int code) {
+    using namespace motionrack::cli;
+    errno = 0;
+    const bool lost = std::ferror(stdout) != 0, out = std::fflush(stdout) == 0;
+    if (out && !lost) return code;
+    print_error(fmt::format("What was to be printed could not be written to standard output: {}. Files that were written are whole.",
+                            std::strerror(errno != 0 ? errno : EIO)));
+    return code == exit_done ? static_cast<int>(exit_io) : code;
+}
 
 }  // namespace
 
@@ -60,7 +73,7 @@ int main(int argc, char** argv) {
         return app.exit(e) == 0 ? exit_done : exit_usage;
     }
     try {
-        return chosen ? chosen() : exit_usage;
+        return chosen ? flushed(chosen()) : exit_usage;
     } catch (const std::exception& e) {
         print_error(fmt::format("{}. Nothing more was done; files written before this are whole.", e.what()));
         return exit_io;

@@ -80,8 +80,9 @@ Result<void> check_writable(const std::string& path) {
 Result<void> write_text(const std::string& path, std::string_view text) {
     std::FILE* file = path == "-" ? stdout : std::fopen(path.c_str(), "wb");
     bool good = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-    const int why = errno;
-    if (file != nullptr) good = (file == stdout ? std::fflush(file) : std::fclose(file)) == 0 && good;
+    int why = errno;
+    // What is short stays in the buffer until the file is closed: a full disk is noticed there.
+    if (file != nullptr && (file == stdout ? std::fflush(file) : std::fclose(file)) != 0 && good) good = false, why = errno;
     return good ? Result<void>{} : not_writable(path, why);
 }
 

@@ -12,6 +12,11 @@ namespace motionrack::databoard4002 {
 namespace {
 
 constexpr Duration look_every = milliseconds(1);
+constexpr Duration least_progress_time = milliseconds(500);  // a heavy load needs some time until it moves
+constexpr std::int64_t least_progress = 2;                   // a broken line alone goes to and fro by one count
+
+/// From one look at the progress to the next, at `speed` counts/s: time for ten times that.
+Duration progress_time(double speed) { return std::max(least_progress_time, from_seconds(10 * least_progress / std::max(speed, 1e-3))); }
 
 }  // namespace
 
@@ -89,6 +94,9 @@ Result<void> PositionAxis::begin(const char* what, std::int64_t target, int rate
         trusted_ = false;
         return refuse(what, "the card was reset since it was set up; its table and position are gone. Set it up again and home it");
     }
+    progress_time_ = progress_time(settings_.scale.speed(rate));
+    progress_from_ = last_counts_;
+    progress_due_ = later(host_.now(), progress_time_);
     return driver_.go();
 }
 
@@ -168,6 +176,7 @@ void PositionAxis::jog_on(Instant now) {
     const double next = std::clamp(wanted_, speed_ - change, speed_ + change);
     if (next == speed_) return;
     speed_ = next;
+    progress_time_ = progress_time(speed_);
     if (const Result<void> set = driver_.set_rate(std::max(1, settings_.scale.rate_for(speed_ * (1 + 1e-12)))); !set) end_with(set.error());
 }
 
@@ -218,8 +227,10 @@ void PositionAxis::rest(Instant now) {
     still_since_ = now;
 }
 
-void PositionAxis::end_with(Error error) {
+/// `counted`: the card answers and counts, so that the axis knows where it is.
+void PositionAxis::end_with(Error error, bool counted) {
     error_ = std::move(error);
+    trusted_ = trusted_ && counted;
     hold_after_ = false;
     next_jog_ = 0;
     static_cast<void>(driver_.quit());
@@ -232,13 +243,24 @@ void PositionAxis::look_at_events(Instant now) {
     if (!driver_.status().event()) return;
     const auto seen = driver_.enable_events(event::POSITION | event::STOP);
     if (!seen) return end_with(seen.error());
-    if (seen->was_reset()) {
-        trusted_ = false;
+    if (seen->was_reset())
         return end_with({Trouble::machine, fmt::format("The card of axis {} was reset while it moved (its watchdog, or the bus); its position is not "
                                                        "trusted. Set it up again and home it.", settings_.name)});
-    }
     if (seen->stop()) stop_seen_ = later(now, contacts_rest);
     if (seen->position() && (doing_ == Doing::moving || doing_ == Doing::jogging || doing_ == Doing::stopping)) rest(now);
+}
+
+/// A motor that is held or has no voltage, or an encoder whose counts stand or go the other way.
+void PositionAxis::look_at_progress(Instant now) {
+    const auto here = counts();
+    if (!here) return end_with(here.error());
+    const std::int64_t gone = (*here - std::exchange(progress_from_, *here)) * (forward_ ? 1 : -1);
+    progress_due_ = later(now, progress_time_);
+    if (gone >= least_progress) return;
+    end_with({Trouble::machine, fmt::format("Axis {} does not move as it is driven: {} counts in {:.3f} s in {} direction, at {:.4f} {}. The move was ended and the position is not "
+                                            "trusted: the motor is held or has no voltage, or its encoder is not counted. Look at both, then home it.",
+                                            settings_.name, gone, to_seconds(progress_time_), forward_ ? "+" : "-",
+                                            offset_ + static_cast<double>(*here) / settings_.counts_per_unit, settings_.unit)});
 }
 
 /// The contacts of a stop are at rest: does it hold the axis? One on the other side does no harm.
@@ -253,13 +275,14 @@ void PositionAxis::look_at_stop() {
         why = "the emergency stop was active";
     }
     end_with({Trouble::machine, fmt::format("Axis {} met a stop at {:.4f} {}: {}. The move was ended; its position is still counted. Move it the "
-                                            "other way, or release the stop.", settings_.name, position(), settings_.unit, why)});
+                                            "other way, or release the stop.", settings_.name, position(), settings_.unit, why)}, true);
 }
 
 void PositionAxis::settle(Instant now) {
     const std::int64_t before = last_counts_;
     if (const auto here = counts(); !here) {
         error_ = here.error();
+        trusted_ = false;
         doing_ = Doing::nothing;
         return;
     } else if (*here != before) {
@@ -293,6 +316,7 @@ void PositionAxis::step(Instant now) {
     if (doing_ == Doing::nothing) return;
     look_at_events(now);
     if (now >= stop_seen_) look_at_stop();
+    if (now >= progress_due_ && (doing_ == Doing::moving || doing_ == Doing::jogging)) look_at_progress(now);
     switch (doing_) {
         case Doing::jogging: return jog_on(now);
         case Doing::stopping: return ramp_down(now);

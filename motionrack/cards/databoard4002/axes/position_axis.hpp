@@ -4,7 +4,8 @@
 //   stop    ─► R, R, R .. Q      the rate is lowered by the axis' acceleration, then the output is 0
 //
 // The card counts what the encoder says, so its position stays trusted whatever stops the axis; it is lost with the card's memory (a
-// reset, its watchdog).
+// reset, its watchdog), and where the counts do not go on as the card drives: then motor or encoder do not do what they should, and the
+// card, which has no watch for that, would drive on for ever.
 #pragma once
 
 #include <motionrack/cards/databoard4002/axes/home_search.hpp>
@@ -71,9 +72,10 @@ class PositionAxis final : public control::Axis {
     void ramp_down(Instant now);
     void look_at_events(Instant now);
     void look_at_stop();
+    void look_at_progress(Instant now);
     void settle(Instant now);
     void rest(Instant now);
-    void end_with(Error error);
+    void end_with(Error error, bool counted = false);
     Result<std::int64_t> counts();
 
     Driver& driver_;
@@ -94,6 +96,9 @@ class PositionAxis final : public control::Axis {
     Instant renewed_{};           // of the jog
     Instant still_since_{};
     Instant stop_seen_ = never;   // when the contacts of a stop are at rest
+    Instant progress_due_ = never;       // when the counts must have gone on
+    Duration progress_time_{};           // from look to look
+    std::int64_t progress_from_ = 0;     // the counts at the last one
     std::optional<Error> error_;
 };
 

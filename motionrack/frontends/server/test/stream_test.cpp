@@ -102,6 +102,14 @@ TEST(AStream, HasOneMasterAtATime) {
     EXPECT_THAT(error_of(anna.order({{"order", "enable"}, {"on", true}})), HasSubstr("Control is with bert"));
 }
 
+/// What clients do wrong, while the machine drives a job and while it stands.
+class AStreamWhile : public testing::TestWithParam<bool> {
+  protected:
+    static bool moving() { return GetParam(); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Machine, AStreamWhile, testing::Bool(), [](const auto& info) { return info.param ? "moving" : "standing"; });
+
 /// The path of a job that nobody disturbs.
 std::vector<std::array<std::int64_t, 3>> quiet_path() {
     Running running;
@@ -111,22 +119,26 @@ std::vector<std::array<std::int64_t, 3>> quiet_path() {
     return running.path();
 }
 
-TEST(AStream, WhoseClientLeavesOrLoadsItsPageAgainChangesNothing) {
+TEST_P(AStreamWhile, WhoseClientLeavesOrLoadsItsPageAgainChangesNothing) {
     Running running;
     const std::string token = running.token("anna");
     {
         WebClient anna = running.stream(token);
         ASSERT_TRUE(anna.order({{"order", "take_control"}}).value("done", false));
         ASSERT_TRUE(anna.order({{"order", "enable"}, {"on", true}}).value("done", false));
-        ASSERT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
+        if (moving()) ASSERT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
     }
     WebClient again = running.stream(token);
-    again.receive_until(job_is_over);
-    EXPECT_EQ(running.path(), quiet_path());
+    if (moving()) again.receive_until(job_is_over);
+    EXPECT_TRUE(again.receive_until([](const json& message) { return state_is(message, "standstill"); }).is_object()) << "it is still enabled";
+    EXPECT_TRUE(again.order({{"order", "take_control"}}).value("done", false)) << "control comes back without force";
+    EXPECT_EQ(running.path(), moving() ? quiet_path() : decltype(quiet_path())());
 }
 
-TEST(AStream, LosesPicturesOfASlowReaderAndNobodyElses) {
+TEST_P(AStreamWhile, LosesPicturesOfASlowReaderAndNobodyElses) {
     Running running;
+    WebClient anna = running.master("anna");
+    if (moving()) ASSERT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
     WebClient slow(running.port(), false, true);
     ASSERT_EQ(slow.upgrade().status, 101);
     slow.say({{"id", 1}, {"subscribe", {{"rate_hz", 100}}}});

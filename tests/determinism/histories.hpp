@@ -1,0 +1,16 @@
+// What every build must give bit for bit: the histories of the examples' programs and of the example racks.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace motionrack {
+
+/// The numbered examples' programs on the router, a line each: name, hash of the history, ticks of 100 ps that it took.
+std::string example_histories(const std::filesystem::path& root);
+
+/// Every rack of examples/ and its subfolders that is named here, half a second long, a line each: name, hash of its state with all
+/// places, speeds and counts, and of its history.
+std::string rack_histories(const std::filesystem::path& root);
+
+}  // namespace motionrack
