@@ -199,6 +199,60 @@ TEST_P(AStream, FeelsAnOverrideWithinATenthOfASecondOrSo) {
     EXPECT_NEAR(w.seconds(), 2 + 80 / 5.0, 1.0);
 }
 
+/// Drives a program in its whole language; how long that takes, s.
+double seconds_of(Watched& w, const std::string& program) {
+    control::gcode::Walk walk(program, w.stream->fresh_settings(), "part.ngc");
+    const double begun = w.seconds();
+    for (bool more = true; more || w.stream->has_work();) {
+        for (std::string_view line; more && w.stream->has_room() && (more = walk.next(line));) {
+            const auto read = w.stream->line(line, walk.number(), walk);
+            EXPECT_TRUE(read) << read.error().text();
+        }
+        const Result<StreamState> state = w.stream->drive(more);
+        if (!state) ADD_FAILURE() << state.error().text();
+        if (*state == StreamState::waiting) w.host().pass(milliseconds(1));
+    }
+    return w.seconds() - begun;
+}
+
+TEST_P(AStream, GoesAsWrittenWhileM49TakesTheOverridesAway) {
+    const auto seconds = [](const std::string& program, double feed, double rapid) {
+        Watched w(router(GetParam()));
+        w.stream->set_overrides(feed, rapid);
+        const double took = seconds_of(w, program);
+        w.expect_limits();
+        return took;
+    };
+    const std::string cut = "G1 X20 F600\nG0 X60\nG3 X70 Y10 J10 I0\n", after = "G1 X75 F600\n";
+    const double alone = seconds(cut, 1, 1), all = seconds(cut + after, 1, 1);
+    EXPECT_GT(seconds(cut, 0.25, 0.1), 3 * alone);
+    EXPECT_NEAR(seconds("M49\n" + cut, 0.25, 0.1), alone, 0.05);
+    EXPECT_NEAR(seconds("M50 P0\n" + cut, 2, 0.5), alone, 0.05);
+    EXPECT_NEAR(seconds("M49\n" + cut + "M48\n" + after, 0.25, 0.1), alone + 4 * (all - alone), 0.3);
+    EXPECT_NEAR(seconds("M49\n" + cut + "M2\nG1 X0\n", 0.25, 0.1), alone, 0.05);
+}
+
+TEST_P(AStream, StandsStillForOutputsAtOnceAndGoesOnThroughThoseOfAMove) {
+    const auto run = [](const std::string& between) {
+        Watched w(router(GetParam()));
+        std::vector<double> at;
+        w.stream->on_event([&](const control::gcode::Step& step) {
+            if (step.kind == control::gcode::StepKind::output) at.push_back(w.rack.axes()[0].machine->position(w.rack.kernel().now()));
+        });
+        double slowest = 1e9;
+        w.on_slice = [&] {
+            const double x = w.rack.axes()[0].machine->position(w.rack.kernel().now());
+            if (x > 8 && x < 12) slowest = std::min(slowest, w.rack.axes()[0].machine->speed());
+        };
+        seconds_of(w, "G21 G90 F1200\nG1 X10\n" + between + "\nG1 X20\nM2\n");
+        EXPECT_EQ(at.size(), 1u);
+        EXPECT_NEAR(at.at(0), 10, 0.8) << between;
+        return slowest;
+    };
+    EXPECT_LT(run("M64 P1"), 5);
+    EXPECT_GT(run("M62 P1"), 15);
+}
+
 TEST_P(AStream, PausesAtM0UntilItIsToldToGoOn) {
     Watched w(router(GetParam()));
     std::vector<control::gcode::StepKind> seen;

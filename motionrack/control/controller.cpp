@@ -10,6 +10,29 @@ namespace motionrack::control {
 
 namespace {
 
+std::string override_words(const gcode::Step& step) {
+    const bool on = step.value != 0;
+    switch (step.port) {
+        case 48:
+        case 49: return fmt::format("overrides {} (M{})", on ? "on" : "off: feeds and rapids as programmed", step.port);
+        case 50: return fmt::format("feed override {} (M50)", on ? "on" : "off: feeds and rapids as programmed");
+        case 51: return fmt::format("spindle override {} (M51)", on ? "on" : "off");
+        case 52: return "adaptive feed off (M52)";
+        default: return fmt::format("feed stop switch {} (M53)", on ? "on" : "off");
+    }
+}
+
+int output_code(const gcode::Step& step) {
+    if (step.analog) return step.with_motion ? 67 : 68;
+    return (step.with_motion ? 62 : 64) + (step.value == 0);
+}
+
+std::string input_words(const gcode::Step& step) {
+    const char* kind = step.analog ? "analog" : "digital";
+    if (step.value < 0) return fmt::format("{} input {} (M66): waited in vain, nothing is connected to it; #5399 is -1", kind, step.port);
+    return fmt::format("{} input {} (M66): {:g}, nothing is connected to it", kind, step.port, step.value);
+}
+
 std::string words_of(const gcode::Step& step) {
     using gcode::StepKind;
     switch (step.kind) {
@@ -24,6 +47,9 @@ std::string words_of(const gcode::Step& step) {
         case StepKind::tool_select: return fmt::format("tool {} selected", step.tool);
         case StepKind::tool_number: return fmt::format("tool {} is in the spindle", step.tool);
         case StepKind::tool_change: return fmt::format("tool {} changed in", step.tool);
+        case StepKind::overrides: return override_words(step);
+        case StepKind::output: return fmt::format("{} output {} to {:g} (M{})", step.analog ? "analog" : "digital", step.port, step.value, output_code(step));
+        case StepKind::input: return input_words(step);
         case StepKind::pause: return "pause (M0): nobody waits in simulated time, the program goes on";
         case StepKind::optional_pause: return "optional pause (M1): not asked for, the program goes on";
         case StepKind::end: return "end of program";
@@ -90,7 +116,7 @@ Result<void> Controller::take(const gcode::Step& step, ProgramRun& run) {
         return planner_->push(step.move);
     }
     // What needs the machine at rest waits for it; a spindle or coolant word does not interrupt the path.
-    if (step.kind == StepKind::tool_change || step.kind == StepKind::pause || step.kind == StepKind::end) {
+    if (gcode::needs_rest(step)) {
         planner_->flush();
         MOTIONRACK_CHECK(hand_over());
     }

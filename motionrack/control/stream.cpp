@@ -182,8 +182,8 @@ Result<void> Stream::fill_planner() {
         const Entry& entry = entries_[planned_];
         if (!entry.is_move()) continue;
         Move move = entry.step.move;
-        if (!entry.by_hand) move.feed *= feed_;
-        move.haste = rapid_;
+        if (entry.is_overridable()) move.feed *= feed_;
+        if (entry.step.overridable) move.haste = rapid_;
         MOTIONRACK_CHECK(planner_.push(move));
     }
     return {};
@@ -191,7 +191,7 @@ Result<void> Stream::fill_planner() {
 
 bool Stream::stops_before(const Entry& entry) const {
     if (single_step_ && entry.step.line != entries_.front().step.line) return true;
-    return entry.is_probe() || entry.step.kind == StepKind::tool_change || entry.step.kind == StepKind::pause || entry.step.kind == StepKind::end;
+    return entry.is_probe() || gcode::needs_rest(entry.step);
 }
 
 /// Whether what the axes have goes on for longer than the margin.

@@ -135,6 +135,7 @@ class Stream {
         bool last = true;    ///< piece of its move
         bool by_hand = false;  ///< not of a line
         bool is_probe() const { return step.probe != gcode::Probe::none; }
+        bool is_overridable() const { return !by_hand && step.overridable; }
         bool is_move() const { return step.kind == gcode::StepKind::move && !is_probe(); }
     };
     /// A move that is being cut.

@@ -62,7 +62,7 @@ Result<void> Stream::fill_ride() {
         Entry& entry = entries_[planned_];
         if (!entry.is_move()) continue;
         entry.number = ride_->rider().pushed();
-        MOTIONRACK_CHECK(ride_->push(entry.step.move, !entry.by_hand));
+        MOTIONRACK_CHECK(ride_->push(entry.step.move, entry.is_overridable()));
         ride_ends_ = false;
         last_push_ = host_.now();
     }

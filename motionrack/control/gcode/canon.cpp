@@ -67,6 +67,7 @@ void CanonPrinter::line(Interpreter& interpreter) {
     };
     std::size_t comments = 0;
     while (const Step* step = interpreter.pull()) {
+        if (step->kind == StepKind::input || step->awaits_input) continue;  // rs274 tells of neither
         late_ = interpreter.has_waited();
         if (late_) {
             event(*step, interpreter);
@@ -190,11 +191,32 @@ void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
             call(fmt::format("SET_XY_ROTATION({:.4f})", tidy(interpreter.frame().turn[0])));
             call("SET_FEED_MODE(0, 0)");
             call("SET_FEED_RATE(0.0000)");
+            if (!step.overridable) call("ENABLE_FEED_OVERRIDE()");
             call("STOP_SPINDLE_TURNING(0)");
             return call("PROGRAM_END()");
+        case StepKind::overrides:
+            return overrides(step);
+        case StepKind::output:
+            return output(step);
+        case StepKind::input:
+            return;
         case StepKind::move:
-            return move(step.move, interpreter);
+            return step.awaits_input ? void() : move(step.move, interpreter);
     }
+}
+
+void CanonPrinter::overrides(const Step& step) {
+    const char* able = step.value != 0 ? "ENABLE" : "DISABLE";
+    if (step.port <= 50) call(fmt::format("{}_FEED_OVERRIDE()", able));
+    if (step.port <= 49 || step.port == 51) call(fmt::format("{}_SPEED_OVERRIDE(0)", able));
+    if (step.port == 52) call(fmt::format("{}_ADAPTIVE_FEED()", able));
+    if (step.port == 53) call(fmt::format("{}_FEED_HOLD()", able));
+}
+
+void CanonPrinter::output(const Step& step) {
+    const char* when = step.with_motion ? "MOTION" : "AUX";
+    if (step.analog) return call(fmt::format("SET_{}_OUTPUT_VALUE({},{:.6f})", when, step.port, step.value));
+    call(fmt::format("{}_{}_OUTPUT_BIT({})", step.value != 0 ? "SET" : "CLEAR", when, step.port));
 }
 
 Point CanonPrinter::shown(const Interpreter& interpreter, const Point& machine) const {

@@ -46,6 +46,8 @@ class CanonPrinter {
     void feed(const Interpreter& interpreter);
     void modes(const Interpreter& interpreter);
     void offsets(const Interpreter& interpreter);
+    void overrides(const Step& step);
+    void output(const Step& step);
     void path(PathControl path, double tolerance_mm, const Interpreter& interpreter);
     Point shown(const Interpreter& interpreter, const Point& machine) const;
 

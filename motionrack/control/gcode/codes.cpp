@@ -43,7 +43,10 @@ constexpr CodeM known_m[] = {{0, m_stop}, {1, m_stop},    {2, m_stop},       {30
                              {7, m_mist}, {8, m_flood},   {9, m_coolant_off},
                              {60, m_stop},    {61, m_tool},       {48, m_override}, {49, m_override},
                              {50, m_override}, {51, m_override}, {52, m_override}, {53, m_override},
-                             {70, m_state},   {71, m_state},     {72, m_state},    {73, m_state}};
+                             {70, m_state},   {71, m_state},     {72, m_state},    {73, m_state},
+                             {62, m_port},    {63, m_port},      {64, m_port},     {65, m_port},
+                             {66, m_port},    {67, m_port},      {68, m_port},
+                             {98, m_program}, {99, m_program}};
 
 template <class Group, std::size_t size, class List>
 constexpr std::array<Group, size> make_table(Group unknown, const List& list) {
@@ -122,10 +125,6 @@ std::string why_not_g(int tenths) {
 
 std::string why_not_m(int code) {
     if (code == 56) return "M56 (parking override) is not supported: this machine does not park; leave it out";
-    if (code == 98 || code == 99) return fmt::format("M{}: subprograms are written with O words here, e.g. o100 sub .. o100 endsub and o100 call", code);
-    if (code >= 62 && code <= 68) {
-        return fmt::format("M{} needs inputs or outputs for programs, which this machine does not have; leave it out, or wait with G4 P", code);
-    }
     return fmt::format("M{} is not a known command; known are {}", code, known_m_codes());
 }
 

@@ -6,12 +6,15 @@
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/interpreter.hpp>
 #include <motionrack/control/gcode/language/known_values.hpp>
+#include <motionrack/control/gcode/scanner.hpp>
 
 namespace motionrack::control::gcode {
 
 namespace {
 
 constexpr double largest_line_number = 9'999'999;
+/// What M66 has found.
+constexpr int input_parameter = 5399;
 
 }  // namespace
 
@@ -59,6 +62,7 @@ bool Interpreter::evaluate() {
     used_ = letter_bit('F') | letter_bit('N') | letter_bit('S') | letter_bit('T');
     end_ = position_;
     if (!check_values()) return false;
+    if (block_.has_m(m_program) && !program_words()) return false;
     if ((block_.m_groups | (block_.words & (letter_bit('S') | letter_bit('T')))) != 0 && !apply_machine_words())
         return false;
     if ((block_.g_groups & ~(1u << g_motion)) != 0 && !apply_modes()) return false;
@@ -66,6 +70,7 @@ bool Interpreter::evaluate() {
     if (block_.has('F')) apply_feed();
     if (block_.has_g(g_nonmodal) && !nonmodal()) return false;
     if (!motion()) return false;
+    if (block_.has_m(m_port) && !ports()) return false;
     if (ends_program() && next_.cutter != CutterSide::off && !end_cutter()) return false;
     if ((block_.words & ~used_) != 0) return unused();
     if (!block_.comments.empty()) {
@@ -76,6 +81,7 @@ bool Interpreter::evaluate() {
     if (!block_.comments.empty()) show_values();
     if (tool_edited_) tools_.put(*tool_edited_);
     if (block_.has_m(m_state)) keep_modes();
+    if (block_.has_m(m_port) && block_.m[m_port] == 66) parameters_.set(input_parameter, port_value_);
     commit();
     return true;
 }
@@ -107,6 +113,7 @@ bool Interpreter::check_values() {
         if (block_.value[index] >= 0) continue;
         const char letter = static_cast<char>('A' + index);
         if ((letter == 'P' || letter == 'Q') && negative_handles()) continue;
+        if (letter == 'Q' && block_.has_m(m_port) && block_.m[m_port] >= 67) continue;  // a value
         return fail_word(letter, GrblStatus::negative_value,
                          fmt::format("{} is negative; {} must be 0 or more", written(letter), letter));
     }
@@ -181,8 +188,9 @@ void Interpreter::apply_feed() {
 }
 
 void Interpreter::commit() {
-    if ((todo_ & todo_dwell) != 0) dwell_at_ = position();
+    if ((todo_ & (todo_dwell | todo_wait)) != 0) dwell_at_ = position();
     end_pending_ = ends_program();
+    moving_.overridable = next_.feed_override;
     position_ = end_;
     modes_ = next_;
     if (frame_edited_) frame_ = next_frame_;
@@ -210,6 +218,7 @@ const Step* Interpreter::pull_next() {
     event_.tool = modes_.tool_selected;
     event_.mist = modes_.mist;
     event_.flood = modes_.flood;
+    event_.overridable = modes_.feed_override;
     switch (what) {
         case todo_speed:
             event_.kind = StepKind::spindle_speed;
@@ -230,13 +239,18 @@ const Step* Interpreter::pull_next() {
                              : block_.m[m_spindle] == 4 ? Spindle::counter_clockwise
                                                         : Spindle::off;
             break;
+        case todo_wait:
+            fill_dwell(wait_seconds_);
+            event_.awaits_input = true;
+            break;
+        case todo_port:
+            fill_port();
+            break;
+        case todo_overrides:
+            fill_overrides();
+            break;
         case todo_dwell:
-            event_.move.kind = MoveKind::dwell;
-            event_.move.path = modes_.path;
-            event_.move.tolerance_mm = modes_.tolerance_mm;
-            event_.move.line = line_;
-            event_.move.seconds = dwell_seconds_;
-            event_.move.end = dwell_at_;
+            fill_dwell(dwell_seconds_);
             break;
         default:
             if (end_pending_) apply_end();
@@ -246,6 +260,16 @@ const Step* Interpreter::pull_next() {
             break;
     }
     return &event_;
+}
+
+void Interpreter::fill_dwell(double seconds) {
+    Move& move = event_.move;
+    move.kind = MoveKind::dwell;
+    move.path = modes_.path;
+    move.tolerance_mm = modes_.tolerance_mm;
+    move.line = line_;
+    move.seconds = seconds;
+    move.end = dwell_at_;
 }
 
 const Step* Interpreter::pull_motion() {
@@ -322,6 +346,18 @@ std::size_t Interpreter::blame() const {
     return first;
 }
 
+/// X1e3: the E would be a word of its own.
+bool Interpreter::unused_exponent() {
+    const std::string_view text = block_.text;
+    const std::size_t column = block_.column[letter_index('E')];
+    if (column == 0 || !(is_digit(text[column - 1]) || text[column - 1] == '.')) return false;
+    std::size_t begin = column;
+    while (begin > 0 && !is_letter(text[begin - 1])) --begin;
+    if (begin > 0) --begin;
+    return !fail_at(begin, GrblStatus::bad_number,
+                    fmt::format("{}{}: numbers of G-code have no exponent; write 1000, not 1e3", text.substr(begin, column - begin), written('E')));
+}
+
 bool Interpreter::unused() {
     const int index = std::countr_zero(block_.words & ~used_);
     const char letter = static_cast<char>('A' + index);
@@ -334,15 +370,18 @@ bool Interpreter::unused() {
     } else if (letter == 'R') {
         use = "; it is the radius of an arc (G2, G3) or the retract height of a drilling cycle (G73, G81 .. G89)";
     } else if (letter == 'P') {
-        use = "; it goes with G4, G10, G64 and the cycles that wait, and with arcs that have an end or offsets on the same line";
+        use = "; it goes with G4, G10, G64, M50 .. M53, M62 .. M66 and the cycles that wait, and with arcs that have an end or offsets on the same line";
     } else if (letter == 'L') {
-        use = "; it goes with G10 and the drilling cycles (G73, G81 .. G89)";
+        use = "; it goes with G10, M66 and the drilling cycles (G73, G81 .. G89)";
+    } else if (letter == 'E') {
+        if (unused_exponent()) return false;
+        use = "; it goes with M66, M67 and M68 (an analog input or output); there is no extruder";
     } else if (letter == 'D') {
         use = "; it goes with G41, G42 (a tool's number), G41.1 and G42.1 (a diameter)";
     } else if (letter == 'H') {
         use = "; it goes with G43 and G43.2 (a tool's number)";
     } else if (letter == 'Q') {
-        use = "; it is the peck depth of G73 and G83, and a control point of G5";
+        use = "; it is the peck depth of G73 and G83, a control point of G5, the longest wait of M66, and the value of M67 and M68";
     }
     return fail_word(letter, GrblStatus::unused_word,
                      fmt::format("{}: nothing on this line uses the {} word{}", written(letter), letter, use));

@@ -66,6 +66,9 @@ struct Modes {
     bool mist = false;
     bool flood = false;
     bool ended = false;               ///< after M2, M30
+    bool feed_override = true;        ///< M48, M50
+    bool speed_override = true;       ///< M48, M51
+    bool feed_stop = true;            ///< M53
     std::int32_t tool_selected = -1;  ///< by T; -1: none yet
     std::int32_t tool_loaded = -1;    ///< by M6; -1: none yet
     double cutter_radius_mm = 0;      ///< where `cutter` is not off
@@ -146,7 +149,7 @@ class Interpreter {
     /// A subprogram ends: its parameters are gone, and the modes are as M73 has kept them. False: they stay as they are, since cutter
     /// compensation is on and would not go with them.
     bool leave_call(std::optional<double> returned);
-    /// No work system is turned from now on.
+    /// No work system is turned from now on, and overrides count.
     void straighten();
 
   private:
@@ -155,12 +158,15 @@ class Interpreter {
         todo_comments = 2,
         todo_speed = 4,
         todo_tool_select = 8,
-        todo_tool_change = 16,
-        todo_spindle = 32,
-        todo_coolant = 64,
-        todo_dwell = 128,
-        todo_motion = 256,
-        todo_stop = 512
+        todo_wait = 16,
+        todo_port = 32,
+        todo_tool_change = 64,
+        todo_spindle = 128,
+        todo_coolant = 256,
+        todo_overrides = 512,
+        todo_dwell = 1024,
+        todo_motion = 2048,
+        todo_stop = 4096
     };
     enum class Motion : std::uint8_t { single, by_way_of, cycle, spline };
 
@@ -171,6 +177,14 @@ class Interpreter {
     void apply_feed();
     bool apply_machine_words();
     bool overrides();
+    bool program_words();
+    bool ports();
+    bool port_number(char letter, char other);
+    bool own_words(std::uint32_t words);
+    bool read_input();
+    void fill_dwell(double seconds);
+    void fill_port();
+    void fill_overrides();
     void apply_end();
     void commit();
     /// M2 or M30 on the line.
@@ -246,6 +260,7 @@ class Interpreter {
     bool beyond(int axis, double value, std::size_t column);
     bool no_feed();
     bool unused();
+    bool unused_exponent();
     const Step* pull_next();
     const Step* pull_motion();
     const Step* pull_comment();
@@ -313,6 +328,8 @@ class Interpreter {
     std::size_t comments_pulled_ = 0;
     std::vector<std::string> shown_;  ///< of the comments with values: what they show
     double dwell_seconds_ = 0;
+    double wait_seconds_ = 0;  ///< of M66
+    double port_value_ = 0;    ///< of M62 .. M68
     Point dwell_at_ = {};
     std::int16_t stop_code_ = 0;
     bool end_pending_ = false;

@@ -56,6 +56,7 @@ void Interpreter::apply_end() {
     next_.feed = next_.feed_rotary = 0;
     next_.spindle = Spindle::off;
     next_.mist = next_.flood = false;
+    next_.feed_override = next_.speed_override = true;
     next_.ended = true;
     next_.cutter = CutterSide::off;
     next_.system = 0;
@@ -63,18 +64,46 @@ void Interpreter::apply_end() {
     modes_ = next_;
 }
 
-/// The overrides are always in the operator's hands: what asks for just that is done, the rest cannot be.
+/// M48 .. M53. Of a spindle override and a feed stop switch the machine has none: what they say is kept and told.
 bool Interpreter::overrides() {
     const int code = block_.m[m_override];
     const bool takes_p = code >= 50;
-    const double wanted = takes_p && block_.has('P') ? block_['P'] : code == 49 ? 0 : 1;
+    const bool on = takes_p && block_.has('P') ? block_['P'] != 0 : code != 49;
     if (takes_p) used_ |= letter_bit('P');
-    const bool usual = code == 52 ? wanted == 0 : wanted != 0;
-    if (usual) return true;
-    return fail_at(block_.m_column[m_override], GrblStatus::unsupported,
-                   code == 52 ? "M52: adaptive feed needs an input that this machine does not have; leave it out (M52 P0 is taken)"
-                              : fmt::format("M{}{}: feed and spindle override and the feed hold stay with the operator here; leave it out", code,
-                                            takes_p ? " P0" : ""));
+    if (code == 52 && on) {
+        return fail_at(block_.m_column[m_override], GrblStatus::unsupported,
+                       "M52: adaptive feed needs an input that this machine does not have; leave it out (M52 P0 is taken)");
+    }
+    if (code <= 50) next_.feed_override = on;
+    if (code <= 49 || code == 51) next_.speed_override = on;
+    if (code == 53) next_.feed_stop = on;
+    todo_ |= todo_overrides;
+    return true;
+}
+
+void Interpreter::fill_overrides() {
+    const int code = block_.m[m_override];
+    event_.kind = StepKind::overrides;
+    event_.port = code;
+    event_.value = code == 51 ? modes_.speed_override : code == 52 ? false : code == 53 ? modes_.feed_stop : modes_.feed_override;
+}
+
+/// M98 P L and M99 stand alone; where they lead is for who walks through the program.
+bool Interpreter::program_words() {
+    const int code = block_.m[m_program];
+    const std::size_t column = block_.m_column[m_program];
+    if (language_ != Language::program)
+        return fail_at(column, GrblStatus::unsupported, fmt::format("M{}: a line by itself has no subprograms; run the program as a file", code));
+    const std::uint32_t own = letter_bit('N') | (code == 98 ? letter_bit('P') | letter_bit('L') : 0u);
+    if (block_.g_groups != 0 || block_.m_groups != 1u << m_program || (block_.words & ~own) != 0 || !block_.assignments.empty()) {
+        return fail_at(column, GrblStatus::unsupported,
+                       code == 98 ? "M98 stands alone with its P and L, e.g. M98 P100 L3; put what is beside it on a line of its own"
+                                  : "M99 stands alone; put what is beside it on a line of its own (it goes back to where M98 called, not to a line)");
+    }
+    used_ |= own;
+    if (code == 99) return true;
+    if (!block_.has('P')) return fail_at(column, GrblStatus::word_missing, "P word missing: M98 needs the number of a program; write e.g. M98 P100 (and O100 .. M99 behind M2)");
+    return need_integer('P', 0, 1e9, "the number of a program") && (!block_.has('L') || need_integer('L', 0, 1e9, "how often the program runs"));
 }
 
 /// M61 Q: the tool in the spindle is another one than was thought.
@@ -117,6 +146,9 @@ void Interpreter::restore(const Modes& saved) {
     next_.tolerance_mm = saved.tolerance_mm;
     next_.feed = saved.feed;
     next_.feed_rotary = saved.feed_rotary;
+    next_.feed_override = saved.feed_override;
+    next_.speed_override = saved.speed_override;
+    next_.feed_stop = saved.feed_stop;
     if (next_.system != modes_.system || frame_edited_) edit_frame().activate(next_.system);
 }
 
@@ -142,6 +174,7 @@ bool Interpreter::goes_beside(const Modes& saved) const {
 }
 
 void Interpreter::straighten() {
+    modes_.feed_override = modes_.speed_override = true;
     frame_.turn = {};
     frame_.activate(modes_.system);
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint32_t word_letters = axis_words | offset_words | letter_bit('D') | letter_bit('F') | letter_bit('L') |
                                        letter_bit('N') | letter_bit('P') | letter_bit('Q') | letter_bit('R') | letter_bit('S') |
-                                       letter_bit('T') | letter_bit('G') | letter_bit('M') | letter_bit('H');
+                                       letter_bit('T') | letter_bit('G') | letter_bit('M') | letter_bit('H') | letter_bit('E');
 
 /// The code in tenths, or -1 where it has more decimals or is out of the table.
 int tenths_of(const Number& number) {
@@ -59,9 +59,11 @@ bool Scanner::code_m(const Number& number, std::size_t column) {
     const int code = tenths >= 0 && tenths % 10 == 0 ? tenths / 10 : -1;
     const GroupM group = group_of_m(code);
     constexpr int last_of_senders = 30;
-    if (group == m_unknown || (options_.language == Language::words && code > last_of_senders)) {
+    const bool beyond_senders = options_.language == Language::words && code > last_of_senders;
+    if (group == m_unknown || beyond_senders) {
         return fail_at(column, GrblStatus::unsupported,
-                       code >= 0 ? why_not_m(code)
+                       group != m_unknown ? fmt::format("M{}: lines from a sender know M0 to M{}; run the program as a file", code, last_of_senders)
+                       : code >= 0 ? why_not_m(code)
                                  : fmt::format("{} is not a known command; known are {}", word_at(text_, column), known_m_codes()));
     }
     constexpr std::uint32_t coolants = 1u << m_mist | 1u << m_flood;
@@ -157,7 +159,7 @@ bool Scanner::comment() {
             const std::size_t column = here();
             ++at_;
             while (at_ < end_ && is_blank(*at_)) ++at_;
-            if ((letter_bit(letter) & word_letters) == 0 || (letter == 'H' && options_.language == Language::words)) {
+            if ((letter_bit(letter) & word_letters) == 0 || ((letter == 'H' || letter == 'E') && options_.language == Language::words)) {
                 if (letter == 'O' && options_.language == Language::program ? flow(column) : bad_letter(letter, column)) continue;
                 return false;
             }

@@ -17,6 +17,9 @@ enum class StepKind : std::uint8_t {
     tool_select,     ///< T: `tool`
     tool_change,     ///< M6: `tool`
     tool_number,     ///< M61: `tool` is the one in the spindle; nothing is changed
+    overrides,       ///< M48 .. M53: `port` is the M code, `value` whether what it governs is on
+    output,          ///< M62 .. M65, M67, M68: output `port` goes to `value`
+    input,           ///< M66: input `port` was looked at, or waited for, and gave `value`
     pause,           ///< M0, M60: stop until the operator goes on
     optional_pause,  ///< M1: the same where the operator has asked for it
     end              ///< M2, M30: the program is over; spindle and coolant off
@@ -45,11 +48,23 @@ struct Step {
     Spindle spindle = Spindle::off;
     bool mist = false;
     bool flood = false;
+    bool overridable = true;   ///< the operator's overrides count (M48, M50 P1); of the end: until there
+    bool analog = false;       ///< of an output or input: E, not P
+    bool with_motion = false;  ///< of an output: at the beginning of the next move (M62, M63, M67), without a stop
+    bool awaits_input = false; ///< of a dwell: it is M66 that waits
     std::int32_t line = 0;  ///< line of the source, from 1
     std::int32_t tool = 0;
+    std::int32_t port = 0;  ///< of an output or input, from 0
+    double value = 0;       ///< of an output: 0 or 1 where it is not analog; of an input: -1 where it did not come in time
     double speed_rpm = 0;
     std::string_view text;  ///< into the program's text
     Move move;
 };
+
+/// Whether the machine stands still for it.
+constexpr bool needs_rest(const Step& step) {
+    return step.kind == StepKind::tool_change || step.kind == StepKind::pause || step.kind == StepKind::end || step.kind == StepKind::input ||
+           (step.kind == StepKind::output && !step.with_motion);
+}
 
 }  // namespace motionrack::control::gcode

@@ -46,12 +46,12 @@ inline Settings settings_of(const std::string& name) {
     return settings;
 }
 
-/// Only STRAIGHT_.., ARC_FEED and DWELL, without the columns before them and without the sign of zeros.
+/// Only moves, waits and outputs, without the columns before them and without the sign of zeros.
 inline std::string motion_lines(const std::string& canon) {
     std::string out;
     std::istringstream lines(canon);
     for (std::string line; std::getline(lines, line);) {
-        for (const char* start : {"STRAIGHT_", "ARC_FEED", "DWELL"}) {
+        for (const char* start : {"STRAIGHT_", "ARC_FEED", "DWELL", "SET_MOTION_OUTPUT", "CLEAR_MOTION_OUTPUT", "SET_AUX_OUTPUT", "CLEAR_AUX_OUTPUT"}) {
             const std::size_t at = line.find(start);
             if (at == std::string::npos || line.find("COMMENT") != std::string::npos) continue;
             std::string call = line.substr(at);

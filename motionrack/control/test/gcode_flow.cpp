@@ -135,7 +135,7 @@ TEST(GcodeFlow, ThatDoesNotFitTogetherIsToldWithItsPlace) {
                         {"o1 do\nX1", 1, "its o1 while is missing"},
                         {"o1 repeat [1]\nX1", 1, "its o1 endrepeat is missing"},
                         {"X1\no1 loop", 2, "'loop' does not go with an O word"},
-                        {"O0001 (PART)", 1, "alone does nothing"},
+                        {"O<part> (PART)", 1, "alone does nothing"},
                         {"o<a call", 1, "'>' is missing"},
                         {"o call", 1, "needs a number or a name"},
                         {"o1 if [1]\no1 endif X5", 2, "nothing but a comment"},

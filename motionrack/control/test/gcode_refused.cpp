@@ -33,7 +33,7 @@ const Refused refused[] = {
     {"G0 Xnan", 4, "X", 2, "no number"},
     {"G0 Xinf", 4, "X", 2, "no number"},
     {"G0 X99999999999999999999999999", 4, "X99999999999999999999999999", 2, "too large"},
-    {"G0 X1 E5", 7, "E5", 20, "no extruder"},
+    {"G0 X1 E5", 7, "E5", 36, "no extruder"},
     {"D1", 1, "D1", 36, "G41"},
     {"H1", 1, "H1", 36, "G43"},
     {"G0 U1", 4, "U1", 20, "axes are X Y Z A B C"},
@@ -67,7 +67,7 @@ const Refused refused[] = {
     {"M56", 1, "M56", 20, "does not park"},
     {"M47", 1, "M47", 20, "not a known command"},
     {"M3.5", 1, "M3.5", 20, "not a known command"},
-    {"M98 P1", 1, "M98", 20, "subprograms"},
+    {"M98 P1", 1, "M98", 20, "this program has no O1"},
     // groups, repeats, leftovers
     {"G0 G1 X1 F1", 4, "G1", 21, "exclude each other"},
     {"G90 X1 G91", 8, "G91", 21, "exclude each other"},

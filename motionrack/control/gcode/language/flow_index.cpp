@@ -24,6 +24,7 @@ class Indexer {
     void fail(const FlowPlace& place, std::string message);
     void pair(std::int32_t at);
     void begin_sub(std::int32_t at, const std::string& label);
+    void begin_program(std::int32_t at, const std::string& label);
     void branch(std::int32_t at);
     void close(std::int32_t at, FlowWord opener);
     void inside(std::int32_t at);
@@ -76,6 +77,8 @@ void Indexer::line(std::string_view text, std::size_t column, const Lines& befor
     if (!takes_values && !is_rest_empty(text, place.rest)) fail(place, fmt::format("{}: nothing but a comment may stand behind it", what(place)));
     if (place.word == FlowWord::sub)
         begin_sub(at, words.label);
+    else if (place.word == FlowWord::numbered)
+        begin_program(at, words.label);
     else
         pair(at);
 }
@@ -90,6 +93,17 @@ void Indexer::begin_sub(std::int32_t at, const std::string& label) {
                                        index_.places[static_cast<std::size_t>(found->second)].line));
     index_.places.back().begin = at;
     open_.push_back(at);
+}
+
+/// O100: what follows, up to M99 or the end of the program, is program 100.
+void Indexer::begin_program(std::int32_t at, const std::string& label) {
+    const FlowPlace& place = index_.places[static_cast<std::size_t>(at)];
+    if (!open_.empty())
+        return fail(place, fmt::format("O{}: a numbered program stands by itself, but {} of line {} is open here; end that first", label, what(open_place()), open_place().line));
+    const auto [found, is_first] = index_.programs.try_emplace(label, at);
+    if (is_first) return;
+    fail(place, fmt::format("O{}: there is one in line {} already; each program needs a number of its own", label,
+                            index_.places[static_cast<std::size_t>(found->second)].line));
 }
 
 void Indexer::pair(std::int32_t at) {

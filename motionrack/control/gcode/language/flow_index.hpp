@@ -38,6 +38,7 @@ struct FlowPlace {
 struct FlowIndex {
     std::vector<FlowPlace> places;  ///< in the order of their lines
     std::map<std::string, std::int32_t, std::less<>> subs;  ///< by label
+    std::map<std::string, std::int32_t, std::less<>> programs;  ///< numbered ones: O100 .. M99
     std::vector<Problem> problems;  ///< of O words that do not fit together, without the file
     std::int32_t lines = 0;         ///< of the text
 

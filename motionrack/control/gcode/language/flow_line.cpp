@@ -5,14 +5,17 @@
 #include <array>
 #include <motionrack/control/gcode/language/flow_line.hpp>
 #include <motionrack/control/gcode/scanner.hpp>
+#include <span>
 
 namespace motionrack::control::gcode {
 
 namespace {
 
 /// In the order of FlowWord.
-constexpr std::array<std::string_view, 15> names = {"sub",   "endsub",   "call", "return", "if",        "elseif", "else",    "endif",
-                                                    "while", "endwhile", "do",   "repeat", "endrepeat", "break",  "continue"};
+constexpr std::array<std::string_view, 16> names = {"sub",   "endsub",   "call", "return", "if",        "elseif", "else",    "endif",
+                                                    "while", "endwhile", "do",   "repeat", "endrepeat", "break",  "continue", "(a numbered program)"};
+/// Those that are written.
+constexpr std::size_t of_words = 15;
 
 char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c | 0x20) : c;
@@ -96,14 +99,15 @@ bool read_flow(std::string_view text, std::size_t column, FlowLine& line, Proble
     skip_blanks(text, at);
     std::string word;
     for (; at < text.size() && is_letter(text[at]); ++at) word += lower(text[at]);
-    const auto* found = std::find(names.begin(), names.end(), word);
-    if (found == names.end()) {
+    const auto words = std::span(names).first<of_words>();
+    const auto found = std::find(words.begin(), words.end(), word);
+    const bool numbered = word.empty() && is_digit(text[label_at]) && is_rest_empty(text, at);
+    if (found == words.end() && !numbered) {
         return fail(column, word.empty()
-                                ? fmt::format("o{} alone does nothing; it needs one of {} (a program's name is written as a comment)",
-                                              text.substr(label_at, at - label_at), fmt::join(names, " "))
-                                : fmt::format("'{}' does not go with an O word; known are {}", word, fmt::join(names, " ")));
+                                ? fmt::format("o{} alone does nothing; it needs one of {}", text.substr(label_at, at - label_at), fmt::join(words, " "))
+                                : fmt::format("'{}' does not go with an O word; known are {}", word, fmt::join(words, " ")));
     }
-    line.word = static_cast<FlowWord>(found - names.begin());
+    line.word = numbered ? FlowWord::numbered : static_cast<FlowWord>(found - words.begin());
     line.rest = static_cast<std::uint16_t>(at);
     if (line.computed && line.word != FlowWord::call)
         return fail(column, fmt::format("only a call may compute its O number; {} needs a number or a name", name_of(line.word)));

@@ -8,7 +8,8 @@
 namespace motionrack::control::gcode {
 
 enum class FlowWord : unsigned char {
-    sub, endsub, call, give_back, if_true, else_if, else_branch, endif, while_true, endwhile, do_once, repeat, endrepeat, leave, go_on
+    sub, endsub, call, give_back, if_true, else_if, else_branch, endif, while_true, endwhile, do_once, repeat, endrepeat, leave, go_on,
+    numbered  ///< O100 alone: a numbered program begins
 };
 
 struct FlowLine {

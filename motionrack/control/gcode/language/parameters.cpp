@@ -28,6 +28,7 @@ std::size_t Parameters::room_for(std::string_view name) const {
 bool Parameters::enter(std::span<const double> arguments) {
     if (level() == deepest_call) return false;
     Call& call = calls_.emplace_back();
+    call.keeps = true;
     for (int i = 0; i < most_arguments; ++i) {
         const auto at = static_cast<std::size_t>(i);
         call.kept[at] = numbered(i + 1);
@@ -37,9 +38,15 @@ bool Parameters::enter(std::span<const double> arguments) {
     return true;
 }
 
+bool Parameters::enter() {
+    if (level() == deepest_call) return false;
+    calls_.emplace_back();
+    return true;
+}
+
 void Parameters::leave(std::optional<double> returned) {
     for (int i = 0; i < most_arguments; ++i)
-        if (!numbered_.empty()) set(i + 1, calls_.back().kept[static_cast<std::size_t>(i)]);
+        if (calls_.back().keeps && !numbered_.empty()) set(i + 1, calls_.back().kept[static_cast<std::size_t>(i)]);
     calls_.pop_back();
     returned_ = returned;
 }

@@ -36,7 +36,9 @@ class Parameters {
 
     /// A call begins: #1 .. #30 are its arguments, or 0, and it has names of its own. False: deepest_call.
     bool enter(std::span<const double> arguments);
-    /// It ends: #1 .. #30 are as before; what it returned, if anything.
+    /// The same without arguments: #1 .. #30 are those of the caller.
+    bool enter();
+    /// It ends: #1 .. #30 are as before, if they were its own; what it returned, if anything.
     void leave(std::optional<double> returned);
     /// 0: the main program.
     int level() const { return static_cast<int>(calls_.size()); }
@@ -48,7 +50,8 @@ class Parameters {
   private:
     using Names = std::map<std::string, double, std::less<>>;
     struct Call {
-        std::array<double, most_arguments> kept;
+        std::array<double, most_arguments> kept = {};
+        bool keeps = false;  ///< #1 .. #30 of the caller are in `kept`
         Names names;
     };
 

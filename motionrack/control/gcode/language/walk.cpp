@@ -131,6 +131,7 @@ bool Walk::execute(const FlowPlace& place, std::int32_t at, Interpreter& interpr
             return true;
         case FlowWord::endif:
         case FlowWord::do_once:
+        case FlowWord::numbered:
             return true;
     }
     return true;

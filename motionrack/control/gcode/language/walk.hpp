@@ -5,6 +5,7 @@
 //     o100 if [..] .. elseif [..] .. else .. endif
 //     o100 while [..] .. endwhile      o100 do .. while [..]      o100 repeat [..] .. endrepeat
 //     o100 break, continue    of the loop with that label
+//     O100 .. M99             a numbered program, anywhere in the text; M98 P100 L3 calls it, #1 .. #30 are those of the caller
 //
 // A call of o<name> that the text does not have is looked for by Settings::subprogram. A program is over after M2 or M30, at the end of
 // its text, or at a lone '%' that is not its first line with anything on it. A plain program costs nothing of all this: the first O word
@@ -24,12 +25,13 @@ class Walk {
     Walk(std::string_view text, const Settings& settings, std::string file);
 
     /// The next line to read; false: there is none.
-    bool next(std::string_view& line) { return !over_ && lines_.next(line); }
+    bool next(std::string_view& line) { return !over_ && (lines_.next(line) || text_ended()); }
     /// The line was read well: does what its O word says, and sees whether the program is over. Errors: the O word cannot be done; then
     /// it is passed over.
     Outcome<void> took(Interpreter& interpreter) {
         const Block& block = interpreter.block();
         if (block.flow) return follow(interpreter);
+        if (block.has_m(m_program)) return follow_program(interpreter);
         if (const bool stops = block.has_m(m_stop) && (block.m[m_stop] == 2 || block.m[m_stop] == 30); stops || block.percent || !begun_) see_end(block, stops);
         return {};
     }
@@ -63,6 +65,8 @@ class Walk {
         Source* source;
         std::size_t repeats;
         std::int32_t called_at;
+        std::int32_t program = no_place;  ///< of a numbered program: where it begins
+        std::int64_t left = 0;            ///< times that it is still to run
     };
     /// A repeat loop that runs.
     struct Repeat {
@@ -75,6 +79,13 @@ class Walk {
     };
 
     Outcome<void> follow(Interpreter& interpreter);
+    Outcome<void> follow_program(Interpreter& interpreter);
+    bool call_program(const FlowPlace& place, Interpreter& interpreter);
+    bool leave_program(const FlowPlace& place, Interpreter& interpreter);
+    bool leave_call(const FlowPlace& place, Interpreter& interpreter, std::optional<double> returned);
+    bool text_ended();
+    void enter(const Target& target, std::int32_t program, std::int64_t times);
+    void back_to_caller();
     void see_end(const Block& block, bool stops);
     bool make_index(Source& source);
     bool within_budget(const FlowPlace& place);
@@ -86,8 +97,9 @@ class Walk {
     void go_on(const FlowPlace& loop);
     bool call(const FlowPlace& place, Interpreter& interpreter);
     bool give_back(const FlowPlace& place, Interpreter& interpreter);
-    bool find_sub(const FlowPlace& place, const std::string& label, Target& target);
-    bool load(const FlowPlace& place, const std::string& label, Target& target);
+    bool find_sub(const FlowPlace& place, const std::string& label, bool numbered, Target& target);
+    bool look_for(const std::string& label, bool numbered, Target& target);
+    bool load(const FlowPlace& place, const std::string& label, bool numbered, Target& target);
     bool evaluate(const FlowPlace& place, Interpreter& interpreter, double& value);
     bool arguments(const FlowPlace& place, std::size_t most, Interpreter& interpreter, std::vector<double>& values);
     bool label_of_call(const FlowPlace& place, Interpreter& interpreter, std::string& label);

@@ -24,6 +24,18 @@ std::string_view without_marks(std::string_view label) {
     return label;
 }
 
+/// What a call looks like, and what it is looking for.
+std::string asks_for(const std::string& label, bool numbered) {
+    return numbered ? fmt::format("M98 P{}", label) : fmt::format("o{} call", label);
+}
+std::string text_of(const std::string& label, bool numbered) {
+    return numbered ? fmt::format("O{}", label) : fmt::format("o{} sub", label);
+}
+
+std::string too_deep(const std::string& asks) {
+    return fmt::format("{}: {} calls stand in each other; does the sub call itself without end?", asks, deepest_call);
+}
+
 }  // namespace
 
 /// Values in brackets up to the end of the line.
@@ -79,46 +91,54 @@ bool Walk::call(const FlowPlace& place, Interpreter& interpreter) {
     std::string label;
     Target target{};
     std::vector<double> values;
-    if (!label_of_call(place, interpreter, label) || !find_sub(place, label, target) || !arguments(place, most_arguments, interpreter, values)) return false;
-    if (!interpreter.parameters().enter(values))
-        return fail(place, place.column, fmt::format("o{} call: {} calls stand in each other; does the sub call itself without end?", label, deepest_call));
+    if (!label_of_call(place, interpreter, label) || !find_sub(place, label, false, target) || !arguments(place, most_arguments, interpreter, values)) return false;
+    if (!interpreter.parameters().enter(values)) return fail(place, place.column, too_deep(asks_for(label, false)));
     interpreter.parameters().forget_returned();
-    frames_.push_back({lines_, source_, repeats_.size(), called_at_});
-    if (called_at_ == 0 && target.source != source_) called_at_ = lines_.number();
-    source_ = target.source;
-    jump(place_at(target.place));
+    enter(target, no_place, 0);
     return true;
 }
 
-/// A sub of the same text, of one read before, or of a file of its own.
-bool Walk::find_sub(const FlowPlace& place, const std::string& label, Target& target) {
+void Walk::enter(const Target& target, std::int32_t program, std::int64_t times) {
+    frames_.push_back({lines_, source_, repeats_.size(), called_at_, program, times});
+    if (called_at_ == 0 && target.source != source_) called_at_ = lines_.number();
+    source_ = target.source;
+    jump(place_at(target.place));
+}
+
+bool Walk::look_for(const std::string& label, bool numbered, Target& target) {
     const auto look = [&](Source* source) {
         if (!source->index) return false;
-        const auto found = source->index->subs.find(label);
-        if (found == source->index->subs.end()) return false;
+        const auto& named = numbered ? source->index->programs : source->index->subs;
+        const auto found = named.find(label);
+        if (found == named.end()) return false;
         target = {source, found->second};
         return true;
     };
-    if (look(source_)) return true;
-    for (const auto& source : sources_)
-        if (look(source.get())) return true;
-    return load(place, label, target);
+    return look(source_) || std::any_of(sources_.begin(), sources_.end(), [&](const auto& source) { return look(source.get()); });
 }
 
-bool Walk::load(const FlowPlace& place, const std::string& label, Target& target) {
-    const std::string name(without_marks(label));
+/// A sub or a numbered program of the same text, of one read before, or of a file of its own.
+bool Walk::find_sub(const FlowPlace& place, const std::string& label, bool numbered, Target& target) {
+    if (look_for(label, numbered, target)) return true;
+    if (look_for(label, !numbered, target)) {
+        return fail(place, place.column, fmt::format("{}: {} is {}; call it by {}", asks_for(label, numbered), text_of(label, !numbered),
+                                                     numbered ? "a sub" : "a numbered program", asks_for(label, !numbered)));
+    }
+    return load(place, label, numbered, target);
+}
+
+bool Walk::load(const FlowPlace& place, const std::string& label, bool numbered, Target& target) {
+    const std::string name(without_marks(label)), asks = asks_for(label, numbered), wanted = text_of(label, numbered);
     if (!subprogram_) {
-        return fail(place, place.column, fmt::format("o{} call: this program has no o{} sub, and it came without a folder in which another file could have it; put the "
-                                                     "sub into it",
-                                                     label, label));
+        return fail(place, place.column, fmt::format("{}: this program has no {}, and it came without a folder in which another file could have it; put it into the program",
+                                                     asks, wanted));
     }
     if (!is_plain(name)) {
-        return fail(place, place.column, fmt::format("o{} call: this program has no o{} sub, and the name is none of a file in its folder (letters, digits, '_', '-' and '.')",
-                                                     label, label));
+        return fail(place, place.column, fmt::format("{}: this program has no {}, and the name is none of a file in its folder (letters, digits, '_', '-' and '.')", asks, wanted));
     }
     if (sources_.size() > most_files) return fail(place, place.column, fmt::format("a program may use {} files of subprograms; this is one more", most_files));
     Result<std::string> text = subprogram_(name);
-    if (!text) return fail(place, place.column, fmt::format("o{} call: this program has no o{} sub, and {}", label, label, text.error().message));
+    if (!text) return fail(place, place.column, fmt::format("{}: this program has no {}, and {}", asks, wanted, text.error().message));
     auto source = std::make_unique<Source>();
     source->kept = std::move(*text);
     source->text = source->kept;
@@ -128,9 +148,9 @@ bool Walk::load(const FlowPlace& place, const std::string& label, Target& target
         problem_ = take_fault();
         return false;
     }
-    const auto found = kept.index->subs.find(label);
-    if (found == kept.index->subs.end())
-        return fail(place, place.column, fmt::format("o{} call: {} has no o{} sub", label, kept.file, label));
+    const auto& named = numbered ? kept.index->programs : kept.index->subs;
+    const auto found = named.find(label);
+    if (found == named.end()) return fail(place, place.column, fmt::format("{}: {} has no {}", asks, kept.file, wanted));
     target = {&kept, found->second};
     return true;
 }
@@ -139,10 +159,18 @@ bool Walk::give_back(const FlowPlace& place, Interpreter& interpreter) {
     std::vector<double> values;
     bool good = arguments(place, 1, interpreter, values);
     if (frames_.empty()) return good;
-    if (!interpreter.leave_call(values.empty() ? std::nullopt : std::optional<double>(values.front()))) {
-        good = fail(place, place.column, "M73 brings back another plane, unit, work offset or feed mode here, which cannot change while cutter compensation is on; "
-                                         "write G40 and a straight move before the sub ends");
-    }
+    good = leave_call(place, interpreter, values.empty() ? std::nullopt : std::optional<double>(values.front())) && good;
+    back_to_caller();
+    return good;
+}
+
+bool Walk::leave_call(const FlowPlace& place, Interpreter& interpreter, std::optional<double> returned) {
+    if (interpreter.leave_call(returned)) return true;
+    return fail(place, place.column, "M73 brings back another plane, unit, work offset or feed mode here, which cannot change while cutter compensation is on; "
+                                     "write G40 and a straight move before the sub ends");
+}
+
+void Walk::back_to_caller() {
     const Frame& frame = frames_.back();
     lines_ = frame.back;
     counted_from_ = lines_.number();
@@ -150,7 +178,65 @@ bool Walk::give_back(const FlowPlace& place, Interpreter& interpreter) {
     called_at_ = frame.called_at;
     repeats_.resize(frame.repeats);
     frames_.pop_back();
+}
+
+// ---- numbered programs --------------------------------------------------------------------------------------------------------------
+
+/// M98 and M99: calls without arguments, as often as L says.
+Outcome<void> Walk::follow_program(Interpreter& interpreter) {
+    begun_ = true;
+    if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
+    const Block& block = interpreter.block();
+    FlowPlace place(lines_, lines_);
+    place.text = block.text;
+    place.column = block.m_column[m_program];
+    place.line = lines_.number();
+    if (!within_budget(place) || !(block.m[m_program] == 98 ? call_program(place, interpreter) : leave_program(place, interpreter)))
+        return tl::unexpected<Problem>(problem_);
+    return {};
+}
+
+bool Walk::call_program(const FlowPlace& place, Interpreter& interpreter) {
+    const Block& block = interpreter.block();
+    const auto times = block.has('L') ? static_cast<std::int64_t>(block['L']) : 1;
+    const std::string label = fmt::format("{:.0f}", block['P']);
+    Target target{};
+    if (!find_sub(place, label, true, target)) return false;
+    if (times == 0) return true;
+    if (!interpreter.parameters().enter()) return fail(place, place.column, too_deep(asks_for(label, true)));
+    interpreter.parameters().forget_returned();
+    enter(target, target.place, times);
+    return true;
+}
+
+/// Once more, or back. In the main program it is over.
+bool Walk::leave_program(const FlowPlace& place, Interpreter& interpreter) {
+    if (frames_.empty()) {
+        over_ = true;
+        return true;
+    }
+    if (frames_.back().program == no_place)
+        return fail(place, place.column, "M99 ends a numbered program (O100 .. M99), but this is a sub; it ends with endsub, and return leaves it before that");
+    const bool good = leave_call(place, interpreter, std::nullopt);
+    Frame& frame = frames_.back();
+    if (--frame.left == 0) {
+        back_to_caller();
+        return good;
+    }
+    repeats_.resize(frame.repeats);
+    (void)interpreter.parameters().enter();
+    jump(place_at(frame.program));
     return good;
+}
+
+/// A text is over; of a numbered program without M99 that is told.
+bool Walk::text_ended() {
+    if (frames_.empty() || frames_.back().program == no_place || !faults_.empty()) return false;
+    over_ = true;
+    const FlowPlace& begin = place_at(frames_.back().program);
+    fail(begin, begin.column, "the text ends in this numbered program, which M98 has called; end it with M99");
+    faults_.push_back(problem_);
+    return false;
 }
 
 }  // namespace motionrack::control::gcode
