@@ -171,10 +171,12 @@ TEST_F(AServedRack, KilledWhileItStoodKnowsIt) {
         make_ready(served);
         EXPECT_EQ(served.end(SIGKILL), -SIGKILL);
     }
-    Served served(arguments());
-    EXPECT_THAT(served.said, HasSubstr("was cut off"));
-    const json status = served.status();
-    EXPECT_FALSE(status["axes"][0]["trusted"]) << "anything could have moved it since";
+    {
+        Served served(arguments());
+        EXPECT_THAT(served.said, HasSubstr("was cut off"));
+        const json status = served.status();
+        EXPECT_FALSE(status["axes"][0]["trusted"]) << "anything could have moved it since";
+    }
     EXPECT_EQ(entries("order").size(), 3u);
 }
 

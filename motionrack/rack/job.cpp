@@ -11,6 +11,9 @@ namespace {
 
 constexpr Duration slice = milliseconds(50);
 
+/// What a stop at once does to a motor that was fast shows some milliseconds later.
+constexpr Duration shows_after = milliseconds(20);
+
 double counts_per_pulse(const RackAxis& axis) {
     return static_cast<double>(axis.encoder_counts_per_rev) / static_cast<double>(axis.pulses_per_rev());
 }
@@ -170,7 +173,10 @@ JobOutcome Job::run() {
     began_ = rack_.kernel().now();
     const std::uint64_t events_before = rack_.kernel().events();
     out.ended = drive(**axes, out);
-    if (!out.ended && out.ended.error().trouble == Trouble::machine) out.ended.error().file = settings_.program_name;
+    if (!out.ended && out.ended.error().trouble == Trouble::machine) {
+        out.ended.error().file = settings_.program_name;
+        rack_.axes().front().card->host().pass(shows_after);
+    }
     monitor_->finish();
     rack_.on_slice(slice, {});
 

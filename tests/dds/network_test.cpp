@@ -88,7 +88,7 @@ class NetworkAt : public Network, public testing::WithParamInterface<int> {
     NetworkAt() { period_us_ = 1'000'000 / GetParam(); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Frames, NetworkAt, testing::Values(500, 1000), [](const auto& info) { return "at_" + std::to_string(info.param) + "_Hz"; });
+INSTANTIATE_TEST_SUITE_P(Frames, NetworkAt, testing::Values(500, 1000), [](const auto& each) { return "at_" + std::to_string(each.param) + "_Hz"; });
 
 bool is_event(const json& line, const char* kind) { return line.value("event", "") == kind; }
 std::int64_t count_in(const json& line, const char* name) { return line.contains("counts") ? line["counts"].value(name, std::int64_t{-1}) : -1; }

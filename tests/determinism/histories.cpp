@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <motionrack/rack/job.hpp>
+#include <motionrack/rack/session.hpp>
 #include <motionrack/rack/template.hpp>
 #include <stdexcept>
 #include <tests/determinism/histories.hpp>
@@ -16,30 +17,40 @@ rack::RackConfig config_of(const rack::RackReading& reading) {
     return *reading.config;
 }
 
-/// The program on that rack; nothing for a rack that drives none.
-rack::JobOutcome run(rack::Rack& rack, const std::string& program) {
+struct History {
+    std::uint64_t state_hash = 0, trace_hash = 0;
+    Duration time{};
+};
+
+/// The rack with a program, to its end.
+History run(const rack::RackConfig& config, const std::string& program) {
+    rack::Rack rack(config);
     rack::JobSettings settings;
     settings.program = program;
     rack::Job job(rack, settings);
     rack.start();
-    rack::JobOutcome outcome = job.run();
+    const rack::JobOutcome outcome = job.run();
     if (!outcome.ended) throw std::runtime_error(outcome.ended.error().text());
-    return outcome;
+    return {rack.kernel().state_hash(), outcome.trace_hash, outcome.time};
 }
 
-void pass(rack::Rack& rack, Duration time) {
-    const Instant end = rack.kernel().now() + time;
-    while (rack.kernel().now() < end) rack.kernel().run_until(end);
+/// The rack by itself, for half a second.
+History run(const std::filesystem::path& file) {
+    auto session = rack::Session::open(file.string());
+    if (!session) throw std::runtime_error(session.error().text());
+    if (const Result<void> done = (*session)->advance(500'000'000); !done) throw std::runtime_error(done.error().text());
+    const sim::Kernel& kernel = (*session)->rack().kernel();
+    return {(*session)->state_hash(), kernel.trace_hash(), kernel.now()};
 }
 
 }  // namespace
 
 std::string example_histories(const std::filesystem::path& root) {
     std::string out;
+    const rack::RackConfig router = config_of(rack::read_rack_text(*rack::rack_template("router")));
     for (const char* name : {"01_first_move/first_move.ngc", "02_part/part.ngc", "03_helix/helix.ngc"}) {
-        rack::Rack rack(config_of(rack::read_rack_text(*rack::rack_template("router"))));
-        const rack::JobOutcome outcome = run(rack, text_of(root / "examples" / name));
-        out += fmt::format("{} {:016x} {}\n", name, outcome.trace_hash, outcome.time.count());
+        const History history = run(router, text_of(root / "examples" / name));
+        out += fmt::format("{} {:016x} {}\n", name, history.trace_hash, history.time.count());
     }
     return out;
 }
@@ -54,13 +65,9 @@ std::string rack_histories(const std::filesystem::path& root) {
                            Run{"racks/carriage.toml", ""}, Run{"racks/marking.toml", ""}, Run{"04_s_curve/s_curve.toml", "04_s_curve/move.ngc"},
                            Run{"11_carriage/machine.toml", "11_carriage/carriage.ngc"}, Run{"13_stage/machine.toml", ""}, Run{"15_panel/demonstration.toml", ""},
                            Run{"16_probe/machine.toml", "16_probe/probe.ngc"}, Run{"grating_bus/crate.toml", ""}, Run{"grating_bus/three_hosts.toml", ""}}) {
-        rack::Rack rack(config_of(rack::read_rack_file((root / "examples" / one.rack).string())));
-        if (one.program[0] != '\0')
-            run(rack, text_of(root / "examples" / one.program));
-        else
-            rack.start();
-        pass(rack, milliseconds(500));
-        out += fmt::format("{} {:016x} {:016x}\n", one.rack, rack.kernel().state_hash(), rack.kernel().trace_hash());
+        const std::filesystem::path file = root / "examples" / one.rack;
+        const History history = one.program[0] == '\0' ? run(file) : run(config_of(rack::read_rack_file(file.string())), text_of(root / "examples" / one.program));
+        out += fmt::format("{} {:016x} {:016x} {}\n", one.rack, history.state_hash, history.trace_hash, history.time.count());
     }
     return out;
 }

@@ -29,7 +29,6 @@ Point point_of(const TomlNode& node) {
     Point out;
     for (const TomlNode& entry : node.children) {
         if (entry.key == "name") out.name = entry.text;
-        else if (entry.key == "is") out.is = entry.text;
         else if (entry.key == "test") out.test = entry.text;
         else out.values[entry.key] = text_in(entry);
     }

@@ -18,7 +18,6 @@ namespace motionrack::faults {
 /// Where a fault is run. Its values replace "{name}" in the texts of its fault.
 struct Point {
     std::string name;                           ///< "slow"
-    std::string is;                             ///< what that means: "F300"
     std::string test;                           ///< of a fault that a test of another room runs: its name
     std::map<std::string, std::string> values;
 };

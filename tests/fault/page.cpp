@@ -46,8 +46,10 @@ std::string what_is_kept(const Fault& fault) {
 std::string points_text(const std::vector<Point>& points) {
     std::string out;
     for (const Point& point : points) {
-        out += (out.empty() ? "" : "; ") + point.name + (point.is.empty() ? "" : ": " + point.is);
-        for (const auto& [name, value] : point.values) out += fmt::format(", {{{}}} = `{}`", name, value);
+        std::string values;
+        for (const auto& [name, value] : point.values)
+            if (value.find('\n') == std::string::npos) values += fmt::format("{}{} `{}`", values.empty() ? "" : ", ", name, value);
+        out += (out.empty() ? "" : "; ") + point.name + (values.empty() ? "" : " (" + values + ")");
     }
     return out;
 }
@@ -69,6 +71,7 @@ std::string catalogue_page(const std::vector<Group>& groups) {
     for (const Group& group : groups) {
         out += fmt::format("\n## {}\n{}\n", group.name, group.about);
         if (!group.setup.is.empty()) out += fmt::format("Run on {}.\n", group.setup.is);
+        if (!group.setup.program.empty()) out += fmt::format("\n```\n{}```\n\n", group.setup.program);
         if (!group.setup.points.empty()) out += fmt::format("Operating points: {}.\n", points_text(group.setup.points));
         out += "\n| fault | what is injected | what must stop | what the user reads | what is kept |\n|---|---|---|---|---|\n";
         for (const Fault& fault : group.faults) {

@@ -202,6 +202,7 @@ TEST(ServoAxis, TheWatchdogsResetTakesTheTrustAway) {
     ASSERT_FALSE(moved);
     EXPECT_EQ(m.speed(), 0);
     EXPECT_LT(m.mm(), 1'500) << "the watchdog reacts after a second";
+    EXPECT_FALSE(m.axis->trusted());
     ASSERT_TRUE(inject_fault(m.rack, "watchdog.hang=0", "board"));
 }
 

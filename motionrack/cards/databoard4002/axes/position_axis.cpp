@@ -12,6 +12,7 @@ namespace motionrack::databoard4002 {
 namespace {
 
 constexpr Duration look_every = milliseconds(1);
+constexpr Duration watchdog_rest = milliseconds(1'500);      // a card that hangs is reset after a second, and the motor runs out
 constexpr Duration least_progress_time = milliseconds(500);  // a heavy load needs some time until it moves
 constexpr std::int64_t least_progress = 2;                   // a broken line alone goes to and fro by one count
 
@@ -231,8 +232,7 @@ void PositionAxis::rest(Instant now) {
 void PositionAxis::end_with(Error error, bool counted) {
     error_ = std::move(error);
     trusted_ = trusted_ && counted;
-    hold_after_ = false;
-    next_jog_ = 0;
+    hold_after_ = false, next_jog_ = 0;
     static_cast<void>(driver_.quit());
     rest(host_.now());
 }
@@ -281,9 +281,9 @@ void PositionAxis::look_at_stop() {
 void PositionAxis::settle(Instant now) {
     const std::int64_t before = last_counts_;
     if (const auto here = counts(); !here) {
-        error_ = here.error();
         trusted_ = false;
-        doing_ = Doing::nothing;
+        if (!error_) error_ = here.error();
+        if (now - still_since_ > watchdog_rest) doing_ = Doing::nothing;  // until then it may still drive
         return;
     } else if (*here != before) {
         still_since_ = now;

@@ -108,7 +108,7 @@ class AStreamWhile : public testing::TestWithParam<bool> {
     static bool moving() { return GetParam(); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Machine, AStreamWhile, testing::Bool(), [](const auto& info) { return info.param ? "moving" : "standing"; });
+INSTANTIATE_TEST_SUITE_P(Machine, AStreamWhile, testing::Bool(), [](const auto& each) { return each.param ? "moving" : "standing"; });
 
 /// The path of a job that nobody disturbs.
 std::vector<std::array<std::int64_t, 3>> quiet_path() {
@@ -126,7 +126,9 @@ TEST_P(AStreamWhile, WhoseClientLeavesOrLoadsItsPageAgainChangesNothing) {
         WebClient anna = running.stream(token);
         ASSERT_TRUE(anna.order({{"order", "take_control"}}).value("done", false));
         ASSERT_TRUE(anna.order({{"order", "enable"}, {"on", true}}).value("done", false));
-        if (moving()) ASSERT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
+        if (moving()) {
+            ASSERT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
+        }
     }
     WebClient again = running.stream(token);
     if (moving()) again.receive_until(job_is_over);
@@ -138,7 +140,9 @@ TEST_P(AStreamWhile, WhoseClientLeavesOrLoadsItsPageAgainChangesNothing) {
 TEST_P(AStreamWhile, LosesPicturesOfASlowReaderAndNobodyElses) {
     Running running;
     WebClient anna = running.master("anna");
-    if (moving()) ASSERT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
+    if (moving()) {
+        ASSERT_TRUE(anna.order({{"order", "begin"}, {"name", "job"}, {"text", job()}}).value("done", false));
+    }
     WebClient slow(running.port(), false, true);
     ASSERT_EQ(slow.upgrade().status, 101);
     slow.say({{"id", 1}, {"subscribe", {{"rate_hz", 100}}}});
