@@ -31,7 +31,8 @@ def _millions(section: str, name: str) -> Callable[[dict], float]:
 
 
 def _late(results: dict) -> float:
-    return next(row["p99_ms"] for row in results["growth"]["clients"] if row["n"] == 200)
+    rows = results["growth"]["clients"]
+    return next(row["p99_ms"] for row in (rows if isinstance(rows, list) else []) if row["n"] == 200)
 
 
 def _widest(kind: str, size: int, counter: str) -> Callable[[dict], float]:

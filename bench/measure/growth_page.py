@@ -1,6 +1,6 @@
 """The page's tables of whole programs, and of what grows with what."""
 from table import PROGRAMS, belongs
-from text import bytes_of, count, digits, table, time_of
+from text import bytes_of, count, digits, not_measured, table, time_of
 
 
 def _each(cpu_s: float, things: float) -> str:
@@ -8,10 +8,11 @@ def _each(cpu_s: float, things: float) -> str:
 
 
 def whole_programs(results: dict) -> list[str]:
+    made = results.get("programs", {})
+    if not isinstance(made, list):
+        return ["", "## Whole programs", "", not_measured(made)]
     rows = [(row["what"], time_of(1e9 * row["cpu_s"]), f"{digits(row['bytes'] / row['cpu_s'] / 1e6)} MB/s, {_each(row['cpu_s'], row['samples'])} a sample" if "bytes" in row else "",
-             bytes_of(row["peak_bytes"])) for row in results.get("programs", [])]
-    if not rows:
-        return []
+             bytes_of(row["peak_bytes"])) for row in made]
     return ["", "## Whole programs", "", "The program from its start to its end, files in the page cache: the least CPU time of some runs, and the peak of its resident memory.", "",
             *table(("what", "CPU time", "", "peak memory"), rows)]
 
@@ -38,7 +39,8 @@ def _clients(rows: list[dict]) -> list[str]:
 
 
 def _cards(results: dict) -> list[str]:
-    memory = {f"cards/{row['n']}": row["peak_bytes"] for row in results["growth"].get("cards", [])}
+    cards = results["growth"].get("cards", [])
+    memory = {f"cards/{row['n']}": row["peak_bytes"] for row in cards} if isinstance(cards, list) else {}
     program = next(program for program in PROGRAMS if program.name == "growth")
     measured = results["benches"].get("growth", {})
     cells = []
@@ -56,8 +58,7 @@ def _cards(results: dict) -> list[str]:
 
 def growth(results: dict) -> list[str]:
     out = ["", "## Growth", *_cards(results)]
-    made = results["growth"]
-    out += _lines(made["lines"]) if "lines" in made else []
-    out += _edges(made["edges"]) if "edges" in made else []
-    out += _clients(made["clients"]) if "clients" in made else []
+    for what, told, shown in (("lines", "Blocks", _lines), ("edges", "Edges", _edges), ("clients", "Clients", _clients)):
+        rows = results["growth"].get(what, {})
+        out += shown(rows) if isinstance(rows, list) else ["", f"**{told}.** {not_measured(rows)}"]
     return out

@@ -71,6 +71,9 @@ def measure(folder: Path, programs: list[Program], progress: Progress, quick: bo
                 break
             done += 1
             Progress.within(name)
-            results[program.key][plain]["instructions"] = count(folder / f"bench_{program.name}", name, bench.unit[1], quick)
+            try:
+                results[program.key][plain]["instructions"] = count(folder / f"bench_{program.name}", name, bench.unit[1], quick)
+            except Trouble as trouble:
+                say(f"{name} is not counted: {trouble}")
         Progress.end_within()
         say(f"{done} counted")

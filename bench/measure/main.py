@@ -33,10 +33,10 @@ def options(argv: list[str]) -> argparse.Namespace:
     return parser.parse_args(argv)
 
 
-def tried(peer: Callable[..., dict], *how) -> dict:
-    """What a peer did; why not, if it failed: the rest of a long run is not lost for it."""
+def tried(measuring: Callable, *how):
+    """What was measured, or {"missing": why not}: a long run is not lost for a part of it."""
     try:
-        return peer(*how)
+        return measuring(*how)
     except Trouble as trouble:
         say(str(trouble))
         return {"missing": str(trouble).splitlines()[0]}
@@ -57,9 +57,9 @@ def measure(folder: Path, names: list[str], quick: bool) -> dict:
         if not names:
             of_file, of_benches = (program, scratch, progress, quick), (binaries, progress, quick)
             results["peers"] = {"linuxcnc": tried(peers.linuxcnc_steps, scratch, progress, quick), "sigrok": tried(peers.sigrok, *of_file), "rs274": tried(peers.interpreter, *of_file)}
-            results["programs"] = whole.programs(*of_file, ROOT / "examples/02_part/part.ngc")
-            results["growth"] = {"lines": whole.growth_with_lines(*of_file), "edges": whole.growth_with_edges(*of_file),
-                                 "cards": whole.growth_with_cards(*of_benches), "clients": whole.growth_with_clients(*of_benches)}
+            results["programs"] = tried(whole.programs, *of_file, ROOT / "examples/02_part/part.ngc")
+            results["growth"] = {"lines": tried(whole.growth_with_lines, *of_file), "edges": tried(whole.growth_with_edges, *of_file),
+                                 "cards": tried(whole.growth_with_cards, *of_benches), "clients": tried(whole.growth_with_clients, *of_benches)}
     instructions.measure(binaries, programs, progress, quick, results["benches"])
     results["minutes"] = (time.monotonic() - begin) / 60
     return results
@@ -103,6 +103,9 @@ def main(argv: list[str]) -> int:
     except (Trouble, OSError, json.JSONDecodeError) as trouble:
         say(str(trouble))
         return 1
+    except KeyboardInterrupt:
+        say("stopped; nothing was written")
+        return 130
     return 0
 
 

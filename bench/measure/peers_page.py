@@ -1,9 +1,5 @@
 """The page's tables of others on the same work, and what differs."""
-from text import bytes_of, count, ratio, table, time_of
-
-
-def _not_measured(got: dict) -> str:
-    return "Not measured in this run" + (f": {got['missing']}" if got else ".")
+from text import bytes_of, count, not_measured, ratio, table, time_of
 
 
 def _rows_of(ours: dict, theirs: dict, names: tuple[str, str], things: float) -> list[tuple[str, ...]]:
@@ -42,7 +38,7 @@ def _linuxcnc(results: dict) -> list[str]:
     got, chip = results["peers"].get("linuxcnc", {}), results["benches"].get("chip", {})
     out = ["", "### LinuxCNC: steps made and counted", ""]
     if "missing" in got or not got:
-        return [*out, _not_measured(got)]
+        return [*out, not_measured(got)]
     theirs = got["make_ns"] + got["count_ns"]
     rows = [("LinuxCNC: stepgen (quadrature) and encoder, four channels", f"{time_of(theirs)} ({time_of(got['make_ns'])} and {time_of(got['count_ns'])})", "1")]
     for name, how in (("edges_one_by_one/20_kpps", "the virtual chip, motors, encoders; edges decoded one by one"), ("edges_in_batches/20_kpps", "the same, decoded in batches")):
@@ -62,7 +58,7 @@ def _sigrok(results: dict) -> list[str]:
     got = results["peers"].get("sigrok", {})
     out = ["", "### sigrok-cli: encoder counts from a capture", ""]
     if "missing" in got or not got:
-        return [*out, _not_measured(got)]
+        return [*out, not_measured(got)]
     return [*out, f"One VCD file of {count(got['edges'])} encoder edges ({bytes_of(got['file_bytes'])}, 1 us a tick), counted by the decoder `graycode` and by `motionrack decode`; both ended at the same count. What differs: sigrok's",
             "decoder is written in Python and gets each sample of 1 us, and sigrok prints each count; `motionrack decode` prints the sums. Many other protocols are what sigrok is for.",
             "", *table(("by", "an edge, CPU time", "peak memory", "times as fast"), _rows_of(got["ours"], got["theirs"], ("motionrack decode", "sigrok-cli"), got["edges"]))]
@@ -72,7 +68,7 @@ def _rs274(results: dict) -> list[str]:
     got = results["peers"].get("rs274", {})
     out = ["", "### LinuxCNC's interpreter: G-code into canonical calls", ""]
     if "missing" in got or not got:
-        return [*out, _not_measured(got)]
+        return [*out, not_measured(got)]
     return [*out, f"A program of {count(got['lines'])} short lines read and printed as canonical calls, by `rs274 -g` and by `motionrack canon --numbered`, whose moves are compared. What differs: `motionrack canon` knows the",
             "program's whole text before it begins, `rs274` reads line by line from the file.",
             "", *table(("by", "a line, CPU time", "peak memory", "times as fast"), _rows_of(got["ours"], got["theirs"], ("motionrack canon", "rs274"), got["lines"]))]

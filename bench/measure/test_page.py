@@ -67,6 +67,11 @@ class ThePage(unittest.TestCase):
         text = page(results_of(peers={"sigrok": {"edges": 10, "file_bytes": 100, "theirs": {"cpu_s": 1, **alike}, "ours": {"cpu_s": 2, **alike}}}))
         self.assertIn("| motionrack decode | 200 ms | 1.00 MB | 0.500 |", text)
 
+    def test_tells_why_a_part_of_a_run_is_missing(self):
+        gone = {"missing": "bench_serve ended with code 1:"}
+        text = page(results_of(peers={"rs274": gone}, programs=gone, growth={"clients": gone, "cards": gone}))
+        self.assertEqual(text.count("Not measured in this run: bench_serve ended with code 1:"), 3)
+
     def test_is_written_by_the_command_from_results(self):
         with tempfile.TemporaryDirectory() as folder:
             results, out = Path(folder) / "r.json", Path(folder) / "p.md"

@@ -37,6 +37,11 @@ def ratio(value: float) -> str:
     return digits(value)
 
 
+def not_measured(got: dict) -> str:
+    """Why a part of the page is empty, of its results."""
+    return "Not measured in this run" + (f": {got['missing']}" if got else ".")
+
+
 def table(heads: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
     """A Markdown table. Bars inside cells are escaped."""
     def line(cells: tuple[str, ...]) -> str:
