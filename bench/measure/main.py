@@ -22,7 +22,7 @@ PAGE = ROOT / "docs/reference/performance.md"
 
 def options(argv: list[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="bench/page", description="Runs every benchmark, counts instructions, measures memory, growth and peers, and writes docs/reference/performance.md. "
-                                     "The machine should have nothing else to do; progress is told on the way.",
+                                     "Takes about half an hour on a machine that has nothing else to do; progress is told on the way.",
                                      epilog="Example: bench/page --quick    a small run of everything, into build/bench/performance.md")
     parser.add_argument("--quick", action="store_true", help="a small run, whose times say little: each bench once, small files; the page goes to build/bench/performance.md")
     parser.add_argument("--only", nargs="+", default=[], metavar="PROGRAM", help="these benchmark programs alone, without peers, growth and whole programs; the page goes to "

@@ -193,7 +193,7 @@ PROGRAMS = [
         Bench("network", _NETWORK, FRAME, "", ""),
     ], ("chrt", "-f", "50"), "dds_chrt"),
     Program("growth", "Growth of a rack", "Every axis makes the move `stepper`, with machines; cards of a grating bus publish frames each 200 us. What stays the same down the rows grows with the work and no "
-            "faster.", [
+            "faster. More cards cost more a pulse: for each event the kernel looks through all devices for the one that is next.", [
         Bench("axes", "so many axes of one card", ("pulse", "each")),
         Bench("cards", "all four axes of so many cards in one kernel", ("pulse", "each"), "", "/(1|8)$"),
         Bench("frames", "a grating bus with so many slaves and scales, nobody looking", CARD_FRAME, "", ""),
