@@ -48,23 +48,6 @@ BENCHMARK(cruise_twin);
 
 // ---- whole moves with their ramps ----------------------------------------------------------------------------------------------
 
-struct Move {
-    Speeds speeds;
-    std::int64_t pulses = 0;
-    bool s_curve = false;
-};
-// A servo: up to 4 Mpps in 0.16 s (0.32 s), one second there. A stepper: up to 40 kpps in 0.30 s, one second there.
-constexpr Move servo{{16'000, 200, 8'000, 400, 100}, 4'500'000, false};
-constexpr Move servo_s{{16'000, 200, 8'000, 400, 400}, 5'200'000, true};
-constexpr Move stepper{{800'000, 200, 4'000, 100, 100}, 52'000, false};
-constexpr Move stepper_s{{800'000, 200, 4'000, 100, 1'600}, 64'000, true};
-
-template <class Host>
-void prepare(Host& host, const Move& move) {
-    set_speeds(host, move.speeds);
-    host.mode(all_axes, 3, move.s_curve ? 0x0004u : 0u);
-}
-
 void moves(benchmark::State& state, const Move& move, bool machines) {
     Stage stage(machines);
     prepare(stage.host, move);
@@ -162,13 +145,15 @@ void edges(benchmark::State& state, const Speeds& speeds) {
     state.counters["sim_s/s"] = Counter(stage.seconds() - begin, Counter::kIsRate);
     count_edges(state, stage, before, decoders);
 }
-constexpr Speeds at_100_kpps{640'000, 8'000, 8'000, 400, 100}, at_4_mpps{16'000, 8'000, 8'000, 400, 100},
+constexpr Speeds at_20_kpps{640'000, 1'600, 1'600, 400, 100}, at_100_kpps{640'000, 8'000, 8'000, 400, 100}, at_4_mpps{16'000, 8'000, 8'000, 400, 100},
     at_3_997_mpps{16'000, 7'993, 7'993, 400, 100};
 void edges_in_batches(benchmark::State& state, const Speeds& speeds) { edges<sim::BatchDecoder>(state, speeds); }
 void edges_one_by_one(benchmark::State& state, const Speeds& speeds) { edges<OneByOne>(state, speeds); }
+BENCHMARK_CAPTURE(edges_in_batches, 20_kpps, at_20_kpps);
 BENCHMARK_CAPTURE(edges_in_batches, 100_kpps, at_100_kpps);
 BENCHMARK_CAPTURE(edges_in_batches, 4_Mpps, at_4_mpps);
 BENCHMARK_CAPTURE(edges_in_batches, 3_997_Mpps, at_3_997_mpps);
+BENCHMARK_CAPTURE(edges_one_by_one, 20_kpps, at_20_kpps);
 BENCHMARK_CAPTURE(edges_one_by_one, 100_kpps, at_100_kpps);
 BENCHMARK_CAPTURE(edges_one_by_one, 4_Mpps, at_4_mpps);
 

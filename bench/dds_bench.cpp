@@ -117,8 +117,8 @@ void network(benchmark::State& state) {
     state.counters["p999_us"] = percentile(ages, 0.999);
     state.counters["max_us"] = ages.empty() ? 0 : ages.back();
 }
-BENCHMARK(network)->ArgNames({"period_us", "scales"})->Args({200, 8})->Args({200, 255})->UseRealTime()->MinTime(20)->Unit(benchmark::kMillisecond);
-BENCHMARK(network)->ArgNames({"period_us", "scales"})->Args({0, 8})->Args({0, 255})->UseRealTime()->MinTime(5)->Unit(benchmark::kMillisecond);
+BENCHMARK(network)->ArgNames({"period_us", "scales"})->Args({200, 8})->Args({200, 255})->UseRealTime()->MinTime(10)->Unit(benchmark::kMillisecond);
+BENCHMARK(network)->ArgNames({"period_us", "scales"})->Args({0, 8})->Args({0, 255})->UseRealTime()->MinTime(3)->Unit(benchmark::kMillisecond);
 
 /// The CRC included.
 void judging(benchmark::State& state) {

@@ -125,6 +125,12 @@ double processor_seconds(int who) {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+double peak_megabytes() {
+    rusage usage = {};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -162,5 +168,6 @@ int main(int argc, char** argv) {
     tell(served->pacer());
     fmt::print("driven          {} lines\n", line);
     fmt::print("processor       {:.0f} % of one core served, {:.0f} % read\n", 100 * processor_seconds(RUSAGE_SELF) / counted.seconds, 100 * processor_seconds(RUSAGE_CHILDREN) / counted.seconds);
+    fmt::print("memory          {:.1f} MB at most served\n", peak_megabytes());
     return 0;
 }

@@ -1,0 +1,113 @@
+// How the work of a rack grows: with the axes of a card, with its cards, with the cards and the scales of a grating bus. The times are of one
+// pulse and of one frame, so that what grows no faster than the work stays the same down a column. Memory is the process' own, so each size is
+// best run alone: --benchmark_filter=^cards/8$
+#include <benchmark/benchmark.h>
+
+#include <motionrack/cards/grating_bus/test/rig.hpp>
+#include <vector>
+
+#include "chip_work.hpp"
+
+namespace motionrack::bench {
+namespace {
+
+using benchmark::Counter;
+
+/// One of several chips in a kernel, with a machine on each of its axes.
+class Card {
+  public:
+    Card(sim::Kernel& kernel, const std::string& name) : chip_(kernel, name, mcx314::ChipOptions{}) {
+        for (int a = 0; a < 4; ++a) {
+            machines_[a] = std::make_unique<parts::AxisMachine>(kernel, name + "xyzu"[a], machine_settings());
+            machines_[a]->connect(chip_.pulses(a));
+        }
+    }
+    void write(int number, unsigned value) { chip_.write(static_cast<std::uint32_t>(2 * number), static_cast<std::uint16_t>(value)); }
+    void command(unsigned axes, unsigned code) { write(0, axes << 8 | code); }
+    void data(unsigned axes, unsigned code, std::int64_t value) {
+        const auto bits = static_cast<std::uint32_t>(value);
+        write(7, bits >> 16);
+        write(6, bits & 0xFFFFu);
+        command(axes, code);
+    }
+    void mode(unsigned axes, int number, unsigned value) {
+        command(axes, 0x0F);
+        write(number, value);
+    }
+    bool drives() { return (chip_.read(0) & all_axes) != 0; }
+
+  private:
+    mcx314::Chip chip_;
+    std::array<std::unique_ptr<parts::AxisMachine>, 4> machines_;
+};
+
+void advance(sim::Kernel& kernel, Duration time) {
+    const Instant until = kernel.now() + time;
+    while (kernel.run_until(until) == sim::RunEnd::broken) {
+    }
+}
+
+void count(benchmark::State& state, const char* what, double all, double seconds) {
+    state.counters[what] = Counter(all, Counter::kIsRate);
+    state.counters["each"] = Counter(all, Counter::kIsRate | Counter::kInvert);
+    state.counters["sim_s/s"] = Counter(seconds, Counter::kIsRate);
+}
+
+/// So many axes of one card, with machines, make the stepper's move together.
+void axes(benchmark::State& state) {
+    const unsigned mask = (1u << state.range(0)) - 1;
+    Stage stage(true);
+    prepare(stage.host, stepper, mask);
+    stage.host.advance(milliseconds(1));
+    const double begin = stage.seconds();
+    bool plus = true;
+    for (auto _ : state) {
+        drive_fixed(stage.host, stepper.pulses, plus, mask);
+        stage.finish();
+        plus = !plus;
+    }
+    const auto pulses = static_cast<double>(stage.pulses());
+    if (pulses != static_cast<double>(state.range(0) * stepper.pulses) * static_cast<double>(state.iterations())) state.SkipWithError("pulses were lost");
+    count(state, "pulses/s", pulses, stage.seconds() - begin);
+}
+BENCHMARK(axes)->DenseRange(1, 4);
+
+/// All four axes of so many cards in one kernel make the same move.
+void cards(benchmark::State& state) {
+    sim::Kernel kernel;
+    std::vector<std::unique_ptr<Card>> all;
+    for (std::int64_t i = 0; i < state.range(0); ++i) all.push_back(std::make_unique<Card>(kernel, std::string("c").append(std::to_string(i))));
+    kernel.start();
+    for (const auto& card : all) prepare(*card, stepper);
+    advance(kernel, milliseconds(1));
+    const Instant begin = kernel.now();
+    bool plus = true;
+    for (auto _ : state) {
+        for (const auto& card : all) drive_fixed(*card, stepper.pulses, plus);
+        for (const auto& card : all)
+            while (card->drives()) advance(kernel, milliseconds(10));
+        plus = !plus;
+    }
+    const double pulses = 4.0 * static_cast<double>(state.range(0) * stepper.pulses) * static_cast<double>(state.iterations());
+    count(state, "pulses/s", pulses, to_seconds(kernel.now() - begin));
+    state.counters["snapshot_bytes"] = static_cast<double>(kernel.snapshot().bytes.size());
+}
+BENCHMARK(cards)->Arg(1)->Arg(2)->Arg(4)->Arg(8)->Arg(16)->Arg(32);
+
+/// Frames of a grating bus with so many slaves and so many scales, nobody looking; one of `each` is a frame of one card.
+void frames(benchmark::State& state) {
+    const auto slaves = static_cast<int>(state.range(0)), scales = static_cast<int>(state.range(1));
+    grating_bus::Crate crate(grating_bus::crew(slaves, scales), scales, {}, false);
+    std::int64_t periods = 0;
+    for (auto _ : state) crate.run_to(++periods * microseconds(200) - microseconds(100));
+    for (const auto& card : crate.cards)
+        if (card->frames() != periods) state.SkipWithError("a frame was lost");
+    count(state, "frames/s", static_cast<double>(periods) * static_cast<double>(crate.cards.size()), to_seconds(crate.kernel.now() - Instant{0}));
+}
+BENCHMARK(frames)->ArgNames({"slaves", "scales"})->Args({1, 8})->Args({2, 8})->Args({5, 8})->Args({10, 8})->Args({20, 8});
+BENCHMARK(frames)->ArgNames({"slaves", "scales"})->Args({10, 1})->Args({10, 64})->Args({10, 255});
+
+}  // namespace
+}  // namespace motionrack::bench
+
+BENCHMARK_MAIN();
