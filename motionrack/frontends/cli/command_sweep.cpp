@@ -10,6 +10,7 @@
 #include <motionrack/frontends/cli/program_files.hpp>
 #include <motionrack/frontends/cli/stop.hpp>
 #include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/nats/machines.hpp>
 #include <motionrack/rack/counted.hpp>
 #include <motionrack/sweep/picture.hpp>
 #include <motionrack/sweep/work.hpp>
@@ -22,7 +23,7 @@ namespace motionrack::cli {
 namespace {
 
 struct SweepOptions {
-    std::string file, results = "results.csv", picture;
+    std::string file, results = "results.csv", picture, nats;
     int jobs = 0;
     bool fresh = false, quiet = false;
 };
@@ -99,6 +100,20 @@ int write_all(const sweep::Sweep& sweep, sweep::Results& results, const SweepOpt
     return exit_done;
 }
 
+/// Runs what is missing, here or by workers.
+Result<void> run_missing(const sweep::Sweep& sweep, sweep::Results& results, const SweepOptions& options) {
+    ProgressLine progress(options.quiet);
+    const auto show = [&](const sweep::WorkProgress& now) { progress.show(static_cast<double>(now.done) / static_cast<double>(now.points), sweep::progress_text(now)); };
+    if (!options.nats.empty()) {
+        const auto wait = [&] {
+            if (!options.quiet) print_warning(fmt::format("No row came for 10 s. Is a worker running? motionrack sweep-worker --nats {}", nats::without_password(options.nats)));
+        };
+        return nats::gather(sweep, results, options.nats, options.fresh, stop_asked, show, wait);
+    }
+    const auto cores = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(sweep::most_jobs)));
+    return sweep::run_here(sweep, results, options.jobs > 0 ? options.jobs : cores, stop_asked, show);
+}
+
 int sweep_all(const SweepOptions& options) {
     const Loaded loaded = load(options.file);
     if (!loaded.sweep) return loaded.code;
@@ -112,11 +127,7 @@ int sweep_all(const SweepOptions& options) {
     const std::int64_t before = (*results)->done();
     if (before > 0 && !options.quiet) fmt::print("{} of {} were done before\n", before, rack::counted(all.points(), "point"));
     stop_on_signals();
-    ProgressLine progress(options.quiet);
-    const int jobs = options.jobs > 0 ? options.jobs : static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(sweep::most_jobs)));
-    const auto show = [&](const sweep::WorkProgress& now) { progress.show(static_cast<double>(now.done) / static_cast<double>(now.points), sweep::progress_text(now)); };
-    const Result<void> done = sweep::run_here(all, **results, jobs, stop_asked, show);
-    progress.clear();
+    const Result<void> done = run_missing(all, **results, options);
     if (done) return write_all(all, **results, options);
     if (done.error().trouble != Trouble::stopped) return report(done.error());
     return report({Trouble::stopped, fmt::format("Stopped. {} of {} are done and kept in {}; the same command goes on with the rest.", (*results)->done(),
@@ -132,10 +143,12 @@ void add_sweep(CLI::App& app, Action& chosen) {
     command->add_option("-o,--results", options->results, "the table; CSV, or HDF5 if it ends in .h5")->capture_default_str();
     command->add_option("--picture", options->picture, "draw the results as SVG");
     command->add_option("--jobs", options->jobs, "points that run at the same time (default: one for each core)")->check(CLI::Range(1, sweep::most_jobs));
+    command->add_option("--nats", options->nats, "let workers on any machines run the points, through this server with JetStream: nats://HOST:4222; see sweep-worker");
     command->add_flag("--fresh", options->fresh, "run all points anew, whatever was done before");
     command->add_flag("-q,--quiet", options->quiet, "no progress, no summary");
     command->footer("Example: motionrack sweep feeds.toml -o feeds.csv --picture feeds.svg\n"
                     "Example: motionrack sweep feeds.toml -o feeds.h5 --jobs 4\n"
+                    "Example: motionrack sweep feeds.toml --nats nats://bench:4222\n"
                     "Each row is in RESULTS.part as soon as its point is done. After Ctrl-C, a kill or a power cut the same command goes on with what is missing; rows whose rack, program or\n"
                     "values were changed are made anew.");
     command->callback([options, &chosen] { chosen = [options] { return sweep_all(*options); }; });

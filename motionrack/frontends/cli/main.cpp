@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
     add_canon(app, chosen);
     add_plan(app, chosen);
     add_sweep(app, chosen);
+    add_sweep_worker(app, chosen);
     add_decode(app, chosen);
     add_frames(app, chosen);
     add_mark(app, chosen);
