@@ -10,8 +10,9 @@ set(motionrack_hdf5_names hdf5_serial hdf5)
 # Headers that only our own sources include.
 set(motionrack_private_packages "nlohmann_json 3.11" "CLI11 2.1" "CycloneDDS 0.10" "pugixml 1.13" "SQLite3 3.40" "OpenSSL 3.0" "Boost 1.81")
 
-# Those of them that have no CMake package, by their pkg-config names: pictures as PNG.
+# Those of them that have no CMake package (or one that does not work), by their pkg-config names: pictures as PNG; NATS.
 set(motionrack_private_modules "librsvg-2.0>=2.54" "cairo-png>=1.16")
+set(motionrack_nats_module "libnats>=3.4")
 
 macro(motionrack_find_packages)
   foreach(package IN LISTS motionrack_public_packages motionrack_private_packages)
@@ -20,6 +21,7 @@ macro(motionrack_find_packages)
   endforeach()
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(RSVG REQUIRED IMPORTED_TARGET ${motionrack_private_modules})
+  pkg_check_modules(NATS REQUIRED IMPORTED_TARGET ${motionrack_nats_module})
   find_path(MOTIONRACK_HDF5_HEADERS hdf5.h PATH_SUFFIXES hdf5/serial REQUIRED)
   find_library(MOTIONRACK_HDF5_LIBRARY NAMES ${motionrack_hdf5_names} REQUIRED)
   get_filename_component(motionrack_hdf5 "${MOTIONRACK_HDF5_LIBRARY}" NAME_WE)

@@ -6,6 +6,7 @@
 #include <motionrack/rack/config.hpp>
 #include <motionrack/rack/job.hpp>
 #include <motionrack/rack/template.hpp>
+#include <motionrack/sweep/sweep_file.hpp>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -75,6 +76,11 @@ TEST(Docs, TheRackFilePageIsCurrent) {
 TEST(Docs, TheMarkingJobPageIsCurrent) {
     EXPECT_EQ(text_of(root / "docs/reference/marking-job.md"), mark::job_file_reference())
         << "make it anew: motionrack describe marking-job > docs/reference/marking-job.md";
+}
+
+TEST(Docs, TheSweepFilePageIsCurrent) {
+    EXPECT_EQ(text_of(root / "docs/reference/sweep-file.md"), sweep::sweep_file_reference())
+        << "make it anew: motionrack describe sweep-file > docs/reference/sweep-file.md";
 }
 
 TEST(Docs, LinksLeadSomewhere) {

@@ -128,7 +128,7 @@ TEST(Examples, TheBuiltInExampleIsThePart) {
 
 TEST(CommandLine, EveryCommandHasHelpWithAnExample) {
     for (const char* command :
-         {"run", "home", "check", "new", "describe", "trace", "canon", "plan", "bench", "completion", "manual", "registers", "mark", "calibrate scale", "calibrate rotary", "calibrate lag"}) {
+         {"run", "home", "check", "new", "describe", "trace", "canon", "plan", "sweep", "sweep-worker", "bench", "completion", "manual", "registers", "mark", "calibrate scale", "calibrate rotary", "calibrate lag"}) {
         const Ran help = run(examples, std::string(MOTIONRACK_PROGRAM) + " " + command + " --help");
         EXPECT_EQ(help.code, 0) << command;
         EXPECT_NE(help.out.find("Example: "), std::string::npos) << command;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <motionrack/rack/job.hpp>
+#include <motionrack/sim/parts/conditions.hpp>
 
 namespace motionrack::rack {
 
@@ -200,8 +201,12 @@ JobOutcome Job::run() {
 }
 
 void Job::collect_conditions(JobOutcome& out) {
-    for (const sim::Condition& condition : rack_.kernel().conditions())
+    for (const sim::Condition& condition : rack_.kernel().conditions()) {
         out.warnings.push_back({condition.at, 0, rack_.describe(condition)});
+        // What was lost and found again by chance was lost all the same.
+        for (const RunningAxis& axis : rack_.axes())
+            if (condition.device == axis.machine->id() && condition.code == static_cast<std::uint16_t>(parts::AxisCondition::lost_steps)) out.position_trusted = false;
+    }
     if (const std::uint64_t dropped = rack_.kernel().dropped_conditions())
         out.warnings.push_back({rack_.kernel().now(), 0, fmt::format("{} earlier conditions were not kept", dropped)});
     for (JobWarning& warning : out.warnings) {

@@ -147,10 +147,10 @@ void CsvWriter::end_line() {
     MOTIONRACK_ASSERT(fields_ == columns_);
     fields_ = 0;
     buffer_ += "\r\n";
-    if (buffer_.size() >= buffer_size) flush();
+    if (buffer_.size() >= buffer_size) write_out();
 }
 
-void CsvWriter::flush() {
+void CsvWriter::write_out() {
     if (trouble_ == 0 && !buffer_.empty()) {
         errno = 0;
         const std::size_t done = std::fwrite(buffer_.data(), 1, buffer_.size(), as_file(file_));
@@ -160,10 +160,20 @@ void CsvWriter::flush() {
     buffer_.clear();
 }
 
+Result<void> CsvWriter::flush() {
+    MOTIONRACK_ASSERT(fields_ == 0);
+    write_out();
+    return told();
+}
+
 Result<void> CsvWriter::close() {
     if (file_ == nullptr) return {};
-    flush();
+    write_out();
     if (std::fclose(as_file(std::exchange(file_, nullptr))) != 0 && trouble_ == 0) trouble_ = errno;
+    return told();
+}
+
+Result<void> CsvWriter::told() const {
     if (trouble_ == 0) return {};
     return fail(
         Trouble::io,

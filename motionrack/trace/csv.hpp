@@ -38,13 +38,16 @@ class CsvWriter {
     void add(std::string_view text);
     void end_line();
 
+    /// The lines so far are in the file, whatever becomes of this program. Errors: as close.
+    Result<void> flush();
     /// Errors: io, the first error met; what was written is kept.
     Result<void> close();
 
   private:
     CsvWriter() = default;
     void separate();
-    void flush();
+    void write_out();
+    Result<void> told() const;
 
     std::string path_;
     void* file_ = nullptr;

@@ -95,6 +95,10 @@ struct SvgPart {
 /// Pictures one below the other, under a title, in a file of their own.
 std::string svg_column(const std::string& title, std::span<const SvgPart> parts, int width);
 
+/// Pictures beside each other, each of this width, as one without `standalone`; their height is that of the first. Above them is room of
+/// `heading` px for the title.
+std::string svg_row(const std::string& title, std::span<const SvgPart> parts, int width, int heading);
+
 /// A step of 1, 2 or 5 times a power of ten that divides `span` into about `parts`; 1 if there is no such step.
 double nice_step(double span, int parts);
 

@@ -16,6 +16,11 @@ std::string svg_head(const SvgLook& look, const std::string& title);
 /// `anchor`: "start", "middle" or "end". The text is escaped here.
 std::string svg_text(double x, double y, const char* anchor, const std::string& text);
 
+/// The colour of a value, 0 .. 1, from bright to dark: "#f69721"; apart from each other for every eye.
+std::string svg_shade(double part);
+/// What is written upon such a colour.
+const char* svg_ink(double part);
+
 /// The names of a chart's series with the looks of their lines, leftwards from `right`; `baseline` is that of the text. Series without a name
 /// are left out.
 std::string series_names(const SvgChart& chart, double right, double baseline);

@@ -171,17 +171,9 @@ std::string driven_line(const ReportData& data, const Projection& at) {
     return line_through(flat, "driven") + arrows(flat);
 }
 
-/// From slow to fast, apart from each other for every eye and on the pale planned path.
-constexpr std::array<std::array<double, 3>, 5> shades = {{{246, 151, 33}, {222, 90, 96}, {177, 42, 144}, {106, 0, 168}, {13, 8, 135}}};
 constexpr int shade_steps = 20;
 
-std::string shade_colour(int step) {
-    const double at = static_cast<double>(step) / (shade_steps - 1) * (shades.size() - 1);
-    const std::size_t i = std::min(static_cast<std::size_t>(at), shades.size() - 2);
-    const double part = at - static_cast<double>(i);
-    const auto mixed = [&](std::size_t k) { return static_cast<int>(shades[i][k] + part * (shades[i + 1][k] - shades[i][k]) + 0.5); };
-    return fmt::format("#{:02x}{:02x}{:02x}", mixed(0), mixed(1), mixed(2));
-}
+std::string shade_colour(int step) { return svg_shade(static_cast<double>(step) / (shade_steps - 1)); }
 
 /// One line for each run of steps that have the same colour.
 std::string shaded_line(const ReportData& data, const Projection& at, const SvgShade& shade) {

@@ -94,4 +94,16 @@ std::string svg_column(const std::string& title, std::span<const SvgPart> parts,
     return out + "</svg>\n";
 }
 
+std::string svg_row(const std::string& title, std::span<const SvgPart> parts, int width, int heading_height) {
+    const int height = parts.empty() ? 0 : parts.front().height;
+    std::string out = svg_head({width * static_cast<int>(parts.size()), height + heading_height, false}, title);
+    if (heading_height > 0) out += svg_text(chart_left, heading_height - 8, "start", title);
+    int x = 0;
+    for (const SvgPart& part : parts) {
+        out += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\">\n", x, heading_height, width, part.height) + part.svg + "</svg>\n";
+        x += width;
+    }
+    return out + "</svg>\n";
+}
+
 }  // namespace motionrack::trace

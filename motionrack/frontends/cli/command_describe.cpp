@@ -1,4 +1,4 @@
-// describe: a card's registers, commands, states and pins, the keys of a rack file or marking job, or what a served machine can be asked.
+// describe: a card's registers, commands, states and pins, the keys of a rack file, marking job or sweep file, or what a served machine can be asked.
 #include <fmt/format.h>
 
 #include <memory>
@@ -10,6 +10,7 @@
 #include <motionrack/panel/tables.hpp>
 #include <motionrack/rack/catalogue.hpp>
 #include <motionrack/rack/config.hpp>
+#include <motionrack/sweep/sweep_file.hpp>
 
 namespace motionrack::cli {
 
@@ -29,13 +30,17 @@ int describe(const DescribeOptions& options) {
         fmt::print("{}", mark::job_file_reference());
         return exit_done;
     }
+    if (options.what == "sweep-file") {
+        fmt::print("{}", sweep::sweep_file_reference());
+        return exit_done;
+    }
     if (options.what == "api") {
         fmt::print("{}", options.markdown ? panel::api_reference() : panel::openapi().dump(2) + "\n");
         return exit_done;
     }
     const rack::CardKind* kind = rack::find_card_kind(options.what);
     if (!kind) {
-        std::string known = "rack-file, marking-job, api";
+        std::string known = "rack-file, marking-job, sweep-file, api";
         for (const rack::CardKind& each : rack::card_kinds()) known += fmt::format(", {}", each.type);
         print_error(fmt::format("There is nothing called '{}' to describe; there are: {}.", options.what, known));
         return exit_usage;
@@ -49,8 +54,8 @@ int describe(const DescribeOptions& options) {
 
 void add_describe(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<DescribeOptions>();
-    CLI::App* command = app.add_subcommand("describe", "Tell a card's registers, commands, states and pins, the keys of a rack file or marking job, or what a served machine can be asked");
-    command->add_option("CARD", options->what, "a card type (mcx314, databoard4002, ioflex02, rtc5), rack-file, marking-job, or api (OpenAPI)")->required();
+    CLI::App* command = app.add_subcommand("describe", "Tell a card's registers, commands, states and pins, the keys of a rack file, marking job or sweep file, or what a served machine can be asked");
+    command->add_option("CARD", options->what, "a card type (mcx314, databoard4002, ioflex02, rtc5), rack-file, marking-job, sweep-file, or api (OpenAPI)")->required();
     auto* markdown = command->add_flag("--markdown", options->markdown, "as Markdown, as in docs/reference");
     command->add_flag("--json", options->json, "as JSON")->excludes(markdown);
     command->footer("Example: motionrack describe mcx314 | less");

@@ -18,6 +18,8 @@ void add_home(CLI::App& app, Action& chosen);
 void add_check(CLI::App& app, Action& chosen);
 void add_canon(CLI::App& app, Action& chosen);
 void add_plan(CLI::App& app, Action& chosen);
+void add_sweep(CLI::App& app, Action& chosen);
+void add_sweep_worker(CLI::App& app, Action& chosen);
 void add_decode(CLI::App& app, Action& chosen);
 void add_describe(CLI::App& app, Action& chosen);
 void add_registers(CLI::App& app, Action& chosen);

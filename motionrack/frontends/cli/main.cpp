@@ -17,6 +17,7 @@ constexpr const char* footer = R"(Examples:
   motionrack home XY --rack router.toml          find the home switches, tell what was found
   motionrack run part.ngc --record part.h5       keep everything of a run
   motionrack diff a.h5 b.h5                      where two recordings differ first
+  motionrack sweep feeds.toml -o feeds.csv       a program over and over with other parameters
   motionrack new router > router.toml            a commented rack file to start from
   motionrack serve router.toml                   operate a rack in a browser
   motionrack decode run.vcd                      count the encoders in a logic capture
@@ -58,6 +59,8 @@ int main(int argc, char** argv) {
     add_replay(app, chosen);
     add_canon(app, chosen);
     add_plan(app, chosen);
+    add_sweep(app, chosen);
+    add_sweep_worker(app, chosen);
     add_decode(app, chosen);
     add_frames(app, chosen);
     add_mark(app, chosen);

@@ -1,0 +1,44 @@
+// sweep-worker: runs points of sweeps that are gathered elsewhere.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <motionrack/frontends/cli/commands.hpp>
+#include <motionrack/frontends/cli/exit_codes.hpp>
+#include <motionrack/frontends/cli/stop.hpp>
+#include <motionrack/frontends/cli/terminal.hpp>
+#include <motionrack/nats/machines.hpp>
+#include <motionrack/rack/counted.hpp>
+#include <thread>
+
+namespace motionrack::cli {
+
+namespace {
+
+int work(nats::WorkerSettings settings) {
+    if (settings.jobs == 0) settings.jobs = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, static_cast<unsigned>(sweep::most_jobs)));
+    stop_on_signals();
+    std::int64_t count = 0;
+    const Result<void> ended = nats::work(settings, stop_asked, [&count](std::int64_t done) { count = done; });
+    fmt::print("{} done\n", rack::counted(count, "point"));
+    if (ended) return exit_done;
+    if (ended.error().trouble != Trouble::stopped) return report(ended.error());
+    return report({Trouble::stopped, "Stopped; what was begun goes to another worker."});
+}
+
+}  // namespace
+
+void add_sweep_worker(CLI::App& app, Action& chosen) {
+    auto settings = std::make_shared<nats::WorkerSettings>();
+    settings->jobs = 0;
+    CLI::App* command = app.add_subcommand("sweep-worker", "Run points of sweeps that motionrack sweep --nats queued; as many workers as wanted, on any machines");
+    command->add_option("--nats", settings->url, "the server with JetStream: nats://HOST:4222, nats://USER:PASSWORD@HOST:4222")->required();
+    command->add_option("--jobs", settings->jobs, "points that run at the same time (default: one for each core)")->check(CLI::Range(1, sweep::most_jobs));
+    command->add_option("--idle", settings->idle_s, "end when there was nothing to do for so many seconds (default: never)")->check(CLI::Range(0.0, 1e6));
+    command->footer("Example: motionrack sweep-worker --nats nats://bench:4222\n"
+                    "A point of a worker that dies is given to another one after 5 s; one that is stopped by Ctrl-C gives back at once what it has. Workers take only points that their own version\n"
+                    "of motionrack queued.");
+    command->callback([settings, &chosen] { chosen = [settings] { return work(*settings); }; });
+}
+
+}  // namespace motionrack::cli

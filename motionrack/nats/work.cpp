@@ -1,0 +1,129 @@
+// Taking points, running them, answering.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <motionrack/nats/machines.hpp>
+#include <motionrack/nats/queue.hpp>
+#include <mutex>
+#include <thread>
+
+namespace motionrack::nats {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Gives signs of life for points that run, from a thread of its own.
+class Signs {
+  public:
+    Signs() : thread_([this] { run(); }) {}
+    ~Signs() {
+        {
+            const std::lock_guard lock(mutex_);
+            over_ = true;
+        }
+        wake_.notify_all();
+        thread_.join();
+    }
+    void add(Taken& point) {
+        const std::lock_guard lock(mutex_);
+        points_.push_back(&point);
+    }
+    void remove(Taken& point) {
+        const std::lock_guard lock(mutex_);
+        points_.erase(std::find(points_.begin(), points_.end(), &point));
+    }
+
+  private:
+    void run() {
+        std::unique_lock lock(mutex_);
+        while (!wake_.wait_for(lock, std::chrono::milliseconds(silence_ms / 3), [this] { return over_; }))
+            for (Taken* point : points_) point->renew();
+    }
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::vector<Taken*> points_;
+    bool over_ = false;
+    std::thread thread_;
+};
+
+class Worker {
+  public:
+    Worker(const WorkerSettings& settings, const std::atomic<bool>& stop, const std::function<void(std::int64_t)>& done) : settings_(settings), stop_(stop), done_(done) {}
+
+    Result<void> run() {
+        std::vector<std::unique_ptr<Queue>> queues;
+        for (int i = 0; i < settings_.jobs; ++i) {
+            MOTIONRACK_TRY(std::unique_ptr<Queue> queue, Queue::open(settings_.url));
+            queues.push_back(std::move(queue));
+        }
+        std::vector<std::thread> crew;
+        for (const auto& queue : queues) crew.emplace_back([this, &queue] { take_points(*queue); });
+        for (std::thread& one : crew) one.join();
+        if (stop_) return fail(Trouble::stopped, "Stopped on request.");
+        return ended_;
+    }
+
+  private:
+    void take_points(Queue& queue) {
+        while (!stop_ && !over_) {
+            const Result<bool> some = one(queue);
+            const std::lock_guard lock(mutex_);
+            if (!some) {
+                if (ended_) ended_ = tl::unexpected<Error>(some.error());
+                over_ = true;
+            } else if (*some) {
+                last_ = Clock::now();
+                ++count_;
+                if (done_) done_(count_);
+            } else if (settings_.idle_s > 0 && std::chrono::duration<double>(Clock::now() - last_).count() > settings_.idle_s) {
+                return;
+            }
+        }
+    }
+
+    Result<bool> one(Queue& queue) {
+        MOTIONRACK_TRY(const std::unique_ptr<Taken> point, queue.take(500));
+        if (!point) return false;
+        const std::string key = sweep::key_of(point->text());
+        signs_.add(*point);
+        const Result<sweep::Row> row = run_point(*point);
+        signs_.remove(*point);
+        if (!row && row.error().trouble == Trouble::stopped) {
+            point->give_back();
+            return false;
+        }
+        const Result<void> answered = queue.answer(point->sweep(), key, row ? text_of(*row) : text_of(row.error()));
+        // Without an answer, or with one that was not heard of, somebody gets the point again; his answer is the same.
+        if (answered) (void)point->done();
+        return answered.has_value();
+    }
+
+    Result<sweep::Row> run_point(const Taken& point) {
+        if (point.times() > most_times)
+            return fail(Trouble::refused, fmt::format("{} workers had it and died, or were killed, before it was done. It was taken out of the queue; run it alone to see what happens.", most_times));
+        try {
+            return sweep::run_point(point.text(), &stop_);
+        } catch (const std::exception& e) {
+            return fail(Trouble::io, fmt::format("a worker could not run it: {}.", e.what()));
+        }
+    }
+
+    const WorkerSettings& settings_;
+    const std::atomic<bool>& stop_;
+    const std::function<void(std::int64_t)>& done_;
+    Signs signs_;
+    std::mutex mutex_;
+    std::atomic<bool> over_{false};
+    std::int64_t count_ = 0;
+    Clock::time_point last_ = Clock::now();
+    Result<void> ended_;
+};
+
+}  // namespace
+
+Result<void> work(const WorkerSettings& settings, const std::atomic<bool>& stop, const std::function<void(std::int64_t done)>& done) { return Worker(settings, stop, done).run(); }
+
+}  // namespace motionrack::nats

@@ -1,0 +1,62 @@
+// A sweep with all its files read and every point checked, so that nothing is found wrong after hours.
+//
+//   sweep file, rack file, program ──prepare──► Sweep ──point(i)──► PointText ──► text, key
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <motionrack/base/result.hpp>
+#include <motionrack/control/gcode/settings.hpp>
+#include <motionrack/sweep/point.hpp>
+#include <motionrack/sweep/sweep_file.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace motionrack::sweep {
+
+class Sweep {
+  public:
+    std::int64_t points() const { return static_cast<std::int64_t>(keys_.size()); }
+    const std::vector<Parameter>& parameters() const { return file_.parameters; }
+    /// Of point `i`, 0 .. points() - 1: a value for each parameter. Of a grid the last parameter changes from point to point.
+    std::vector<rack::TomlNode> values(std::int64_t i) const;
+    PointText point(std::int64_t i) const;
+    const std::string& key(std::int64_t i) const { return keys_[static_cast<std::size_t>(i)]; }
+
+    const std::string& rack_name() const { return rack_name_; }
+    const std::string& program_name() const { return program_name_; }
+
+  private:
+    friend class Preparation;
+    std::vector<rack::TomlLine> rack_lines(const std::vector<rack::TomlNode>& values) const;
+    std::string program_text(const std::vector<rack::TomlNode>& values) const;
+
+    SweepFile file_;
+    std::string rack_name_, program_name_;
+    rack::TomlNode rack_;
+    std::string program_, tools_;
+    std::map<std::string, std::string> subprograms_;
+    std::vector<std::string> keys_;
+};
+
+struct SweepReading {
+    std::optional<Sweep> sweep;  ///< if there are no errors
+    std::vector<Error> errors;   ///< with the places in the sweep file, the rack file or the program
+    std::vector<Error> warnings;
+};
+
+/// The files that a sweep file names, with the paths that the settings have. The caller knows where they are.
+struct SweepFiles {
+    std::string rack_name, rack;
+    std::string program_name, program;
+    std::string tools_name, tools;                                   ///< empty: none
+    std::function<Result<std::string>(const std::string&)> subprogram;  ///< by its name; may be empty
+};
+
+/// Reads the texts and checks them together: the rack of every point, each text of the program on the rack as its file has it, each
+/// fault on the first rack that gets it.
+SweepReading prepare(SweepFile file, const std::string& name, const SweepFiles& files);
+
+}  // namespace motionrack::sweep

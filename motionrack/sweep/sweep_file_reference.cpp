@@ -1,0 +1,36 @@
+// The reference page of the sweep file, written from the tables that the reader reads with.
+#include <fmt/format.h>
+
+#include <motionrack/rack/fields_table.hpp>
+#include <motionrack/sweep/sweep_fields.hpp>
+
+namespace motionrack::sweep {
+
+namespace {
+
+constexpr std::string_view vary_doc = R"(What is varied, one line each. A value stands for a list of itself.
+
+| name | values | meaning |
+|---|---|---|
+| `"axis.X.max_mm"`, any key of a [rack file](rack-file.md) | as the key takes them | put into the rack file, over what is there; `axis.X.max_mm` without quotes is the same; names with dots in quotes: `wires."motion.xin1"` |
+| `"fault"` | texts | faults as for `run --fault`; several with blanks between, `""` is none |
+| `"text.NAME"` | numbers, texts | put into the program for each `{NAME}`; NAME is up to 32 letters, digits and `_` |
+
+Instead of a list, numbers between two others:
+
+)";
+
+}  // namespace
+
+std::string sweep_file_reference() {
+    const SweepSettings settings;
+    const RangeSettings range;
+    std::string out = fmt::format("# The sweep file\nTOML, for [`motionrack sweep`](../howto/sweep.md). Unknown keys, wrong types, values out of range, racks and programs that would be refused are told all at once, with line and column, "
+                                  "before anything runs. A sweep has at most {} points and {} things that are varied.\n\n", most_points, most_parameters);
+    out += "## [sweep]\n" + rack::fields_table(sweep_fields, &settings, &settings);
+    out += fmt::format("## [vary]\n{}", vary_doc) + rack::fields_table(range_fields, &range, &range);
+    out += "A grid has all combinations; its points are numbered so that the last line of `[vary]` changes first. Numbers between others have few digits: they are off by at most a 20,000th of the range.\n";
+    return out;
+}
+
+}  // namespace motionrack::sweep
