@@ -203,5 +203,23 @@ class Homing(unittest.TestCase):
             Rack.from_file(path).home("Q").check()
 
 
+class Programs(unittest.TestCase):
+    def test_have_tools_and_the_subprograms_beside_them(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, "part.ngc").write_text("G21 F600\nT3 M6 G43\no<side> call [7]\nM2\n", encoding="utf-8")
+            Path(folder, "side.ngc").write_text("o<side> sub\nG1 X#1 Z0\no<side> endsub\n", encoding="utf-8")
+            Path(folder, "tools.tbl").write_text("T3 P1 Z2.5\n", encoding="utf-8")
+            rack = Rack.template("router")
+            with self.assertRaisesRegex(BadInput, "no tool table"):
+                rack.check(path=f"{folder}/part.ngc")
+            with self.assertRaisesRegex(BadInput, "came without a folder"):
+                rack.check(Path(folder, "part.ngc").read_text(encoding="utf-8"), tools=f"{folder}/tools.tbl")
+            with self.assertRaisesRegex(motionrack.FileTrouble, "nowhere.tbl"):
+                rack.check(path=f"{folder}/part.ngc", tools=f"{folder}/nowhere.tbl")
+            outcome = rack.run(path=f"{folder}/part.ngc", tools=f"{folder}/tools.tbl")
+            self.assertIsNone(outcome.error)
+            self.assertEqual((outcome.axes["X"].real_end, outcome.axes["Z"].real_end), (7, 2.5))
+
+
 if __name__ == "__main__":
     unittest.main()
