@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <motionrack/base/numbers.hpp>
 #include <motionrack/rack/counted.hpp>
 #include <motionrack/sweep/picture.hpp>
 #include <motionrack/trace/csv_rows.hpp>
@@ -67,7 +68,7 @@ class Picture {
 
     std::vector<double> column(std::string_view name) const {
         std::vector<double> out;
-        for (std::int64_t i = 0; i < sweep_.points(); ++i) out.push_back(trace::number_of(cell_of(results_.row(i), name)));
+        for (std::int64_t i = 0; i < sweep_.points(); ++i) out.push_back(number_of(cell_of(results_.row(i), name)));
         return out;
     }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <motionrack/base/numbers.hpp>
 #include <motionrack/sweep/results.hpp>
 #include <motionrack/trace/csv_rows.hpp>
 #include <motionrack/trace/hdf5.hpp>
@@ -39,11 +40,11 @@ void write_column(File& file, const TableColumn& column) {
         good = writer.append(bytes.data(), column.cells.size());
     } else if (settings.type == Type::int64) {
         std::vector<std::int64_t> numbers;
-        for (const std::string& cell : column.cells) numbers.push_back(static_cast<std::int64_t>(trace::number_of(cell)));
+        for (const std::string& cell : column.cells) numbers.push_back(static_cast<std::int64_t>(number_of(cell)));
         good = writer.append(numbers.data(), numbers.size());
     } else {
         std::vector<double> numbers;
-        for (const std::string& cell : column.cells) numbers.push_back(trace::number_of(cell));
+        for (const std::string& cell : column.cells) numbers.push_back(number_of(cell));
         good = writer.append(numbers.data(), numbers.size());
     }
     if (!good) file.set_trouble("could not be written");
