@@ -2,11 +2,13 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstdlib>
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "ran.hpp"
 
@@ -57,6 +59,8 @@ class NatsSweep : public InFolder {
   protected:
     void SetUp() override {
         InFolder::SetUp();
+        // Where Debian has it, which is not in everybody's path.
+        ::setenv("PATH", (std::string(std::getenv("PATH")) + ":/usr/sbin").c_str(), 1);
         if (shell("command -v nats-server").code != 0) GTEST_SKIP() << "nats-server is not installed";
         start_server("-1");
         write("part.ngc", "G21 G90 G64 P{TOLERANCE}\nG1 X40 Y20 F3000\nX80 Y0\nX120 Y40\nG0 X0 Y0\nG1 X40 Y20 F3000\nX80 Y0\nX120 Y40\nG0 X0 Y0\n");
@@ -70,7 +74,6 @@ class NatsSweep : public InFolder {
     /// `port`: -1 is a free one, which the server tells in a file.
     void start_server(const std::string& port) {
         server_ = std::make_unique<Process>(folder, "nats-server -js -sd store -a 127.0.0.1 -p " + port + " --ports_file_dir .", "server.txt");
-        std::filesystem::path ports;
         while (server_->runs() && text_of(folder / "server.txt").find("Server is ready") == std::string::npos) {}
         ASSERT_TRUE(server_->runs()) << text_of(folder / "server.txt");
         if (port != "-1") return;
@@ -101,12 +104,15 @@ class NatsSweep : public InFolder {
 };
 
 TEST_F(NatsSweep, IsTheSameTableThoughAWorkerIsKilledInTheMiddle) {
+    // Points that take long, so that a worker is killed in the middle of one.
+    write("part.ngc", "G21 G90 G64 P{TOLERANCE}\no100 repeat [40]\nG1 X40 Y20 F3000\nX80 Y0\nX120 Y40\nG0 X0 Y0\no100 endrepeat\n");
+    write("sweep.toml", "[sweep]\nprogram = \"part.ngc\"\n[vary]\naxis.X.max_accel_mm_s2 = { from = 500, to = 4000, steps = 5 }\ntext.TOLERANCE = [0.01, 0.1]\n");
     auto gather = gatherer();
     auto one = worker("one"), two = worker("two"), three = worker("three");
-    while (gather->runs() && rows() < 20) {}
+    while (gather->runs() && rows() < 3) {}
     EXPECT_EQ(two->end(SIGKILL), -SIGKILL) << said("two");
     EXPECT_EQ(gather->wait(), 0) << said("gatherer");
-    EXPECT_THAT(said("gatherer"), HasSubstr("96 points: 48 machine, 48 ok\n"));
+    EXPECT_THAT(said("gatherer"), HasSubstr("10 points: "));
     EXPECT_EQ(text_of(folder / "out.csv"), local_table());
     // On request a worker gives back what it has.
     EXPECT_EQ(one->end(SIGINT), 130) << said("one");

@@ -11,12 +11,12 @@ namespace motionrack::nats {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto patience = std::chrono::seconds(10);
+constexpr auto least_patience = std::chrono::seconds(10);
 
 class Gatherer {
   public:
     Gatherer(const sweep::Sweep& sweep, sweep::Results& results, Queue& queue, const std::atomic<bool>& stop, const std::function<void(const sweep::WorkProgress&)>& progress,
-             const std::function<void()>& waits)
+             const std::function<void(std::int64_t)>& waits)
         : sweep_(sweep), results_(results), queue_(queue), stop_(stop), progress_(progress), waits_(waits), name_(name_of(sweep)), clock_(results) {
         for (std::int64_t i = 0; i < sweep.points(); ++i) points_.emplace(sweep.key(i), i);
     }
@@ -30,14 +30,15 @@ class Gatherer {
         }
         MOTIONRACK_CHECK(offer());
         Clock::time_point heard = Clock::now();
+        auto patience = least_patience;
         while (!done() && !stop_) {
             // Short waits, so that Ctrl-C is heard.
             MOTIONRACK_TRY(const bool some, take(300));
             if (queue_.came_back()) MOTIONRACK_CHECK(offer());
-            if (some) heard = Clock::now();
+            if (some) heard = Clock::now(), patience = least_patience;
             if (!some && Clock::now() - heard > patience) {
-                heard = Clock::now();
-                if (waits_) waits_();
+                if (waits_) waits_(patience.count());
+                patience *= 2;
                 // Should somebody have taken rows away, their points are run again; all others are in the queue and stay there once.
                 MOTIONRACK_CHECK(offer());
             }
@@ -81,7 +82,7 @@ class Gatherer {
     Queue& queue_;
     const std::atomic<bool>& stop_;
     const std::function<void(const sweep::WorkProgress&)>& progress_;
-    const std::function<void()>& waits_;
+    const std::function<void(std::int64_t)>& waits_;
     std::string name_;
     sweep::WorkClock clock_;
     std::unordered_map<std::string, std::int64_t> points_;
@@ -90,7 +91,7 @@ class Gatherer {
 }  // namespace
 
 Result<void> gather(const sweep::Sweep& sweep, sweep::Results& results, const std::string& url, bool fresh, const std::atomic<bool>& stop,
-                    const std::function<void(const sweep::WorkProgress&)>& progress, const std::function<void()>& waits) {
+                    const std::function<void(const sweep::WorkProgress&)>& progress, const std::function<void(std::int64_t)>& waits) {
     if (results.done() == results.points()) return {};
     MOTIONRACK_TRY(const std::unique_ptr<Queue> queue, Queue::open(url));
     return Gatherer(sweep, results, *queue, stop, progress, waits).run(fresh);

@@ -15,10 +15,10 @@
 namespace motionrack::nats {
 
 /// As sweep::run_here, by workers. What was queued stays so when it is stopped; rows that come meanwhile are fetched by the next one.
-/// `fresh`: forgets what the server still has of this sweep. `waits` is called when no row came for 10 s, and every 10 s from then on.
+/// `fresh`: forgets what the server still has of this sweep. `waits` is called when no row came for 10 s, 20 s, 40 s, with the seconds.
 /// Errors: stopped; io, the server cannot be reached at the start; refused, a point is too long, or killed every worker that had it.
 Result<void> gather(const sweep::Sweep& sweep, sweep::Results& results, const std::string& url, bool fresh, const std::atomic<bool>& stop,
-                    const std::function<void(const sweep::WorkProgress&)>& progress, const std::function<void()>& waits);
+                    const std::function<void(const sweep::WorkProgress&)>& progress, const std::function<void(std::int64_t seconds)>& waits);
 
 struct WorkerSettings {
     std::string url;

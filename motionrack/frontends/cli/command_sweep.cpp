@@ -105,8 +105,9 @@ Result<void> run_missing(const sweep::Sweep& sweep, sweep::Results& results, con
     ProgressLine progress(options.quiet);
     const auto show = [&](const sweep::WorkProgress& now) { progress.show(static_cast<double>(now.done) / static_cast<double>(now.points), sweep::progress_text(now)); };
     if (!options.nats.empty()) {
-        const auto wait = [&] {
-            if (!options.quiet) print_warning(fmt::format("No row came for 10 s. Is a worker running? motionrack sweep-worker --nats {}", nats::without_password(options.nats)));
+        const auto wait = [&](std::int64_t seconds) {
+            progress.clear();
+            if (!options.quiet) print_warning(fmt::format("No row came for {} s. If points do not take so long, start a worker: motionrack sweep-worker --nats {}", seconds, nats::without_password(options.nats)));
         };
         return nats::gather(sweep, results, options.nats, options.fresh, stop_asked, show, wait);
     }
