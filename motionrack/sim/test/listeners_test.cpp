@@ -70,8 +70,8 @@ TEST(EdgeRow, ABatchEndsWhereItIsFullWhereTheDirectionTurnsAndWhereTimeDoesNotFi
     for (std::int64_t i = 1; i <= full + 3; ++i) add(10 * i, i, 1);
     add(1'000'000, full + 2, -1);
     add(1'000'000, full + 1, -1);
-    add(1'000'000 + 0xFFFF'FFFF, full, -1);
-    add(1'000'000 + 0x1'0000'0000, full - 1, -1);
+    add(1'000'000 + 0xFFFF'FFFFLL, full, -1);
+    add(1'000'000 + 0x1'0000'0000LL, full - 1, -1);
     row.hand_over(heard);
     row.hand_over(heard);
     EXPECT_EQ(heard.sizes, (std::vector<std::uint32_t>{static_cast<std::uint32_t>(full), 3, 3, 1}));
