@@ -16,7 +16,7 @@ inline constexpr std::size_t longest_line = 1024;
 /// G codes are kept in tenths: G1 = 10, G38.2 = 382. M codes as they are.
 enum GroupG : std::uint8_t {
     g_nonmodal = 0,  ///< G4 G10 G28 G28.1 G30 G30.1 G53 G92 G92.1 G92.2 G92.3
-    g_motion,        ///< G0 G1 G2 G3 G5 G5.1 G38.2 .. G38.5 G73 G74 G80 G81 .. G86 G89
+    g_motion,        ///< G0 G1 G2 G3 G5 G5.1 G38.2 .. G38.5 G70 .. G72.2, G73 G74 G80 G81 .. G86 G89
     g_plane,         ///< G17 G18 G19
     g_distance,      ///< G90 G91
     g_arc_distance,  ///< G90.1 G91.1

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <motionrack/control/gcode/codes.hpp>
+#include <motionrack/control/gcode/turning.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -18,8 +19,8 @@ constexpr CodeG known_g[] = {
     {51, g_motion},        {52, g_refused},      {53, g_refused},      {800, g_motion},
     {730, g_motion},       {740, g_motion},      {840, g_motion},      {850, g_motion},   {860, g_motion},
     {890, g_motion},       {870, g_refused},     {880, g_refused},     {70, g_refused},   {80, g_refused},
-    {700, g_refused},      {710, g_refused},     {711, g_refused},     {712, g_refused},  {720, g_refused},
-    {721, g_refused},      {722, g_refused},
+    {700, g_motion},       {710, g_motion},      {711, g_motion},      {712, g_motion},   {720, g_motion},
+    {721, g_motion},       {722, g_motion},
     {810, g_motion},       {820, g_motion},      {830, g_motion},      {40, g_nonmodal},  {100, g_nonmodal},
     {280, g_nonmodal},     {281, g_nonmodal},    {300, g_nonmodal},    {301, g_nonmodal}, {530, g_nonmodal},
     {920, g_nonmodal},     {921, g_nonmodal},    {922, g_nonmodal},    {923, g_nonmodal}, {170, g_plane},
@@ -99,7 +100,8 @@ std::string known_m_codes() {
 }
 
 bool is_for_senders(GroupG group, int tenths) {
-    return group != g_spindle && !(group == g_system && tenths > 590) && !(group == g_tool_length && (tenths == 430 || tenths == 432));
+    const bool turns = group == g_motion && is_turning(static_cast<std::int16_t>(tenths));
+    return group != g_spindle && !turns && !(group == g_system && tenths > 590) && !(group == g_tool_length && (tenths == 430 || tenths == 432));
 }
 
 std::string why_not_g(int tenths) {
@@ -114,8 +116,9 @@ std::string why_not_g(int tenths) {
     if (tenths == 950 || tenths == 330 || tenths == 331 || tenths == 760) {
         return name + " needs the angle of the spindle, which this machine does not measure; use G94 (mm/min) or G93";
     }
-    if (tenths == 70 || tenths == 80 || (tenths >= 700 && tenths <= 722))
-        return name + " is for lathes, which this machine is not; let the CAM program put out the cuts as lines, with X as a radius";
+    if (is_turning(static_cast<std::int16_t>(tenths)) && group_of_g(tenths) == g_motion) return name + ": lines from a sender have no contour to turn; run the program as a file";
+    if (tenths == 70) return "G7: X is a radius here, never a diameter; let the CAM program put out radii, and leave G7 out";
+    if (tenths == 80) return "G8: X is always a radius here; leave it out";
     if (tenths == 870) return name + ": boring from behind needs a spindle that stops at an angle, which this machine does not have; use G85, G86 or G89";
     if (tenths == 880) return name + ": nobody pulls the tool out by hand here; use G86 or G89";
     if (tenths == 960) return name + ": spindle speed is always in rev/min here (G97); leave it out";

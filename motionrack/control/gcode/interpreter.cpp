@@ -59,6 +59,7 @@ bool Interpreter::evaluate() {
     axis_words_taken_ = false;
     cutter_plan_.clear();
     tool_edited_.reset();
+    turning_.reset();
     used_ = letter_bit('F') | letter_bit('N') | letter_bit('S') | letter_bit('T');
     end_ = position_;
     if (!check_values()) return false;
@@ -235,9 +236,7 @@ const Step* Interpreter::pull_next() {
             break;
         case todo_spindle:
             event_.kind = StepKind::spindle;
-            event_.spindle = block_.m[m_spindle] == 3   ? Spindle::clockwise
-                             : block_.m[m_spindle] == 4 ? Spindle::counter_clockwise
-                                                        : Spindle::off;
+            event_.spindle = modes_.spindle;
             break;
         case todo_wait:
             fill_dwell(wait_seconds_);
@@ -281,6 +280,10 @@ const Step* Interpreter::pull_motion() {
         moving_.move.end = on_the_way_ ? position_ : via_;
         if (on_the_way_) todo_ &= ~static_cast<std::uint32_t>(todo_motion);
         on_the_way_ = true;
+        return &moving_;
+    }
+    if (motion_ == Motion::turning) {
+        pull_turning();
         return &moving_;
     }
     if (motion_ == Motion::spline ? pull_spline() : cycle_.next(moving_)) return &moving_;

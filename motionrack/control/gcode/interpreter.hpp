@@ -39,6 +39,7 @@
 #include <motionrack/control/gcode/settings.hpp>
 #include <motionrack/control/gcode/spline.hpp>
 #include <motionrack/control/gcode/step.hpp>
+#include <motionrack/control/gcode/turning.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -149,6 +150,14 @@ class Interpreter {
     /// A subprogram ends: its parameters are gone, and the modes are as M73 has kept them. False: they stay as they are, since cutter
     /// compensation is on and would not go with them.
     bool leave_call(std::optional<double> returned);
+    /// The last line is a turning cycle (G70 .. G72.2), which needs its contour: the moves of the sub `label`, which draws_contour()
+    /// reads. Until turn() has it, the line has no steps but its comments and events.
+    bool turns() const { return turning_.has_value(); }
+    const std::string& contour_label() const { return contour_label_; }
+    /// One that reads a contour: as this one, but without limits and with a feed, from where the cycle starts.
+    Interpreter draws_contour() const;
+    /// Gives the line its moves. Errors: with nothing of them.
+    Outcome<void> turn(std::vector<ContourPiece> contour);
     /// No work system is turned from now on, and overrides count.
     void straighten();
 
@@ -168,7 +177,7 @@ class Interpreter {
         todo_motion = 2048,
         todo_stop = 4096
     };
-    enum class Motion : std::uint8_t { single, by_way_of, cycle, spline };
+    enum class Motion : std::uint8_t { single, by_way_of, cycle, spline, turning };
 
     bool evaluate();
     bool check_values();
@@ -244,6 +253,11 @@ class Interpreter {
     bool cycle_within_limits(CyclePlan& plan);
     bool cycle_places(CyclePlan& plan);
     bool cycle_places_turned(CyclePlan& plan);
+    bool turning(std::int16_t code);
+    bool turning_allowed(std::int16_t code);
+    bool turning_words(std::int16_t code, TurningPlan& plan);
+    bool turning_within_limits();
+    void pull_turning();
     bool spline(std::int16_t code);
     bool spline_allowed(std::int16_t code);
     bool cubic_of_words(Planar start, Planar end, Cubic& curve);
@@ -338,6 +352,10 @@ class Interpreter {
     Step moving_;
     Cycle cycle_;
     SplineMoves spline_;
+    std::optional<TurningPlan> turning_;  ///< of the last line
+    std::string contour_label_;
+    std::vector<TurningMove> turned_;
+    std::size_t turned_pulled_ = 0;
 };
 
 }  // namespace motionrack::control::gcode

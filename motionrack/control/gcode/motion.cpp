@@ -30,6 +30,7 @@ bool Interpreter::motion() {
     std::int16_t code = is_explicit ? block_.g[g_motion] : modes_.motion;
     if (code == 800) code = no_motion;
     next_.motion = code;
+    if (is_explicit && is_turning(code)) return turning(code);
     const bool own_axis_words = !axis_words_taken_ && (block_.words & axis_words) != 0;
     const bool own_offsets = (is_arc(code) || is_spline(code)) && (block_.words & offset_words) != 0;
     const bool wants_motion = own_axis_words || (own_offsets && !axis_words_taken_);

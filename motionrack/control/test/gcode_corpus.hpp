@@ -62,6 +62,31 @@ inline std::string motion_lines(const std::string& canon) {
     return out;
 }
 
+/// "G71": these cycles put no moves out that lead nowhere, while rs274 does.
+inline bool turns(const std::string& name) {
+    return name.starts_with("lathe");
+}
+
+/// The lines without those that lead to where the one before led.
+inline std::string that_lead_on(const std::string& lines) {
+    std::string out, last;
+    std::istringstream text(lines);
+    for (std::string line; std::getline(text, line);) {
+        const std::size_t open = line.find('(');
+        std::vector<std::string> n;
+        std::istringstream numbers(line.substr(open + 1));
+        for (std::string one; std::getline(numbers, one, ',');) n.push_back(one.substr(one.find_first_not_of(' ')));
+        const std::string to = line.starts_with("ARC") ? n.at(1) + ' ' + n.at(0) : n.at(0) + ' ' + n.at(2);  // of G18: X Z
+        if (to != last) out += line + '\n';
+        last = to;
+    }
+    return out;
+}
+
+inline std::string compared(const std::string& name, const std::string& canon) {
+    return turns(name) ? that_lead_on(motion_lines(canon)) : motion_lines(canon);
+}
+
 inline std::string printed(const std::string& program, CanonOptions options = {}, const Settings& settings = machine("XYZABC", 1e5)) {
     std::string out;
     const auto done = print_canon(program, settings, options, [&](std::string_view line) { out += line; });

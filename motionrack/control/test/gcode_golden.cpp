@@ -17,9 +17,9 @@ using namespace testing::corpus;
 class GcodeGolden : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(GcodeGolden, MovesAreThoseOfRs274) {
-    const std::string expected = motion_lines(file_text(folder() + GetParam() + ".canon"));
+    const std::string expected = compared(GetParam(), file_text(folder() + GetParam() + ".canon"));
     ASSERT_GT(expected.size(), 50u);
-    EXPECT_EQ(motion_lines(printed(file_text(folder() + GetParam() + ".ngc"), {}, settings_of(GetParam()))), expected);
+    EXPECT_EQ(compared(GetParam(), printed(file_text(folder() + GetParam() + ".ngc"), {}, settings_of(GetParam()))), expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, GcodeGolden, ::testing::ValuesIn(names()), [](const auto& parameter) { return parameter.param; });

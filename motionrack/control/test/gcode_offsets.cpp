@@ -206,7 +206,8 @@ TEST(GcodeModes, AreKeptAndBroughtBack) {
 TEST(GcodeModes, WhatTheMachineDoesNotHaveIsRefused) {
     EXPECT_EQ(problem_of("M48\nM50\nM50 P1\nM51 P1\nM52 P0\nM53 P1\nM60\nG97 S500"), "there are 0 problems");
     for (const char* line : {"M52", "M52 P1"}) EXPECT_THAT(problem_of(line), HasSubstr("adaptive feed")) << line;
-    for (const char* line : {"G7", "G8", "G70 Q1", "G71 Q1", "G72.2"}) EXPECT_THAT(problem_of(line), HasSubstr("for lathes")) << line;
+    EXPECT_THAT(problem_of("G7"), HasSubstr("X is a radius here, never a diameter"));
+    EXPECT_THAT(problem_of("G8"), HasSubstr("X is always a radius here; leave it out"));
     for (const char* line : {"G33 Z1 K1", "G33.1 Z1 K1", "G76 P1", "G95"}) EXPECT_THAT(problem_of(line), HasSubstr("angle of the spindle")) << line;
     for (const char* line : {"G87 X1 Z1 R1", "G88 X1 Z1 R1 P1"}) EXPECT_THAT(problem_of(line), HasSubstr("use G8")) << line;
     EXPECT_THAT(problem_of("G96 D100 S5"), HasSubstr("rev/min"));

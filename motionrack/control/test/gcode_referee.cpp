@@ -12,9 +12,9 @@ TEST(GcodeReferee, Rs274MovesAsWeDoInEveryProgramOfTheCorpus) {
         if (entry.path().extension() == ".ngc") std::filesystem::copy(entry.path(), at.path());
     write(at.file("tools.tbl"), table_in_inches());
     for (const std::string& name : names()) {
-        const std::string theirs = motion_lines(of_rs274(at, name, has_tools(name)));
-        EXPECT_EQ(motion_lines(printed(file_text(folder() + name + ".ngc"), {}, settings_of(name))), theirs) << name;
-        EXPECT_EQ(motion_lines(file_text(folder() + name + ".canon")), theirs) << name << ".canon is not what rs274 prints";
+        const std::string theirs = compared(name, of_rs274(at, name, has_tools(name)));
+        EXPECT_EQ(compared(name, printed(file_text(folder() + name + ".ngc"), {}, settings_of(name))), theirs) << name;
+        EXPECT_EQ(compared(name, file_text(folder() + name + ".canon")), theirs) << name << ".canon is not what rs274 prints";
     }
 }
 

@@ -32,6 +32,7 @@ class Walk {
         const Block& block = interpreter.block();
         if (block.flow) return follow(interpreter);
         if (block.has_m(m_program)) return follow_program(interpreter);
+        if (interpreter.turns()) return follow_contour(interpreter);
         if (const bool stops = block.has_m(m_stop) && (block.m[m_stop] == 2 || block.m[m_stop] == 30); stops || block.percent || !begun_) see_end(block, stops);
         return {};
     }
@@ -80,6 +81,10 @@ class Walk {
 
     Outcome<void> follow(Interpreter& interpreter);
     Outcome<void> follow_program(Interpreter& interpreter);
+    Outcome<void> follow_contour(Interpreter& interpreter);
+    bool read_contour(Interpreter& reader, std::vector<ContourPiece>& contour);
+    bool add_contour(Interpreter& reader, const FlowPlace& here, std::vector<ContourPiece>& contour, Point& at, bool& begun);
+    FlowPlace this_line(const Block& block, std::size_t column) const;
     bool call_program(const FlowPlace& place, Interpreter& interpreter);
     bool leave_program(const FlowPlace& place, Interpreter& interpreter);
     bool leave_call(const FlowPlace& place, Interpreter& interpreter, std::optional<double> returned);

@@ -187,13 +187,18 @@ Outcome<void> Walk::follow_program(Interpreter& interpreter) {
     begun_ = true;
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     const Block& block = interpreter.block();
-    FlowPlace place(lines_, lines_);
-    place.text = block.text;
-    place.column = block.m_column[m_program];
-    place.line = lines_.number();
+    const FlowPlace place = this_line(block, block.m_column[m_program]);
     if (!within_budget(place) || !(block.m[m_program] == 98 ? call_program(place, interpreter) : leave_program(place, interpreter)))
         return tl::unexpected<Problem>(problem_);
     return {};
+}
+
+FlowPlace Walk::this_line(const Block& block, std::size_t column) const {
+    FlowPlace place(lines_, lines_);
+    place.text = block.text;
+    place.column = static_cast<std::uint16_t>(column);
+    place.line = lines_.number();
+    return place;
 }
 
 bool Walk::call_program(const FlowPlace& place, Interpreter& interpreter) {
