@@ -86,6 +86,7 @@ class JetStreamQueue final : public Queue {
         const Options owned(options);
         if (status == NATS_OK) status = natsOptions_SetURL(options, url.c_str());
         if (status == NATS_OK) status = natsOptions_SetName(options, "motionrack");
+        if (status == NATS_OK) status = natsOptions_SetTimeout(options, 10'000);
         if (status == NATS_OK) status = natsOptions_SetMaxReconnect(options, -1);
         if (status == NATS_OK) status = natsOptions_SetReconnectWait(options, 500);
         if (status == NATS_OK) status = natsOptions_SetErrorHandler(options, [](natsConnection*, natsSubscription*, natsStatus, void*) {}, nullptr);
