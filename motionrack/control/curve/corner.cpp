@@ -15,13 +15,6 @@ constexpr double no_limit = 1e300;
 constexpr double least_jerk_seconds = 1e-6;
 /// Speeds are found to about a part of 2 to this power: times are compared, not driven.
 constexpr int halvings = 12;
-constexpr double rounding = 1e-9;
-
-/// From one speed to another that is `more`, without acceleration at both.
-double ramp_seconds(double more, const Leg& leg) {
-    const double full = leg.accel * leg.accel / leg.jerk;
-    return more > full ? more / leg.accel + leg.accel / leg.jerk : 2 * std::sqrt(more / leg.jerk);
-}
 
 /// The greatest speed in least .. most for which way(speed), which grows, is no longer than `length`.
 template <class Way>
@@ -43,12 +36,6 @@ Side side_at(const Joint& joint, bool stops, const Leg& leg) {
     return {std::min(joint.speed, leg.speed), joint.speed < leg.speed ? joint.half : 0};
 }
 
-/// In a launch into one leg and a landing on the other at the same time.
-double overlap_seconds(const Leg& before, const Leg& after, const Point& in, const Point& out, double room_mm, const MachineLimits& limits) {
-    const auto rise = [](const Leg& leg) { return std::min({leg.accel / leg.jerk, std::sqrt(leg.speed / leg.jerk), cube_root(0.5 * leg.length / leg.jerk)}); };
-    return std::min({rise(before), rise(after), overlap_within(room_mm, before.jerk, in, after.jerk, out, limits)});
-}
-
 /// The least of an axis' limit / |tangent|, and of `least`.
 template <class LimitOf>
 double least_along(const Point& tangent, double least, LimitOf limit_of) {
@@ -58,6 +45,11 @@ double least_along(const Point& tangent, double least, LimitOf limit_of) {
 }
 
 }  // namespace
+
+double ramp_seconds(double more, const Leg& leg) {
+    const double full = leg.accel * leg.accel / leg.jerk;
+    return more > full ? more / leg.accel + leg.accel / leg.jerk : 2 * std::sqrt(more / leg.jerk);
+}
 
 double speed_along(const Point& tangent, const MachineLimits& limits) {
     return least_along(tangent, no_limit, [&](std::size_t i) { return limits[i].max_speed; });
@@ -72,18 +64,8 @@ double jerk_along(const Point& tangent, const MachineLimits& limits) {
     return least_along(tangent, greatest, [&](std::size_t i) { return limits[i].max_jerk > 0 ? limits[i].max_jerk : std::numeric_limits<double>::infinity(); });
 }
 
-// With t from the next one's begin, the one before it has still jerk (T - t)^3 / 6 to go, and the next one has gone jerk t^3 / 6. The path is
-// no farther from one side than it has gone along the other, so it is farthest where both are equal. Speeds and accelerations are greatest at
-// the ends, where one of the two is 0.
-double overlap_within(double room_mm, double jerk_in, const Point& in, double jerk_out, const Point& out, const MachineLimits& limits) {
-    if (!(room_mm > 0)) return 0;
-    for (std::size_t i = 0; i < limits.size(); ++i)
-        if (limits[i].max_jerk > 0 && std::fabs(jerk_in * in[i] + jerk_out * out[i]) > limits[i].max_jerk * (1 + rounding)) return 0;
-    return (1 + cube_root(jerk_in / jerk_out)) * cube_root(6 * room_mm / jerk_in);
-}
-
 // The tangent changes as two parabolas: its greatest rate is 2 changes over the width, the rate's rate is 4 over its square.
-Joint choice_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double width, double room_mm, const MachineLimits& limits) {
+Joint choice_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double width, const MachineLimits& limits) {
     Point change;
     for (std::size_t i = 0; i < change.size(); ++i) change[i] = out[i] - in[i];
     const double by_accel = std::sqrt(0.5 * share_of_a_bend * width * accel_along(change, limits));
@@ -93,7 +75,6 @@ Joint choice_between(const Leg& before, const Leg& after, const Point& in, const
     joint.speed = std::min(by_accel, by_jerk);
     joint.can_stop = joint.speed < std::max(before.speed, after.speed);
     joint.half = 0.5 * width;
-    if (joint.can_stop) joint.gain = overlap_seconds(before, after, in, out, room_mm, limits);
     return joint;
 }
 

@@ -30,17 +30,16 @@ struct Joint {
     bool is_choice() const { return can_stop && can_pass; }
 };
 
+/// s from one speed to another that is `more`, without acceleration at both.
+double ramp_seconds(double more, const Leg& leg);
+
 /// What the axes can do along `tangent`, or over a turn: the least of limit / |tangent|.
 double speed_along(const Point& tangent, const MachineLimits& limits);
 double accel_along(const Point& tangent, const MachineLimits& limits);
 double jerk_along(const Point& tangent, const MachineLimits& limits);
 
-/// s by which the next stretch may begin before the one before has ended, both with constant jerk, so that at a corner the path is no farther
-/// from its sides than `room_mm`; 0: there is no room, or an axis of both would get too much jerk.
-double overlap_within(double room_mm, double jerk_in, const Point& in, double jerk_out, const Point& out, const MachineLimits& limits);
-
-/// A turn from one tangent to another that is spread over `width`, between these legs; `room_mm`: how far a stop may be from its corner.
-Joint choice_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double width, double room_mm, const MachineLimits& limits);
+/// A turn from one tangent to another that is spread over `width`, between these legs. What a stop wins is not told.
+Joint choice_between(const Leg& before, const Leg& after, const Point& in, const Point& out, double width, const MachineLimits& limits);
 
 /// s; a joint that is stopped at is left with its point. Very long where the leg has no room for it.
 double leg_seconds(const Leg& leg, const Joint& begin, bool stops_at_begin, const Joint& end, bool stops_at_end);

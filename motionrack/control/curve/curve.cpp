@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <motionrack/base/result.hpp>
 #include <motionrack/control/curve/curve.hpp>
 
@@ -141,7 +142,7 @@ bool CurveBuilder::next_turn() {
     if (arc)
         begin_arc(span, spans_.at(1));
     else
-        u_end_ += span.length;
+        add_line(span);
     last_ = span;
     spans_.pop();
     return true;
@@ -159,6 +160,8 @@ void CurveBuilder::begin_curve(const Span& span) {
     begun_ = true;
     turns_.clear();
     u_end_ = cursor_ = 0;
+    ease_in_ = {};
+    eased_from_ = std::numeric_limits<double>::infinity();
     first_event_ = past_event_ = 0;
     placed_ = alive_ = edge_ = 0;
     Turn& turn = add_turn(0, span.start, span.tangent_in);
@@ -166,6 +169,18 @@ void CurveBuilder::begin_curve(const Span& span) {
     turn.feed = span.feed;
     turn.line = span.line;
     turns_.added();
+}
+
+void CurveBuilder::add_line(const Span& line) {
+    if (line.ease_in.length > 0) {
+        ease_in_ = line.ease_in;
+        add_event(u_end_ + ease_in_.length);
+    }
+    u_end_ += line.length;
+    if (line.ease_out.length > 0) {
+        ease_out_ = line.ease_out;
+        add_event(eased_from_ = u_end_ - ease_out_.length);
+    }
 }
 
 void CurveBuilder::add_corner(const Span& span) {
@@ -291,6 +306,7 @@ void CurveBuilder::fill(CurvePiece& piece, double end) {
     piece.begin = from;
     piece.length = end - from;
     piece.line = edge.line;
+    piece.jerk_share = middle < ease_in_.length ? ease_in_.share : middle > eased_from_ ? ease_out_.share : 1;
     piece.feed = edge.feed;
     piece.tangent = edge.tangent;
     piece.bend = piece.twist = Point{};

@@ -40,6 +40,7 @@ struct CurvePiece {
     std::int32_t line = 0;  ///< of the move on which the piece lies; of merged chords, the first one's
     double feed = 0;  ///< greatest du/dt, 1/s, at which XYZ nowhere on it exceed the programmed feed; infinity: as fast
                       ///< as the axes can
+    double jerk_share = 1;  ///< of the axes' jerk, which the motion along it takes
 };
 
 Point position_on(const CurvePiece& piece, double x);
@@ -96,6 +97,7 @@ class CurveBuilder {
     bool next_turn();
     void begin_curve(const Span& span);
     void add_corner(const Span& span);
+    void add_line(const Span& line);
     void begin_arc(const Span& arc, const Span& next);
     void add_arc_corner();
     Turn& add_turn(double u, const Point& at, const Point& tangent);
@@ -112,6 +114,8 @@ class CurveBuilder {
     bool begun_ = false;   ///< there is a curve, of which this is known:
     Span last_;            ///< the span whose turns were made last
     double u_end_ = 0;     ///< where it ends
+    Ease ease_in_, ease_out_;  ///< of its first and of its last line
+    double eased_from_ = 0;    ///< where this one begins
     bool in_arc_ = false;  ///< of the last span there are more turns
     ArcPolygon arc_;
     ArcCorner corner_ = {};  ///< the next of arc_

@@ -176,9 +176,18 @@ double SpanMaker::width_between(const Span& before, const Span& after) const {
     return width;
 }
 
-Joint SpanMaker::joint_between(const Span& before, const Span& after, double room_mm) const {
-    if (!after.tangent) return choice_between(leg_of(before), leg_of(after), before.tangent_out, after.tangent_in, width_between(before, after), room_mm, limits_);
+Joint SpanMaker::joint_between(Waiting& before, const Span& after) const {
     Joint joint;
+    if (!after.tangent) {
+        const Leg leg_in = leg_of(before.span), leg_out = leg_of(after);
+        const Point &in = before.span.tangent_out, &out = after.tangent_in;
+        joint = choice_between(leg_in, leg_out, in, out, width_between(before.span, after), limits_);
+        if (!joint.can_stop || before.span.kind == SpanKind::arc || after.kind == SpanKind::arc) return joint;
+        before.room_mm = room_to_cut(before.span, after);
+        before.stop = stop_between(leg_in, leg_out, in, out, before.room_mm, limits_);
+        joint.gain = before.stop.gain;
+        return joint;
+    }
     joint.can_stop = false;
     joint.can_pass = true;
     joint.speed = std::numeric_limits<double>::infinity();
@@ -302,18 +311,22 @@ void SpanMaker::close() {
         choice_.begin();
     } else {
         Waiting& before = waiting(waiting_past_ - 1);
-        before.room_mm = room_to_cut(before.span, last_);
-        choice_.add(leg_of(before.span), joint_between(before.span, last_, before.room_mm));
+        choice_.add(leg_of(before.span), joint_between(before, last_));
     }
-    waiting(waiting_past_++) = {last_, last_move_.line, 0};
+    waiting(waiting_past_++) = {last_, last_move_.line, 0, {}};
     make_decided();
 }
 
 void SpanMaker::make_decided() {
     while (choice_.decided() > 0) {
-        const Waiting& ended = waiting(waiting_++);
+        Waiting& ended = waiting(waiting_++);
+        const bool stops = choice_.take() && waiting_ < waiting_past_;
+        if (stops) {
+            ended.span.ease_out = ended.stop.before;
+            waiting(waiting_).span.ease_in = ended.stop.after;
+        }
         make(ended.span);
-        if (choice_.take() && waiting_ < waiting_past_) make_rest(0, ended.last_line, ended.room_mm, ended.span.end);
+        if (stops) make_rest(0, ended.last_line, ended.room_mm, ended.span.end);
     }
 }
 

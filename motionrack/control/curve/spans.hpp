@@ -7,6 +7,7 @@
 #include <motionrack/control/curve/bow.hpp>
 #include <motionrack/control/curve/joint_choice.hpp>
 #include <motionrack/control/geometry.hpp>
+#include <motionrack/control/curve/stop.hpp>
 #include <motionrack/control/limits.hpp>
 #include <motionrack/control/move.hpp>
 
@@ -48,6 +49,7 @@ struct Span {
     Tolerance merged;     ///< of this, by merging chords
     double feed = 0;      ///< greatest du/dt by the program
     double speed = 0;     ///< the lesser of this and of what the axes can do
+    Ease ease_in, ease_out;
     double seconds = 0;   ///< rest
     double room_mm = 0;   ///< rest: how far the path may be from the sides of the corner here
     Bow bow;              ///< arc
@@ -83,7 +85,6 @@ class SpanMaker {
     bool has_width(const Span& span, const Point& in, const Point& out) const;
     double room_to_cut(const Span& before, const Span& after) const;
     double width_between(const Span& before, const Span& after) const;
-    Joint joint_between(const Span& before, const Span& after, double room_mm) const;
     Leg leg_of(const Span& span) const;
     bool merge(const Move& move, const Span& next);
     bool lies_along(const Point& end, const Span& next) const;
@@ -99,7 +100,9 @@ class SpanMaker {
         Span span;
         std::int32_t last_line = 0;  ///< of the last move in it
         double room_mm = 0;          ///< at its end
+        Stop stop;                   ///< there, if it is one
     };
+    Joint joint_between(Waiting& before, const Span& after) const;
     static constexpr std::size_t most_waiting = JointChoice::most + 2;
     Waiting& waiting(std::size_t i) { return spans_waiting_[i % most_waiting]; }
 

@@ -1,4 +1,5 @@
 // Two passes and a hull over the cells.
+#include <motionrack/control/feed/eased_feed.hpp>
 #include <motionrack/control/feed/feed_planner.hpp>
 
 #include <algorithm>
@@ -49,6 +50,7 @@ std::span<const FeedPiece> FeedPlanner::sketch(std::span<const FeedSpan> spans, 
         else write_s_curve(spans.front());
         return pieces_;
     }
+    if (!moving() && write_eased_feed(spans, pieces_)) return pieces_;
     cut(spans);
     if (again) approach_again();
     else approach();

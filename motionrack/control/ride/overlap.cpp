@@ -1,15 +1,183 @@
 #include <motionrack/control/ride/overlap.hpp>
 
 #include <algorithm>
-#include <motionrack/control/curve/corner.hpp>
+#include <array>
+#include <cmath>
 
 namespace motionrack::control {
 
-double overlap_of(const StretchEnd& in, const StretchEnd& out, double room_mm, const MachineLimits& limits) {
-    if (!is_straight(in.curve) || !is_straight(out.curve)) return 0;
-    if (in.feed.length > in.curve.length || out.feed.length > out.curve.length) return 0;
-    const double within = overlap_within(room_mm, in.feed.jerk, in.curve.tangent, out.feed.jerk, out.curve.tangent, limits);
-    return std::min({in.feed.seconds, out.feed.seconds, within});
+namespace {
+
+/// Of a limit.
+constexpr double rounding = 1e-7;
+/// Of a piece's time.
+constexpr double hair = 1e-12;
+/// A time on a piece is found to a part of 2 to this power.
+constexpr int halvings = 14;
+/// Where an axis of both gets too much, the overlap is sought this much shorter, so often.
+constexpr double shorter = 0.96;
+constexpr int tries = 12;
+
+bool is_constant_jerk(const FeedPiece& piece) { return piece.phase != FeedPhase::cell; }
+
+bool speeds_up(const FeedPiece& piece) {
+    const double begin = piece.at(0).accel, end = piece.last().accel;
+    return begin >= 0 && end >= 0 && begin + end > 0;
+}
+
+bool are_one_line(const CurvePiece& a, const CurvePiece& b) { return is_straight(a) && a.tangent == b.tangent && a.feed == b.feed; }
+
+struct Times {
+    double before = 0, after = 0;
+};
+/// On a piece, just before and just after it is at `place`.
+Times times_about(const FeedPiece& piece, double place) {
+    Times out{0, piece.seconds};
+    for (int i = 0; i < halvings; ++i) {
+        const double middle = 0.5 * (out.before + out.after);
+        (piece.at(middle).place < place ? out.before : out.after) = middle;
+    }
+    return out;
+}
+
+/// s before the end, from which on no more than `room` is to go.
+double seconds_to_go(std::span<const FeedPiece> feed, double room) {
+    const double place = feed.back().begin + feed.back().length - room;
+    double seconds = 0;
+    for (std::size_t i = feed.size(); i-- > 0; seconds += feed[i].seconds)
+        if (feed[i].begin < place) return seconds + feed[i].seconds - times_about(feed[i], place).after;
+    return seconds;
+}
+
+/// s from the begin, until which no more than `room` is gone.
+double seconds_gone(std::span<const FeedPiece> feed, double room) {
+    const double place = feed.front().begin + room;
+    double seconds = 0;
+    for (const FeedPiece& piece : feed) {
+        if (piece.begin + piece.length > place) return seconds + times_about(piece, place).before;
+        seconds += piece.seconds;
+    }
+    return seconds;
+}
+
+// From any instant of the overlap on, either the one before has no more than the room to go, or until then the next one has gone no more than
+// that. The path is no farther from one side than it has gone along the other.
+double longest_within(std::span<const FeedPiece> in, std::span<const FeedPiece> out, double room_mm) {
+    return seconds_to_go(in, room_mm) + seconds_gone(out, room_mm);
+}
+
+/// A stretch end, piece by piece.
+class Walk {
+  public:
+    Walk(std::span<const FeedPiece> feed, double seconds) : feed_(feed), time_(seconds) {
+        while (piece_ + 1 < feed_.size() && time_ >= feed_[piece_].seconds) time_ -= feed_[piece_++].seconds;
+    }
+    const FeedPiece& piece() const { return feed_[piece_]; }
+    double left() const { return std::max(0.0, piece().seconds - time_); }
+    FeedState at(double seconds) const { return piece().at(std::min(time_ + seconds, piece().seconds)); }
+    void pass(double seconds) {
+        time_ += seconds;
+        if (left() <= hair * piece().seconds && piece_ + 1 < feed_.size()) time_ = 0, ++piece_;
+    }
+
+  private:
+    std::span<const FeedPiece> feed_;
+    std::size_t piece_ = 0;
+    double time_ = 0;
+};
+
+/// A time in which one stretch ends and the other begins: the motions along both at its begin and at its end.
+struct Moment {
+    std::array<FeedState, 2> in, out;
+    bool is_linear = false;  ///< accelerations change evenly
+};
+
+/// The greatest of |a x + b y|, each of x and y between its two values.
+double greatest_sum(double a, double x0, double x1, double b, double y0, double y1) {
+    const double ax0 = std::min(a * x0, a * x1), ax1 = std::max(a * x0, a * x1), by0 = std::min(b * y0, b * y1), by1 = std::max(b * y0, b * y1);
+    return std::max(std::fabs(ax0 + by0), std::fabs(ax1 + by1));
+}
+
+/// Speeds, accelerations and jerks rise or fall all along a moment.
+bool keeps(const Moment& moment, double in, double out, const AxisLimits& limits) {
+    if (in == 0 || out == 0) return true;
+    const auto [in0, in1] = moment.in;
+    const auto [out0, out1] = moment.out;
+    if (greatest_sum(in, in0.speed, in1.speed, out, out0.speed, out1.speed) > limits.max_speed * (1 + rounding)) return false;
+    const double accel = moment.is_linear ? std::max(std::fabs(in * in0.accel + out * out0.accel), std::fabs(in * in1.accel + out * out1.accel))
+                                          : greatest_sum(in, in0.accel, in1.accel, out, out0.accel, out1.accel);
+    if (accel > limits.max_accel * (1 + rounding)) return false;
+    return !(limits.max_jerk > 0) || greatest_sum(in, in0.jerk, in1.jerk, out, out0.jerk, out1.jerk) <= limits.max_jerk * (1 + rounding);
+}
+
+bool keeps_feed(const Moment& moment, double feed, double cosine) {
+    const double in = moment.in[0].speed, out = moment.out[1].speed;
+    const double both = cosine > 0 ? in * out : moment.in[1].speed * moment.out[0].speed;
+    return in * in + out * out + 2 * cosine * both <= feed * feed * (1 + 2 * rounding);
+}
+
+bool is_within(const StretchEnd& in, const StretchEnd& out, double seconds, const MachineLimits& limits) {
+    const Point &a = in.curve.tangent, &b = out.curve.tangent;
+    const double feed = std::max(in.curve.feed, out.curve.feed), cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    Walk ending(in.feed, in.seconds() - seconds), beginning(out.feed, 0);
+    for (double left = seconds; left > 0;) {
+        const double step = std::min({ending.left(), beginning.left(), left});
+        if (!(step > 0)) break;
+        const Moment moment{{ending.at(0), ending.at(step)}, {beginning.at(0), beginning.at(step)}, is_constant_jerk(ending.piece()) && is_constant_jerk(beginning.piece())};
+        if (!keeps_feed(moment, feed, cosine)) return false;
+        for (std::size_t i = 0; i < limits.size(); ++i)
+            if (!keeps(moment, a[i], b[i], limits[i])) return false;
+        left -= step;
+        ending.pass(step);
+        beginning.pass(step);
+    }
+    return true;
+}
+
+}  // namespace
+
+bool slows(const FeedPiece& piece) {
+    const double begin = piece.at(0).accel, end = piece.last().accel;
+    return begin <= 0 && end <= 0 && begin + end < 0;
+}
+
+double StretchEnd::seconds() const {
+    double out = 0;
+    for (const FeedPiece& piece : feed) out += piece.seconds;
+    return out;
+}
+
+StretchEnd slowing_end(std::span<const CurvePiece> curve, std::span<const FeedPiece> feed) {
+    if (curve.empty() || !is_straight(curve.back())) return {};
+    std::size_t piece = curve.size() - 1, first = feed.size();
+    while (piece > 0 && are_one_line(curve[piece - 1], curve.back())) --piece;
+    while (first > 0 && feed[first - 1].begin >= curve[piece].begin && slows(feed[first - 1])) --first;
+    return {curve.back(), feed.subspan(first)};
+}
+
+StretchEnd rising_begin(std::span<const CurvePiece> curve, std::span<const FeedPiece> feed) {
+    if (curve.empty() || !is_straight(curve.front())) return {};
+    std::size_t piece = 0, past = 0;
+    while (piece + 1 < curve.size() && are_one_line(curve[piece + 1], curve.front())) ++piece;
+    const double end = curve[piece].begin + curve[piece].length;
+    while (past < feed.size() && feed[past].begin + feed[past].length <= end && speeds_up(feed[past])) ++past;
+    return {curve.front(), feed.first(past)};
+}
+
+void KeptEnd::keep(const StretchEnd& end) {
+    curve_ = end.curve;
+    feed_.assign(end.feed.begin(), end.feed.end());
+}
+
+double overlap_of(const StretchEnd& in, const StretchEnd& out, double most_seconds, double room_mm, const MachineLimits& limits) {
+    if (!(room_mm > 0 && most_seconds > 0) || in.feed.empty() || out.feed.empty()) return 0;
+    double seconds = std::min({most_seconds, in.seconds(), out.seconds(), longest_within(in.feed, out.feed, room_mm)});
+    for (int i = 0; i < tries; ++i, seconds *= shorter)
+        if (is_within(in, out, seconds, limits)) return seconds;
+    // Where both go on with constant jerk an axis that turns back gets no more of both than of one.
+    const auto landing = in.feed.last(1), launch = out.feed.first(1);
+    seconds = std::min({most_seconds, landing[0].seconds, launch[0].seconds, longest_within(landing, launch, room_mm)});
+    return is_within(in, out, seconds, limits) ? seconds : 0;
 }
 
 }  // namespace motionrack::control

@@ -8,17 +8,36 @@
 #include <motionrack/control/curve/curve.hpp>
 #include <motionrack/control/feed/feed_piece.hpp>
 #include <motionrack/control/limits.hpp>
+#include <span>
+#include <vector>
 
 namespace motionrack::control {
 
-/// How a stretch ends or begins: with constant jerk, on a piece of its curve.
+/// How a stretch ends or begins: the part of its feed in which it only slows down, or only speeds up, on one line; a piece of this line.
+/// Without feed where the curve is bent there.
 struct StretchEnd {
     CurvePiece curve;
-    FeedPiece feed;
+    std::span<const FeedPiece> feed;
+    double seconds() const;
+};
+/// All along it.
+bool slows(const FeedPiece& piece);
+StretchEnd slowing_end(std::span<const CurvePiece> curve, std::span<const FeedPiece> feed);
+StretchEnd rising_begin(std::span<const CurvePiece> curve, std::span<const FeedPiece> feed);
+
+/// An end that stays when its stretch is gone.
+class KeptEnd {
+  public:
+    void keep(const StretchEnd& end);
+    StretchEnd end() const { return {curve_, feed_}; }
+
+  private:
+    CurvePiece curve_;
+    std::vector<FeedPiece> feed_;
 };
 
-/// Seconds by which the next one may begin earlier; 0: none, as on curved ends, or where an axis of both would get too much jerk. `room_mm`:
-/// how far the path may be from the corner's sides.
-double overlap_of(const StretchEnd& in, const StretchEnd& out, double room_mm, const MachineLimits& limits);
+/// Seconds by which the next one may begin earlier, 0 .. `most_seconds`; 0: none, as on curved ends, or where an axis of both would get too
+/// much. `room_mm`: how far the path may be from the corner's sides.
+double overlap_of(const StretchEnd& in, const StretchEnd& out, double most_seconds, double room_mm, const MachineLimits& limits);
 
 }  // namespace motionrack::control

@@ -38,15 +38,16 @@ void Ride::take() {
             spans_.push_back(limits_on(item.piece, limits_));
             continue;
         }
-        Stretch stretch{curve_, {}, 0, 0, end_, item.seconds, item.line, item.at};
+        Stretch stretch{curve_, {}, 0, 0, before_.end(), item.seconds, item.line, item.at};
         if (!curve_.empty() && planner_.plan({}, curve_, spans_, 0, curve_.back().begin + curve_.back().length)) {
             stretch.feed = planner_.feed();
             stretch.seconds = planner_.seconds();
-            stretch.overlap = overlap_of(end_, {curve_.front(), stretch.feed.front()}, room_mm_, limits_);
-            end_ = {curve_.back(), stretch.feed.back()};
+            stretch.overlap = overlap_of(stretch.before, rising_begin(curve_, stretch.feed), alone_, room_mm_, limits_);
         }
-        room_mm_ = curve_.empty() ? 0 : item.room_mm;
         on_stretch_(stretch);
+        before_.keep(slowing_end(curve_, stretch.feed));
+        alone_ = stretch.seconds - stretch.overlap;
+        room_mm_ = curve_.empty() ? 0 : item.room_mm;
         curve_.clear();
         spans_.clear();
     }

@@ -62,8 +62,9 @@ class Ride {
     StretchPlanner planner_;
     std::vector<CurvePiece> curve_;
     std::vector<FeedSpan> spans_;
-    StretchEnd end_;               ///< of the stretch before
-    double room_mm_ = 0;           ///< at its end
+    KeptEnd before_;      ///< how the stretch before ends
+    double alone_ = 0;    ///< s of it in which the one before it has ended
+    double room_mm_ = 0;  ///< at its end
 };
 
 }  // namespace motionrack::control

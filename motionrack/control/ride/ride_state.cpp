@@ -21,15 +21,17 @@ RideState state_on(const CurvePiece& piece, const FeedState& along) {
 }
 
 void add_landing(RideState& state, const StretchEnd& end, double seconds) {
-    const FeedPiece& landing = end.feed;
-    const FeedState along = landing.at(landing.seconds - seconds);
-    const double left = landing.begin + landing.length - along.place;
-    for (std::size_t i = 0; i < state.place.size(); ++i) {
-        const double tangent = end.curve.tangent[i];
-        state.place[i] -= tangent * left;
-        state.speed[i] += tangent * along.speed;
-        state.accel[i] += tangent * along.accel;
-        state.jerk[i] += tangent * along.jerk;
+    std::size_t i = end.feed.size() - 1;
+    while (i > 0 && seconds > end.feed[i].seconds) seconds -= end.feed[i--].seconds;
+    const FeedPiece& piece = end.feed[i];
+    const FeedState along = piece.at(std::max(0.0, piece.seconds - seconds));
+    const double left = end.feed.back().begin + end.feed.back().length - along.place;
+    for (std::size_t k = 0; k < state.place.size(); ++k) {
+        const double tangent = end.curve.tangent[k];
+        state.place[k] -= tangent * left;
+        state.speed[k] += tangent * along.speed;
+        state.accel[k] += tangent * along.accel;
+        state.jerk[k] += tangent * along.jerk;
     }
 }
 

@@ -187,9 +187,10 @@ void Rider::begin() {
 void Rider::tend(bool early) {
     if (try_again()) {
         bool tried = true, found = true;
-        if (held_)
+        if (held_) {
             tried = !holding_, found = !tried || slow_down();
-        else if (new_feeds_)
+            if (!found) part_from_next();  // so near its end it stands there
+        } else if (new_feeds_)
             found = ease_into_feeds();
         else if (holding_ || (planned_to_ < now_.known() && left_ - braking_ <= margin))
             found = go_on();
@@ -202,13 +203,12 @@ void Rider::tend(bool early) {
 
 /// The next stretch may begin before this one has ended.
 void Rider::meet_next(bool early) {
-    if (met_ || held_ || !now_.whole || planned_to_ < now_.known() || left_ > now_.feed.back().seconds + margin) return;
+    if (met_ || held_ || !now_.whole || planned_to_ < now_.known() || left_ > braking_ + margin) return;
     if (then_.curve.empty() || now_.rest.seconds > 0 || !is_ready(then_, 0, early)) return;
     met_ = true;
     if (!planner_.plan({}, then_.curve, then_.spans, 0, then_.known())) return;
     then_.feed.assign(planner_.feed().begin(), planner_.feed().end());
-    const double overlap = overlap_of({now_.curve.back(), now_.feed.back()}, {then_.curve.front(), then_.feed.front()}, now_.rest.room_mm, limits_);
-    reach_ = std::min({overlap, left_, now_.feed.back().seconds});
+    reach_ = overlap_of(slowing_end(now_.curve, now_.feed), rising_begin(then_.curve, then_.feed), left_ - before_left_, now_.rest.room_mm, limits_);
 }
 
 /// It does not after all.
@@ -233,7 +233,7 @@ RideState Rider::at(double seconds) const {
     const Spot spot = spot_at(seconds);
     RideState out = state_on(now_.curve[spot.piece], spot.along);
     if (now_.whole && seconds >= left_ && planned_to_ >= now_.known()) out.place = now_.rest.at;
-    if (seconds < before_left_) add_landing(out, before_, before_left_ - seconds);
+    if (seconds < before_left_) add_landing(out, before_.end(), before_left_ - seconds);
     return out;
 }
 
@@ -241,7 +241,7 @@ void Rider::pass(double seconds) {
     before_left_ = std::max(0.0, before_left_ - seconds);
     patience_ = std::max(0.0, patience_ - seconds);
     if (seconds >= left()) {
-        before_ = {now_.curve.back(), now_.feed.back()};
+        if (reach_ > 0) before_.keep(slowing_end(now_.curve, now_.feed));
         before_left_ = reach_;
         if (reach_ > 0) return to_next_part();
         place_ = planned_to_;

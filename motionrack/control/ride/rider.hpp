@@ -145,7 +145,7 @@ class Rider {
     double left_ = 0;                   ///< s to the planned end
     double braking_ = 0;                ///< of these the last, in which it slows down for that end
     double reach_ = 0;                  ///< s before the end of now_ when then_ begins
-    StretchEnd before_;                 ///< how the stretch before ends
+    KeptEnd before_;                    ///< how the stretch before ends
     double before_left_ = 0;            ///< s that it has still to go
     double dwelt_ = 0;                  ///< s of the dwell at the end of now_
     double patience_ = 0;               ///< s until another plan is sought

@@ -54,8 +54,7 @@ void Rider::measure() {
     braking_ = 0;
     for (const FeedPiece& piece : now_.feed) {
         left_ += piece.seconds;
-        const bool slows = piece.at(0).accel <= 0 && piece.at(piece.seconds).accel <= 0 && piece.at(0.5 * piece.seconds).accel < 0;
-        braking_ = slows ? braking_ + piece.seconds : 0;
+        braking_ = slows(piece) ? braking_ + piece.seconds : 0;
     }
 }
 

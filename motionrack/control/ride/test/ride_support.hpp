@@ -13,14 +13,16 @@ namespace motionrack::control::ride_test {
 struct KeptStretch {
     std::vector<CurvePiece> curve;
     std::vector<FeedPiece> feed;
+    KeptEnd before;
     Stretch stretch;
 
-    explicit KeptStretch(const Stretch& from) : curve(from.curve.begin(), from.curve.end()), feed(from.feed.begin(), from.feed.end()), stretch(from) {}
+    explicit KeptStretch(const Stretch& from) : curve(from.curve.begin(), from.curve.end()), feed(from.feed.begin(), from.feed.end()), stretch(from) { before.keep(from.before); }
     /// Valid as long as this is.
     Stretch view() const {
         Stretch out = stretch;
         out.curve = curve;
         out.feed = feed;
+        out.before = before.end();
         return out;
     }
 };

@@ -177,6 +177,23 @@ TEST(ARider, StandsSoonAfterAHoldAndGoesOnFromThere) {
     expect_limits(driven);
 }
 
+/// Where the next line would begin before this one has ended.
+TEST(ARider, StandsAtTheCornerBeforeWhichItIsHeld) {
+    Driven driven({line_to({10, 0}, 0.2), line_to({10, 10}, 0.2)}, {});
+    driven.step(0, true);
+    const double whole = driven.rider.until_rest();
+    while (driven.rider.left() > 0.005) ASSERT_TRUE(driven.step(0.0005, true));
+    ASSERT_LT(driven.now, 0.8 * whole);
+    driven.rider.hold();
+    while (!driven.rider.stands()) driven.step(0.0005, true);
+    EXPECT_NEAR(driven.last.place[0], 10, 1e-3);
+    EXPECT_NEAR(driven.last.place[1], 0, 1e-3);
+    driven.rider.resume();
+    while (driven.step(0.0005, true)) {}
+    expect_limits(driven);
+    expect_end(driven, {10, 10});
+}
+
 TEST(ARider, TakesOtherFeedsAsSoonAsTheLimitsAllow) {
     Driven driven({long_line(20)}, {});
     const auto speed_after = [&](double seconds) {

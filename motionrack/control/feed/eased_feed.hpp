@@ -1,0 +1,19 @@
+// The speed over a line whose ends take less jerk: the quickest of all profiles that speed up and slow down once.
+//
+//   jerk    J ┌──┐        ┌─┐            speed      ╱▔▔╲         the eased ends are launched over and landed on with their own jerk,
+//           s J │ │       │ │ s J                  ╱    ╲        between them it is an S-curve
+//         ────┴──┴─┐   ┌──┴─┴────             __╱        ╲__
+//          -J      └───┘                    eased       eased
+#pragma once
+
+#include <motionrack/control/feed/feed_piece.hpp>
+#include <motionrack/control/feed/feed_span.hpp>
+#include <span>
+#include <vector>
+
+namespace motionrack::control {
+
+/// From rest to rest. False, and nothing is written, where the spans are not such a line, or the ends too long for it to be the quickest.
+bool write_eased_feed(std::span<const FeedSpan> spans, std::vector<FeedPiece>& out);
+
+}  // namespace motionrack::control
