@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <motionrack/control/profile.hpp>
 
 namespace motionrack::control {
@@ -10,9 +9,6 @@ namespace motionrack::control {
 namespace {
 
 constexpr double no_limit = 1e300;
-/// An axis without a limit of its jerk reaches its acceleration in so long. Here only legs are compared: how such an axis is driven
-/// says limits_on().
-constexpr double least_jerk_seconds = 1e-6;
 /// Speeds are found to about a part of 2 to this power: times are compared, not driven.
 constexpr int halvings = 12;
 
@@ -60,8 +56,7 @@ double accel_along(const Point& tangent, const MachineLimits& limits) {
 }
 
 double jerk_along(const Point& tangent, const MachineLimits& limits) {
-    const double greatest = accel_along(tangent, limits) / least_jerk_seconds;
-    return least_along(tangent, greatest, [&](std::size_t i) { return limits[i].max_jerk > 0 ? limits[i].max_jerk : std::numeric_limits<double>::infinity(); });
+    return least_along(tangent, no_limit, [&](std::size_t i) { return jerk_of(limits[i]); });
 }
 
 // The tangent changes as two parabolas: its greatest rate is 2 changes over the width, the rate's rate is 4 over its square.

@@ -33,6 +33,10 @@ struct Joint {
 /// s from one speed to another that is `more`, without acceleration at both.
 double ramp_seconds(double more, const Leg& leg);
 
+/// An axis without a limit of its jerk gets one with which it reaches its acceleration in this time.
+inline constexpr double jerk_seconds = 0.002;
+inline double jerk_of(const AxisLimits& axis) { return axis.max_jerk > 0 ? axis.max_jerk : axis.max_accel / jerk_seconds; }
+
 /// What the axes can do along `tangent`, or over a turn: the least of limit / |tangent|.
 double speed_along(const Point& tangent, const MachineLimits& limits);
 double accel_along(const Point& tangent, const MachineLimits& limits);

@@ -88,7 +88,7 @@ Stop stop_between(const Leg& before, const Leg& after, const Point& in, const Po
         if (in[i] == 0 || out[i] == 0) continue;
         shared = true;
         turns_back = turns_back || in[i] * out[i] < 0;
-        too_much = too_much || (limits[i].max_jerk > 0 && std::fabs(before.jerk * in[i] + after.jerk * out[i]) > limits[i].max_jerk * (1 + rounding));
+        too_much = too_much || std::fabs(before.jerk * in[i] + after.jerk * out[i]) > jerk_of(limits[i]) * (1 + rounding);
     }
     if (!too_much) {
         stop.gain = overlap_of(before, after, room_mm);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <motionrack/control/curve/corner.hpp>
 #include <motionrack/control/curve/turns.hpp>
 
 namespace motionrack::control {
@@ -68,7 +69,7 @@ double weight_of(const Turn& turn, const Turn& corner) {
 TurnRow::TurnRow(const MachineLimits& limits) {
     for (int i = 0; i < axis_count; ++i) {
         per_accel_[i] = limits[i].max_accel > 0 ? 1 / limits[i].max_accel : 0;
-        per_jerk_[i] = limits[i].max_jerk > 0 ? 1 / limits[i].max_jerk : 0;
+        per_jerk_[i] = jerk_of(limits[i]) > 0 ? 1 / jerk_of(limits[i]) : 0;
     }
 }
 

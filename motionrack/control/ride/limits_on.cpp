@@ -37,7 +37,7 @@ AxisOnPiece axis_on(const CurvePiece& piece, const MachineLimits& limits, std::s
     axis.twist = std::fabs(piece.twist[i]);
     if (axis.tangent == 0 && axis.bend == 0) return axis;
     axis.accel = limits[i].max_accel;
-    axis.jerk = piece.jerk_share * (limits[i].max_jerk > 0 ? limits[i].max_jerk : limits[i].max_accel / jerk_seconds);
+    axis.jerk = piece.jerk_share * jerk_of(limits[i]);
     return axis;
 }
 

@@ -18,14 +18,11 @@ inline constexpr double no_speed_limit = 1e300;
 
 /// Speed, acceleration and jerk along a piece that no axis notices beyond its own: with v, a and j along the piece an axis has
 ///     p' v,   p' a + p'' v^2,   p' j + 3 p'' v a + p''' v^3.
-/// Of an axis' acceleration and jerk the greatest speed leaves some for changing it. An axis without a limit of its jerk gets one that it
-/// reaches its acceleration with in `jerk_seconds`.
+/// Of an axis' acceleration and jerk the greatest speed leaves some for changing it.
 /// The slower `most_speed`, the more is left.
 FeedSpan limits_on(const CurvePiece& piece, const MachineLimits& limits, double most_speed = no_speed_limit, const BendShares& shares = {});
 
 /// The greatest shares that leave what these take: `accel` and `jerk` along the piece, at `speed`; no less than a bend has anyway.
 BendShares shares_beside(const CurvePiece& piece, const MachineLimits& limits, double speed, double accel, double jerk);
-
-inline constexpr double jerk_seconds = 0.002;
 
 }  // namespace motionrack::control

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <motionrack/control/curve/corner.hpp>
 
 namespace motionrack::control {
 
@@ -107,7 +108,7 @@ bool keeps(const Moment& moment, double in, double out, const AxisLimits& limits
     const double accel = moment.is_linear ? std::max(std::fabs(in * in0.accel + out * out0.accel), std::fabs(in * in1.accel + out * out1.accel))
                                           : greatest_sum(in, in0.accel, in1.accel, out, out0.accel, out1.accel);
     if (accel > limits.max_accel * (1 + rounding)) return false;
-    return !(limits.max_jerk > 0) || greatest_sum(in, in0.jerk, in1.jerk, out, out0.jerk, out1.jerk) <= limits.max_jerk * (1 + rounding);
+    return greatest_sum(in, in0.jerk, in1.jerk, out, out0.jerk, out1.jerk) <= jerk_of(limits) * (1 + rounding);
 }
 
 bool keeps_feed(const Moment& moment, double feed, double cosine) {

@@ -153,7 +153,7 @@ class RideChecks {
 
     void check_rest(const KeptStretch& kept) {
         for (std::size_t i = 0; i < limits_.size(); ++i) {
-            const double jerk = limits_[i].max_jerk > 0 ? limits_[i].max_jerk : limits_[i].max_accel / jerk_seconds;
+            const double jerk = jerk_of(limits_[i]);
             hold("rest: speed", std::fabs(last_.speed[i]), 1e-7 * limits_[i].max_speed + limits_[i].max_accel * hair_, kept, last_time_, last_);
             hold("rest: acceleration", std::fabs(last_.accel[i]), (slack - 1) * limits_[i].max_accel + jerk * hair_, kept, last_time_, last_);
             hold("rest: place", std::fabs(last_.place[i] - kept.stretch.end[i]), 3e-9, kept, last_time_, last_);
