@@ -245,10 +245,9 @@ std::string finish(const TurningPlan& plan, const TurningView& view, const std::
         if (path.at().second < highest - same) path.rapid({path.at().first, start.second});
         start = path.before(start, beside.front().from);
         path.rapid(beside.front().from);
-        for (const ContourPiece& piece : beside) {
-            path.along(piece, piece.to, false);
-            highest = std::max(highest, piece.to.second);
-        }
+        for (const ContourPiece& piece : beside) path.along(piece, piece.to, false);
+        make_monotone(beside, view.swapped ? 'X' : 'Z');  // arcs end where they are highest
+        for (const ContourPiece& piece : beside) highest = std::max(highest, piece.to.second);
     }
     return {};
 }
