@@ -231,17 +231,33 @@ RC_GTEST_PROP(GcodeTurning, FinishesAlongTheContourInPassesThatComeNearer, ()) {
     RC_ASSERT(std::fabs(nearest - std::min(first, last)) < rough);
 }
 
-TEST(GcodeTurning, FinishingComesBackOverABulgeThatEndsWhereItBegan) {
-    std::vector<ContourPiece> contour(1);
-    contour[0] = {{0, 1}, {19.2, 1}, -1, {9.6, 1}, 0, false, 1};
+/// G70 in two passes along a contour that is given in its view.
+void expect_finished_above(const std::vector<ContourPiece>& contour, Planar start, double distance, double end_distance) {
     TurningPlan plan;
     plan.code = 700;
-    plan.start = {-2, top};
+    plan.start = start;
+    plan.distance = distance;
+    plan.end_distance = end_distance;
     plan.passes = 2;
     std::vector<Moved> moves;
     ASSERT_EQ(cut({}, plan, contour, moves), "");
     for (const Moved& one : moves)
         for (int k = 0; k <= 12; ++k) EXPECT_TRUE(is_above(contour, one.at(k / 12.0))) << one.at(k / 12.0).first << " " << one.at(k / 12.0).second;
+}
+
+TEST(GcodeTurning, FinishingComesBackOverABulgeThatEndsWhereItBegan) {
+    expect_finished_above({{{0, 1}, {19.2, 1}, -1, {9.6, 1}, 0, false, 1}}, {-2, top}, 0, 0);
+}
+
+// Beside the contour the groove ends a little past its half circle, because its bulge begins within the tolerance of that.
+TEST(GcodeTurning, FinishingComesBackOverABulgeBehindAGrooveThatItNearlyTouches) {
+    expect_finished_above({{{0, 0}, {12.9, 0}, 1, {6.45, 0}, 0, false, 1}, {{12.9, 0}, {27.6, 0}, -1, {20.25, -0.147}, 0, false, 2}}, {-2, top}, 0, 0.2);
+}
+
+TEST(GcodeTurning, FinishingComesBackOverABulgeThatIsHigherThanTheStart) {
+    expect_finished_above({{{0, 1}, {20, 1}, -1, {10, 1}, 0, false, 1}}, {-2, 5}, 0, 0);
+    expect_finished_above({{{0, 1}, {10, 20}, 0, {}, 0, false, 1}, {{10, 20}, {20, 20}, 0, {}, 0, false, 2}, {{20, 20}, {30, 30}, 0, {}, 0, false, 3}}, {-2, 5}, 0, 0);
+    expect_finished_above({{{0, 10}, {10, 20}, 0, {}, 0, false, 1}, {{10, 20}, {12, 0}, 0, {}, 0, false, 2}, {{12, 0}, {20, 0}, 0, {}, 0, false, 3}}, {15, 12}, 0.5, 0);
 }
 
 TEST(GcodeTurning, AFilletTouchesBothSidesAndAChamferHasItsEnds) {
