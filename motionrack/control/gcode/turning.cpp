@@ -25,11 +25,20 @@ class Path {
     Planar at() const { return at_; }
     bool full() const { return moves_.size() > most_turning_moves; }
     void rapid(Planar to) { add(MoveKind::traverse, to, {}, 0); }
+    /// Not through what is as high as `highest`: up before it where one of the ends is lower, and down behind it.
+    void over(double highest, Planar to) {
+        if (std::min(at_.second, to.second) < highest - same) {
+            const double clear = std::max(to.second, highest);
+            rapid({at_.first, clear});
+            rapid({to.first, clear});
+        }
+        rapid(to);
+    }
     /// To the start, and where that lies behind the contour's begin along it and up there to above the begin: not aslant through the work
-    /// piece.
-    Planar before(Planar start, Planar begin) {
+    /// piece, nor through a part of it that is higher than the start.
+    Planar before(Planar start, Planar begin, double highest) {
         rapid(start);
-        rapid({std::min(start.first, begin.first), start.second});
+        if (begin.first < start.first) over(highest, {begin.first, start.second});
         return at_;
     }
     void feed(Planar to) { add(MoveKind::feed, to, {}, 0); }
@@ -63,6 +72,16 @@ Planar at_height(const ContourPiece& piece, double height) {
     const double half = std::sqrt(std::max(0.0, (radius - over) * (radius + over)));
     const double side = piece.from.first + piece.to.first > 2 * piece.centre.first ? half : -half;
     return {std::clamp(piece.centre.first + side, piece.from.first, piece.to.first), height};
+}
+
+double highest_of(const std::vector<ContourPiece>& contour) {
+    double highest = contour.front().from.second;
+    for (const ContourPiece& piece : contour) {
+        highest = std::max(highest, piece.to.second);
+        if (piece.arc() && extremes_passed(piece.from - piece.centre, piece.to - piece.centre, piece.turns > 0)[1])
+            highest = std::max(highest, piece.centre.second + length(piece.from - piece.centre));
+    }
+    return highest;
 }
 
 /// Roughing along a contour that goes one way, seen in its view.
@@ -117,7 +136,7 @@ void Rougher::cut() {
 /// From the start down to where the contour begins; there is nothing yet of the work piece.
 void Rougher::enter() {
     const Planar begin = contour_.front().from;
-    start_ = path_.before(start_, begin);
+    start_ = path_.before(start_, begin, highest_of(contour_));
     if (part_ != Part::pockets) {
         for (std::int64_t k = 0; level(k) > begin.second + same && !path_.full(); ++k) {
             const double share = (start_.second - level(k)) / (start_.second - begin.second);
@@ -234,7 +253,7 @@ std::vector<ContourPiece> seen(const std::vector<ContourPiece>& contour, const T
 }
 
 /// G70: passes along the contour, each nearer to it by as much. The way back to the start does not lead through a part that is higher
-/// than the contour's end.
+/// than one of the two.
 std::string finish(const TurningPlan& plan, const TurningView& view, const std::vector<ContourPiece>& contour, Path& path) {
     Planar start = view.in(plan.start);
     double highest = lowest_ever;
@@ -242,13 +261,11 @@ std::string finish(const TurningPlan& plan, const TurningView& view, const std::
         std::vector<ContourPiece> beside;
         const double distance = plan.end_distance + (plan.distance - plan.end_distance) * left / plan.passes;
         if (std::string fault = beside_contour(contour, distance, beside); !fault.empty()) return fault;
-        if (path.at().second < highest - same) path.rapid({path.at().first, start.second});
-        start = path.before(start, beside.front().from);
+        path.over(highest, start);
+        highest = std::max(highest, highest_of(beside));
+        start = path.before(start, beside.front().from, highest);
         path.rapid(beside.front().from);
-        for (const ContourPiece& piece : beside) {
-            path.along(piece, piece.to, false);
-            highest = std::max(highest, piece.to.second);
-        }
+        for (const ContourPiece& piece : beside) path.along(piece, piece.to, false);
     }
     return {};
 }

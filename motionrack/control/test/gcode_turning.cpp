@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <optional>
+#include <motionrack/control/gcode/cutter.hpp>
 #include <motionrack/control/gcode/planar.hpp>
 
 #include "gcode_support.hpp"
@@ -18,7 +19,7 @@ using testing::Refused;
 constexpr double top = 60;  ///< height of the start
 constexpr double near = 1e-6;
 /// Of what joints that are nearly tangent are off, mm.
-constexpr double rough = 0.01;
+constexpr double rough = cutter_tolerance_mm + near;
 
 /// A contour in the view of a cycle: `first` along the cut, `second` away from the work piece.
 std::vector<ContourPiece> random_contour(bool arcs, double widest) {
@@ -71,11 +72,6 @@ double contour_at(const std::vector<ContourPiece>& contour, double along) {
     return height;
 }
 
-/// Where the contour is upright, its lower side: a tool may stand there.
-bool is_above(const std::vector<ContourPiece>& contour, Planar p) {
-    return p.second >= std::min(contour_at(contour, p.first - near), contour_at(contour, p.first + near)) - 0.01;
-}
-
 double distance_to(const ContourPiece& piece, Planar p) {
     if (piece.turns == 0) {
         const Planar way = piece.to - piece.from;
@@ -88,6 +84,17 @@ double distance_to(const ContourPiece& piece, Planar p) {
     const bool beside = sense * cross(piece.from - piece.centre, out) >= 0 && sense * cross(out, piece.to - piece.centre) >= 0;
     if (beside && length(out) > near) return std::fabs(length(out) - radius);
     return std::min(length(p - piece.from), length(p - piece.to));
+}
+
+double distance_to(const std::vector<ContourPiece>& contour, Planar p) {
+    double nearest = 1e9;
+    for (const ContourPiece& piece : contour) nearest = std::min(nearest, distance_to(piece, p));
+    return nearest;
+}
+
+/// Above the contour or on it. Where it is upright, its lower side counts: a tool may stand there.
+bool is_above(const std::vector<ContourPiece>& contour, Planar p) {
+    return p.second >= std::min(contour_at(contour, p.first - near), contour_at(contour, p.first + near)) - near || distance_to(contour, p) <= rough;
 }
 
 struct Moved {
@@ -160,12 +167,16 @@ RC_GTEST_PROP(GcodeTurning, NeverCutsIntoWhatIsToBeLeftAndTakesNoMoreThanIAtOnce
     if (!fault.empty()) RC_DISCARD("no room");
     RC_ASSERT(!moves.empty());
     const double begin = contour.front().from.first + plan.distance, end = contour.back().to.first - plan.distance;
+    // The levels begin on the line from the start to where the path beside the contour begins. Where the contour goes down at once, that
+    // lies past its first corner, and the line leads over the corner at less than D.
+    std::vector<ContourPiece> beside;
+    RC_ASSERT(beside_contour(contour, plan.distance, beside) == "");
+    const ContourPiece way_in = {plan.start, beside.front().from};
+    const double over_corner = std::min(plan.distance, distance_to(way_in, contour.front().from));
     for (std::size_t i = 0; i < moves.size(); ++i) {
         for (int k = 0; k <= 12; ++k) {
             const Planar p = moves[i].at((k + 0.37) / 13);
-            double nearest = 1e9;
-            for (const ContourPiece& piece : contour) nearest = std::min(nearest, distance_to(piece, p));
-            RC_ASSERT(nearest >= plan.distance - rough);
+            RC_ASSERT(distance_to(contour, p) >= (p.first < way_in.to.first ? over_corner : plan.distance) - rough);
             RC_ASSERT(is_above(contour, p));
             if (p.first <= begin + near || p.first >= end - near || std::fabs(moves[i].move.to.first - moves[i].from.first) < near) continue;
             const double left = left_at(moves, i, p.first);
@@ -201,7 +212,7 @@ RC_GTEST_PROP(GcodeTurning, LeavesNothingOnTheContourButD, ()) {
     RC_ASSERT(cut(view, plan, contour, rest) == "");
     moves.insert(moves.end(), rest.begin(), rest.end());
     for (int k = 1; k < 40; ++k) {
-        const double along = contour.back().to.first * (k + 0.29) / 41;
+        const double along = contour.back().to.first * (k + 0.2928932) / 41;  // no upright piece stands there
         RC_ASSERT(std::fabs(left_at(moves, moves.size(), along) - contour_at(contour, along)) < 1e-5);
     }
 }
@@ -221,14 +232,61 @@ RC_GTEST_PROP(GcodeTurning, FinishesAlongTheContourInPassesThatComeNearer, ()) {
     if (!cut(view, plan, contour, moves).empty()) RC_DISCARD("no room");
     double nearest = 1e9;
     for (const Moved& one : moves)
-        for (int k = 0; k <= 12; ++k)
-            for (const ContourPiece& piece : contour) {
-                const Planar p = one.at(k / 12.0);
-                nearest = std::min(nearest, distance_to(piece, p));
-                RC_ASSERT(is_above(contour, p));
-            }
+        for (int k = 0; k <= 12; ++k) {
+            const Planar p = one.at(k / 12.0);
+            nearest = std::min(nearest, distance_to(contour, p));
+            RC_ASSERT(is_above(contour, p));
+        }
     const double last = plan.end_distance, first = last + (plan.distance - last) * (plan.passes - 1) / plan.passes;
     RC_ASSERT(std::fabs(nearest - std::min(first, last)) < rough);
+}
+
+RC_GTEST_PROP(GcodeTurning, LeadsThroughNothingThatIsToBeLeftFromWhereverItStarts, ()) {
+    const auto contour = random_contour(true, 30);
+    TurningPlan plan;
+    plan.code = *rc::gen::element<std::int16_t>(700, 710, 711, 712);
+    plan.start = {*rc::gen::inRange(-5, 60) * 1.0, contour.front().from.second + *rc::gen::inRange(1, 60)};
+    plan.distance = *rc::gen::inRange(0, 20) / 10.0;
+    plan.end_distance = *rc::gen::inRange(0, 10) / 10.0;
+    plan.passes = *rc::gen::inRange(1, 4);
+    plan.depth = *rc::gen::inRange(5, 90) / 10.0;
+    plan.retract = *rc::gen::inRange(0, 20) / 10.0;
+    TurningView view;
+    view.along = *rc::gen::arbitrary<bool>() ? 1 : -1;
+    view.away = *rc::gen::arbitrary<bool>() ? 1 : -1;
+    std::vector<Moved> moves;
+    if (!is_above(contour, plan.start) || !cut(view, plan, contour, moves).empty()) RC_DISCARD("no room");
+    for (const Moved& one : moves)
+        for (int k = 0; k <= 12; ++k) RC_ASSERT(is_above(contour, one.at(k / 12.0)));
+}
+
+/// G70 in two passes along a contour that is given in its view.
+void expect_finished_above(const std::vector<ContourPiece>& contour, Planar start, double distance, double end_distance) {
+    TurningPlan plan;
+    plan.code = 700;
+    plan.start = start;
+    plan.distance = distance;
+    plan.end_distance = end_distance;
+    plan.passes = 2;
+    std::vector<Moved> moves;
+    ASSERT_EQ(cut({}, plan, contour, moves), "");
+    for (const Moved& one : moves)
+        for (int k = 0; k <= 12; ++k) EXPECT_TRUE(is_above(contour, one.at(k / 12.0))) << one.at(k / 12.0).first << " " << one.at(k / 12.0).second;
+}
+
+TEST(GcodeTurning, FinishingComesBackOverABulgeThatEndsWhereItBegan) {
+    expect_finished_above({{{0, 1}, {19.2, 1}, -1, {9.6, 1}, 0, false, 1}}, {-2, top}, 0, 0);
+}
+
+// Beside the contour the groove ends a little past its half circle, because its bulge begins within the tolerance of that.
+TEST(GcodeTurning, FinishingComesBackOverABulgeBehindAGrooveThatItNearlyTouches) {
+    expect_finished_above({{{0, 0}, {12.9, 0}, 1, {6.45, 0}, 0, false, 1}, {{12.9, 0}, {27.6, 0}, -1, {20.25, -0.147}, 0, false, 2}}, {-2, top}, 0, 0.2);
+}
+
+TEST(GcodeTurning, FinishingComesBackOverABulgeThatIsHigherThanTheStart) {
+    expect_finished_above({{{0, 1}, {20, 1}, -1, {10, 1}, 0, false, 1}}, {-2, 5}, 0, 0);
+    expect_finished_above({{{0, 1}, {10, 20}, 0, {}, 0, false, 1}, {{10, 20}, {20, 20}, 0, {}, 0, false, 2}, {{20, 20}, {30, 30}, 0, {}, 0, false, 3}}, {-2, 5}, 0, 0);
+    expect_finished_above({{{0, 10}, {10, 20}, 0, {}, 0, false, 1}, {{10, 20}, {12, 0}, 0, {}, 0, false, 2}, {{12, 0}, {20, 0}, 0, {}, 0, false, 3}}, {15, 12}, 0.5, 0);
 }
 
 TEST(GcodeTurning, AFilletTouchesBothSidesAndAChamferHasItsEnds) {
