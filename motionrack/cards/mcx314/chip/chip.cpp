@@ -96,10 +96,8 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
 }
 
 int Chip::Output::listen(sim::MotionListener& listener) {
-    MOTIONRACK_ASSERT(listener_count < max_listeners);
-    listeners[listener_count] = &listener;
     chip->listened_ |= 1u << axis;
-    return listener_count++;
+    return listeners.add(listener);
 }
 
 // ---- time -----------------------------------------------------------------------------------------------------------
@@ -231,7 +229,7 @@ void Chip::note_rates() {
     if (state_.chain == 0 || !state_.path.command.arc()) return;
     for (int i = 0; i < 2; ++i) {
         const int a = state_.path.command.axis[i];
-        if (outputs_[a].listener_count > 0)
+        if (outputs_[a].listeners.size() > 0)
             state_.axis[a].told_rate = std::bit_cast<std::uint64_t>(rate_of(a, Instant{0}));
     }
 }
@@ -242,23 +240,18 @@ void Chip::tell_listeners(Instant now) {
         Output& output = outputs_[a];
         if (changed >> a & 1u) {
             if (output.edge_listener) flush_edges(a);
-            if (output.listener_count > 0) {
+            if (output.listeners.size() > 0) {
                 const double rate = rate_of(a, now);
                 const auto before =
                     std::bit_cast<double>(std::exchange(state_.axis[a].told_rate, std::bit_cast<std::uint64_t>(rate)));
-                for (int i = 0; i < output.listener_count; ++i) output.listeners[i]->rate_changed(before, rate, now);
+                output.listeners.tell_rate(before, rate, now);
             }
         }
         Axis& axis = state_.axis[a];
         if (!(state_.crossed >> a & 1u)) return;
         state_.crossed &= ~(1u << a);
         if (output.edge_listener) flush_edges(a);
-        for (int i = 0; i < output.listener_count; ++i) {
-            Watch& watched = axis.watch[i];
-            if (axis.count > watched.below && axis.count < watched.above) continue;
-            watched = Watch{};
-            output.listeners[i]->crossed(now);
-        }
+        output.listeners.tell_crossed(axis.watch, axis.count, now);
     });
 }
 
@@ -268,9 +261,7 @@ void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {
     for (Axis& each : state_.axis) each.gen.special_known = false;
     stale_ = true;
     const Instant now = kernel_.now();
-    const std::int64_t count = count_at(a, now);
-    if ((count <= below && below != sim::unwatched_below) || (count >= above && above != sim::unwatched_above))
-        state_.crossed |= 1u << a;
+    if (axis.watch[slot].left(count_at(a, now))) state_.crossed |= 1u << a;
     // In an event of the chip's own settle() comes afterwards anyhow; else it is asked for, at this very instant.
     kernel_.schedule(id_, state_.crossed != 0 ? now + Duration{1} : now);
 }

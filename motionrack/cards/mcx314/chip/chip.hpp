@@ -15,6 +15,7 @@
 #include <motionrack/cards/mcx314/chip/options.hpp>
 #include <motionrack/cards/mcx314/chip/state.hpp>
 #include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/register_device.hpp>
 #include <optional>
@@ -97,8 +98,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
 
         Chip* chip = nullptr;
         int axis = 0;
-        std::array<sim::MotionListener*, max_listeners> listeners{};
-        int listener_count = 0;
+        sim::Listeners listeners;
         sim::EdgeListener* edge_listener = nullptr;
         sim::EdgeBatch batch;
         std::int64_t batch_tick = 0;  ///< of its origin

@@ -112,7 +112,7 @@ void Chip::listen_edges(int axis, sim::EdgeListener* listener) {
     outputs_[axis].edge_listener = listener;
     for (Axis& each : state_.axis) each.gen.special_known = false;
     stale_ = true;
-    listened_ = listener || outputs_[axis].listener_count > 0 ? listened_ | 1u << axis : listened_ & ~(1u << axis);
+    listened_ = listener || outputs_[axis].listeners.size() > 0 ? listened_ | 1u << axis : listened_ & ~(1u << axis);
     outputs_[axis].batch.size = 0;
 }
 

@@ -115,8 +115,8 @@ std::int64_t Chip::steps_to_threshold(int a, int direction) const {
     const Axis& axis = state_.axis[a];
     if (axis.pulses_wanted || (bit(axis.wr1, 8) && !(axis.flags & 1u))) return 1;
     std::int64_t steps = far;
-    for (int i = 0; i < outputs_[a].listener_count; ++i) {
-        const Watch& watch = axis.watch[i];
+    for (int i = 0; i < outputs_[a].listeners.size(); ++i) {
+        const sim::Range& watch = axis.watch[i];
         if (direction > 0 && watch.above != sim::unwatched_above) steps = std::min(steps, watch.above - axis.count);
         if (direction < 0 && watch.below != sim::unwatched_below) steps = std::min(steps, axis.count - watch.below);
     }

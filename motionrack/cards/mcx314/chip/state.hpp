@@ -8,7 +8,7 @@
 #include <motionrack/cards/mcx314/arithmetic.hpp>
 #include <motionrack/cards/mcx314/chip/extension.hpp>
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/listeners.hpp>
 #include <type_traits>
 
 namespace motionrack::mcx314 {
@@ -122,12 +122,6 @@ struct Generator : Speed {
     std::int64_t at = 0;            ///< the tick up to which it has worked; behind State::tick while nothing happens
 };
 
-/// A range of counts that a listener watches.
-struct Watch {
-    std::int64_t below = sim::unwatched_below;
-    std::int64_t above = sim::unwatched_above;
-};
-
 /// The last pulse on an axis' wires, as phases: it came at tick - acc / speed.
 struct PulseMark {
     std::int64_t tick = 0;
@@ -170,7 +164,7 @@ struct Axis {
     std::int64_t count = 0;       ///< net pulses since the start
     std::int64_t made = 0;        ///< pulses of both directions
     std::uint64_t told_rate = 0;  ///< bits of the double that listeners heard last, or that it has drifted to since
-    std::array<Watch, sim::Motion::max_listeners> watch{};
+    sim::Listeners::Watches watch{};
     PathCommand held_path;
     Generator gen;
 };

@@ -227,8 +227,8 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
     went_[a] = direction;
     if (axis.comparisons != 0) compare(a);
     if (outputs_[a].edge_listener) add_edge(a, tick_now, direction, axis.count);
-    for (int i = 0; i < outputs_[a].listener_count; ++i)
-        if (axis.count <= axis.watch[i].below || axis.count >= axis.watch[i].above) state_.crossed |= 1u << a;
+    for (int i = 0; i < outputs_[a].listeners.size(); ++i)
+        if (axis.watch[i].left(axis.count)) state_.crossed |= 1u << a;
 }
 
 /// The wires of the generator's axes after a basic pulse: `stepped` have a new pulse, the others' last one is over.
