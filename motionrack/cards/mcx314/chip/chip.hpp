@@ -161,6 +161,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void work(int a);
     bool inputs(int a);
     std::uint16_t active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const;
+    std::int32_t compared_counter(int a) const;
     bool beyond_software_limit(int a) const;
     bool stop(int a, bool decelerating, bool immediate);
     bool pulse(int a);
@@ -314,7 +315,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void set_filters(int a);
     void sample(std::int64_t tick);
     bool sample_filters(int a, std::int64_t tick);
-    bool sample_chip_filter(ChipFilter& filter, int enable, bool seen, std::int64_t tick);
+    bool sample_chip_filter(ChipFilter& filter, Field enable, bool seen, std::int64_t tick);
     void sample_edges(int a);
     void work_in_full(std::int64_t tick);
     // home_search.cpp
