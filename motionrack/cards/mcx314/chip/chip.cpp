@@ -178,6 +178,23 @@ void Chip::catch_up(Instant now) {
     stale_ = true;
 }
 
+/// The same before an input changes: what changes at the very instant of a tick counts for that tick.
+void Chip::catch_up_before(Instant now) {
+    advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
+    note_rates();
+    stale_ = true;
+}
+
+/// Inputs, limits or commands have changed: the next working tick of every generator is worked in full.
+void Chip::look_anew() {
+    for (Axis& axis : state_.axis) axis.gen.look = true;
+}
+
+/// What is watched, compared or asked for has changed: no generator knows its next special pulse any more.
+void Chip::forget_specials() {
+    for (Axis& axis : state_.axis) axis.gen.special_known = false;
+}
+
 void Chip::sync(Instant now) {
     advance_to(tick_of(now));
     for (int a = 0; a < axes_of_chip; ++a)
@@ -185,11 +202,8 @@ void Chip::sync(Instant now) {
 }
 
 void Chip::on_wire(int pin, int wire_level, Instant now) {
-    // A level that changes at the very instant of a tick counts for that tick.
     if (!state_.begun) begin();
-    advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
-    note_rates();
-    stale_ = true;
+    catch_up_before(now);
     if (pin >= encoder_pin) return encoder_lines((pin - encoder_pin) / 2, now);
     if (extended_) {
         wake();
@@ -205,7 +219,7 @@ void Chip::on_wire(int pin, int wire_level, Instant now) {
         set_level(state_.axis[pin / 16].levels, pin % 16, wire_level != 0);
         hear_external(pin);
     }
-    for (Axis& axis : state_.axis) axis.gen.look = true;
+    look_anew();
     settle(now);
 }
 
@@ -258,7 +272,7 @@ void Chip::tell_listeners(Instant now) {
 void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {
     Axis& axis = state_.axis[a];
     axis.watch[slot] = {below, above};
-    for (Axis& each : state_.axis) each.gen.special_known = false;
+    forget_specials();
     stale_ = true;
     const Instant now = kernel_.now();
     if (axis.watch[slot].left(count_at(a, now))) state_.crossed |= 1u << a;

@@ -127,6 +127,9 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void settle(Instant now);
     void begin();
     void catch_up(Instant now);
+    void catch_up_before(Instant now);
+    void look_anew();
+    void forget_specials();
     void update_interrupt();
     void law_changed(int a) { changed_ |= 1u << a; }
     void law_changed_of(int generator);

@@ -62,12 +62,10 @@ void Chip::watch_encoder(int a) {
 }
 
 void Chip::encoder_crossed(int a, Instant now) {
-    advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
-    note_rates();
-    stale_ = true;
+    catch_up_before(now);
     compare(a);
     watch_encoder(a);
-    for (Axis& axis : state_.axis) axis.gen.look = true;
+    look_anew();
     settle(now);
 }
 
@@ -110,7 +108,7 @@ void Chip::encoder_lines(int a, Instant now) {
     if (em::EPINV.test(state_.extension[a].em6)) change = -change;
     axis.ep = stepped(axis, axis.ep, change);
     compare(a);
-    for (Axis& each : state_.axis) each.gen.look = true;
+    look_anew();
     settle(now);
 }
 

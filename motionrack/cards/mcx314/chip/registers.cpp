@@ -82,11 +82,8 @@ void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t m
         put(state_.wr7);
     if (state_.homing != 0) wake();  // WR2 may have ended the wait for nINPOS
     if (state_.acting != 0) act_together();
-    // Whatever changed: the next working tick of every generator is worked in full.
-    for (Axis& axis : state_.axis) {
-        axis.gen.look = true;
-        axis.gen.special_known = false;
-    }
+    look_anew();
+    forget_specials();
     settle(now);
 }
 

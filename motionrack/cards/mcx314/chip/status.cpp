@@ -33,7 +33,7 @@ std::uint8_t Chip::read_byte(std::uint32_t port) {
 void Chip::clear_flags(std::uint16_t mask) {
     Axis& read_axis = state_.axis[first_selected()];
     read_axis.flags = static_cast<std::uint16_t>(read_axis.flags & ~mask);
-    for (Axis& axis : state_.axis) axis.gen.special_known = false;
+    forget_specials();
 }
 
 std::uint16_t Chip::peek(std::uint32_t offset) const {

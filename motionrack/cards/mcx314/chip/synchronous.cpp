@@ -68,10 +68,8 @@ void Chip::act_together() {
     for_each_axis(std::exchange(state_.acting, 0u), [&](int a) { acting |= acting_with(a, state_.extension[a]); });
     for_each_axis(state_.working, [&](int a) { bring_up(a, state_.tick); });
     for_each_axis(acting, [&](int a) { act_alone(a); });
-    for (Axis& axis : state_.axis) {
-        axis.gen.look = true;
-        axis.gen.special_known = false;
-    }
+    look_anew();
+    forget_specials();
     if (state_.acting != 0) wake();
     stale_ = true;
 }

@@ -116,7 +116,7 @@ void Chip::note_followers() {
         for (int i = 4; i < 8; ++i) outputs = outputs || kernel_.wanted(general_outputs_[a][i]);
         axis.drive_wanted = kernel_.wanted(drive_wires_[a]);
         if (pulses != axis.pulses_wanted || outputs != axis.outputs_wanted) {
-            for (Axis& each : state_.axis) each.gen.special_known = false;
+            forget_specials();
             axis.shown = axis.made;
         }
         axis.pulses_wanted = pulses;
