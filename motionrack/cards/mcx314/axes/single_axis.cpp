@@ -119,7 +119,7 @@ Result<void> SingleAxis::jog(double speed, Instant now) {
         MOTIONRACK_CHECK(manual_.set(manual));
     }
     const double unit = driver_.multiple(settings_.channel) / settings_.limits.pulses_per_unit;
-    const auto v = static_cast<std::int64_t>(std::clamp(std::floor(std::fabs(speed) / unit + 0.5), 1.0, 8'000.0));
+    const auto v = static_cast<std::int64_t>(std::clamp(std::floor(std::fabs(speed) / unit + 0.5), 1.0, most_units));
     return manual_.jog(speed < 0 ? -v : v, now);
 }
 
@@ -142,7 +142,7 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomeOrder& order) 
     if (index && !(settings_.counts_per_unit > 0)) return refuse("Homing", "it has no encoder, so no index; home it with type 1 or 2");
     MOTIONRACK_TRY(const RealSetting setting, real_setting({limits.pulses_per_unit}, drive_at(order.speed, false)));
     const auto pulses = [&](double way) { return static_cast<std::int64_t>(std::min(most_pulses, std::floor(way * limits.pulses_per_unit + 0.5))); };
-    const double unit = 8e6 / static_cast<double>(setting.R) / limits.pulses_per_unit;
+    const double unit = rules::clock_hz / static_cast<double>(setting.R) / limits.pulses_per_unit;
     HomeSettings out;
     out.type = static_cast<int>(order.type);
     out.negative = !order.towards_plus;

@@ -303,7 +303,8 @@ double Chip::rate_of(int a, Instant t) const {
     const Generator& gen = state_.axis[generator].gen;
     if (gen.drive == Drive::idle || halted(generator)) return 0;
     const std::int64_t ticks = std::max<std::int64_t>(0, tick_of(t) - gen.at - gen.wait);
-    const double phase = 8e6 * static_cast<double>(gen.walks ? walk(generator, ticks, far).law.speed : gen.speed);
+    const double phase =
+        rules::clock_hz * static_cast<double>(gen.walks ? walk(generator, ticks, far).law.speed : gen.speed);
     if (!on_path) return phase / static_cast<double>(gen.range_now) * axis.direction;
     const Path& path = state_.path;
     const double r1 = static_cast<double>(path.range_for[0]);

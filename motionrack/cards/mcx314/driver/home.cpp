@@ -333,7 +333,7 @@ std::int64_t Home::run_up() const {
 /// Longest time that a drive can take: the way at its speed, two ramps, a second.
 Duration Home::drive_time(std::int64_t pulses, std::int64_t v) const {
     if (hertz(1) <= 0) return settings_.timeout;
-    const double ramps = 2 * static_cast<double>(settings_.v) / (125.0 * static_cast<double>(settings_.a));
+    const double ramps = 2 * static_cast<double>(settings_.v) / (rules::rate_unit * static_cast<double>(settings_.a));
     const double seconds = 1.1 * static_cast<double>(pulses) / hertz(v) + 1.1 * ramps + 1;
     return seconds > to_seconds(settings_.timeout) ? settings_.timeout : from_seconds(seconds);
 }
