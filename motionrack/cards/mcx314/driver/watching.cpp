@@ -47,8 +47,7 @@ std::string Driver::error_text(unsigned axes) {
     return out;
 }
 
-// ---- waiting
-// ----------------------------------------------------------------------------------------------------------
+// ---- waiting --------------------------------------------------------------------------------------------------------
 
 /// Sleeps until the interrupt line or for `slice`. The interrupts of `axes` are fetched, so that the line can rest;
 /// time passes also where the line is active for somebody else.
@@ -89,8 +88,7 @@ Result<void> Driver::wait_until_done(unsigned axes, Duration timeout) {
     return fail(Trouble::machine, why);
 }
 
-// ---- speeds
-// -----------------------------------------------------------------------------------------------------------
+// ---- speeds ---------------------------------------------------------------------------------------------------------
 
 /// Part of the basic pulses that step each axis of a piece, signed, at the place where the axes are.
 std::array<double, 4> Driver::shares(const Piece& piece) {
