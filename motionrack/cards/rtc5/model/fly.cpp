@@ -298,8 +298,7 @@ Point Engine::fly_of(Point p, bool backwards) const {
 void Engine::move_by_fly(bool backwards) {
     if (!state_.fly.on()) return;
     const Point g = through(state_.global, state_.p), way = fly_of(g, backwards) - g;
-    state_.p = {std::clamp(state_.p.x + way.x, -8388608.0, 8388607.0),
-                std::clamp(state_.p.y + way.y, -8388608.0, 8388607.0)};
+    state_.p = {clipped(state_.p.x + way.x, Kind::coordinate), clipped(state_.p.y + way.y, Kind::coordinate)};
 }
 
 void Engine::leave_fly() {
