@@ -8,6 +8,7 @@
 #include <motionrack/cards/mcx314/test/twin_host.hpp>
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
 #include <motionrack/sim/parts/axis_machine.hpp>
+#include <optional>
 #include <string>
 
 namespace motionrack::bench {
@@ -68,17 +69,29 @@ inline parts::AxisMachineSettings machine_settings() {
     return settings;
 }
 
+/// An axis machine on each axis of a chip; before the kernel starts.
+class Machines {
+  public:
+    Machines(sim::Kernel& kernel, const std::string& prefix, mcx314::Chip& chip) {
+        for (int a = 0; a < 4; ++a) {
+            all_[a] = std::make_unique<parts::AxisMachine>(kernel, prefix + "xyzu"[a], machine_settings());
+            all_[a]->connect(chip.pulses(a));
+        }
+    }
+    sim::Motion& encoder(int axis) { return all_[axis]->encoder(); }
+
+  private:
+    std::array<std::unique_ptr<parts::AxisMachine>, 4> all_;
+};
+
 /// A chip with an axis machine on each axis, if `machines`.
 class Stage {
   public:
     explicit Stage(bool machines) {
-        for (int a = 0; machines && a < 4; ++a) {
-            machines_[a] = std::make_unique<parts::AxisMachine>(host.kernel, std::string(1, "xyzu"[a]), machine_settings());
-            machines_[a]->connect(host.chip.pulses(a));
-        }
+        if (machines) machines_.emplace(host.kernel, "", host.chip);
         host.start();
     }
-    void listen(int axis, sim::EdgeListener& listener) { machines_[axis]->encoder().listen_edges(&listener); }
+    void listen(int axis, sim::EdgeListener& listener) { machines_->encoder(axis).listen_edges(&listener); }
 
     /// Runs until nothing drives, looking every 10 ms.
     void finish() {
@@ -94,7 +107,7 @@ class Stage {
     mcx314::outside::Bench host;
 
   private:
-    std::array<std::unique_ptr<parts::AxisMachine>, 4> machines_;
+    std::optional<Machines> machines_;
 };
 
 /// The plain way to decode edges: each by itself, through the table of 16 transitions.

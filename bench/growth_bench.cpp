@@ -14,38 +14,16 @@ namespace {
 using benchmark::Counter;
 
 /// One of several chips in a kernel, with a machine on each of its axes.
-class Card {
+class Card : public mcx314::Commands<Card> {
   public:
-    Card(sim::Kernel& kernel, const std::string& name) : chip_(kernel, name, mcx314::ChipOptions{}) {
-        for (int a = 0; a < 4; ++a) {
-            machines_[a] = std::make_unique<parts::AxisMachine>(kernel, name + "xyzu"[a], machine_settings());
-            machines_[a]->connect(chip_.pulses(a));
-        }
-    }
+    Card(sim::Kernel& kernel, const std::string& name) : chip_(kernel, name), machines_(kernel, name, chip_) {}
     void write(int number, unsigned value) { chip_.write(static_cast<std::uint32_t>(2 * number), static_cast<std::uint16_t>(value)); }
-    void command(unsigned axes, unsigned code) { write(0, axes << 8 | code); }
-    void data(unsigned axes, unsigned code, std::int64_t value) {
-        const auto bits = static_cast<std::uint32_t>(value);
-        write(7, bits >> 16);
-        write(6, bits & 0xFFFFu);
-        command(axes, code);
-    }
-    void mode(unsigned axes, int number, unsigned value) {
-        command(axes, 0x0F);
-        write(number, value);
-    }
     bool drives() { return (chip_.read(0) & all_axes) != 0; }
 
   private:
     mcx314::Chip chip_;
-    std::array<std::unique_ptr<parts::AxisMachine>, 4> machines_;
+    Machines machines_;
 };
-
-void advance(sim::Kernel& kernel, Duration time) {
-    const Instant until = kernel.now() + time;
-    while (kernel.run_until(until) == sim::RunEnd::broken) {
-    }
-}
 
 void count(benchmark::State& state, const char* what, double all, double seconds) {
     state.counters[what] = Counter(all, Counter::kIsRate);
@@ -79,13 +57,13 @@ void cards(benchmark::State& state) {
     for (std::int64_t i = 0; i < state.range(0); ++i) all.push_back(std::make_unique<Card>(kernel, std::string("c").append(std::to_string(i))));
     kernel.start();
     for (const auto& card : all) prepare(*card, stepper);
-    advance(kernel, milliseconds(1));
+    mcx314::outside::advance(kernel, milliseconds(1));
     const Instant begin = kernel.now();
     bool plus = true;
     for (auto _ : state) {
         for (const auto& card : all) drive_fixed(*card, stepper.pulses, plus);
         for (const auto& card : all)
-            while (card->drives()) advance(kernel, milliseconds(10));
+            while (card->drives()) mcx314::outside::advance(kernel, milliseconds(10));
         plus = !plus;
     }
     const double pulses = 4.0 * static_cast<double>(state.range(0) * stepper.pulses) * static_cast<double>(state.iterations());

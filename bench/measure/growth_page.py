@@ -50,7 +50,7 @@ def _cards(results: dict) -> list[str]:
             cells.append((f"`{bench.name}`", bench.means, "not measured", "", "", "", ""))
         for name in names:
             row = measured[name]
-            cells.append((f"`{name}`", bench.means, f"{time_of(row['ns'])} a {bench.unit[0]}", count(row["instructions"]) if "instructions" in row else "", count(row["sim_s/s"]),
+            cells.append((f"`{name}`", bench.means, f"{time_of(row['ns'])} a {bench.unit.thing}", count(row["instructions"]) if "instructions" in row else "", count(row["sim_s/s"]),
                           bytes_of(row["snapshot_bytes"]) if "snapshot_bytes" in row else "", bytes_of(memory[name]) if name in memory else ""))
     return ["", f"**Axes and cards.** `bench_growth`. {program.text} Memory is that of the whole process.", "",
             *table(("bench", "what", "each", "instructions", "virtual seconds a second", "snapshot", "peak memory"), cells)]

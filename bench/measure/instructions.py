@@ -12,7 +12,7 @@ import re
 import tempfile
 from pathlib import Path
 
-from benches import names_of, nanoseconds_each
+from benches import SECONDS, names_of, nanoseconds_each
 from running import Progress, Trouble, run, say
 from table import Program, bench_of, plain_name
 
@@ -39,7 +39,7 @@ def instructions_in(dumps: list[str]) -> int:
 
 def things_in(row: dict, counter: str) -> float:
     """How many things a run did in all."""
-    seconds = row["cpu_time"] * {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}[row["time_unit"]] * row["iterations"]
+    seconds = row["cpu_time"] * SECONDS[row["time_unit"]] * row["iterations"]
     return row["iterations"] if not counter else seconds * 1e9 / nanoseconds_each(row, counter)
 
 
@@ -72,7 +72,7 @@ def measure(folder: Path, programs: list[Program], progress: Progress, quick: bo
             done += 1
             Progress.within(name)
             try:
-                results[program.key][plain]["instructions"] = count(folder / f"bench_{program.name}", name, bench.unit[1], quick)
+                results[program.key][plain]["instructions"] = count(folder / f"bench_{program.name}", name, bench.unit.counter, quick)
             except Trouble as trouble:
                 say(f"{name} is not counted: {trouble}")
         Progress.end_within()

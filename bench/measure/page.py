@@ -47,10 +47,10 @@ def _bench_rows(program: Program, measured: dict[str, dict]) -> list[tuple[str, 
     for bench in program.benches:
         names = [name for name in measured if bench_of(program, name) is bench]
         if not names:
-            out.append((f"`{bench.name}`", bench.means, bench.unit[0], "not measured", "", ""))
+            out.append((f"`{bench.name}`", bench.means, bench.unit.thing, "not measured", "", ""))
         for name in names:
             row = measured[name]
-            out.append((f"`{name}`", bench.means, bench.unit[0], time_of(row["ns"]) + (f" ± {100 * row['spread']:.0f} %" if "spread" in row else ""),
+            out.append((f"`{name}`", bench.means, bench.unit.thing, time_of(row["ns"]) + (f" ± {100 * row['spread']:.0f} %" if "spread" in row else ""),
                         count(row["instructions"]) if "instructions" in row else "", _compared(bench, row, measured)))
     return out
 

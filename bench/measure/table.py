@@ -1,9 +1,7 @@
 """The benches: what each number means, what it is the time of, and what it is compared with.
 
-A bench is named as its program prints it, without arguments. `unit` is (the thing counted, the counter that counts it): a rate ("pulses/s"),
-a time of one ("each"), or nothing, where one call of the bench is one thing. `baseline` is another bench of the same program that does the
-same in another way; where a program compares by itself, its counter "ratio" is used. `counted`: a pattern of the names whose instructions are
-counted ("" for none): what depends on the time of day or needs minutes under valgrind is left out.
+A bench is named as its program prints it, without arguments. `baseline` is another bench of the same program that does the same in another way;
+where a program compares by itself, its counter "ratio" is used. `counted`: a pattern of the names whose instructions are counted.
 """
 import re
 from pathlib import Path
@@ -11,17 +9,27 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[2]
 
-PULSE, EDGE, STEP = ("pulse", "pulses/s"), ("edge", "edges/s"), ("step of the speed", "steps/s")
-SAMPLE, PERIOD, TICK = ("sample", "samples/s"), ("period of all cards", "frames/s"), ("tick of 10 us", "ticks/s")
-LINE, ITEM_BLOCK, BLOCK = ("line", "items_per_second"), ("block", "items_per_second"), ("block", "each")
-EVENT, FRAME, CARD_FRAME = ("event", "each"), ("frame", "items_per_second"), ("frame of a card", "each")
-PLAN, LOOK, CALL, RUN, MIB64 = ("plan", ""), ("look", ""), ("call", ""), ("run", ""), ("64 MiB", "")
+
+class Unit(NamedTuple):
+    thing: str  # one of it is what a bench's time is of
+    counter: str = ""  # that counts it: a rate ("pulses/s") or a time of one ("each"); "": one call of the bench is one thing
+
+
+PULSE, EDGE, STEP = Unit("pulse", "pulses/s"), Unit("edge", "edges/s"), Unit("step of the speed", "steps/s")
+SAMPLE, PERIOD, TICK = Unit("sample", "samples/s"), Unit("period of all cards", "frames/s"), Unit("tick of 10 us", "ticks/s")
+AXIS_SAMPLE, LINE, JOB_LINE = Unit("sample of an axis", "per_axis"), Unit("line", "items_per_second"), Unit("line", "lines/s")
+ITEM_BLOCK, BLOCK, ONE_PULSE = Unit("block", "items_per_second"), Unit("block", "each"), Unit("pulse", "each")
+EVENT, FRAME, CARD_FRAME = Unit("event", "each"), Unit("frame", "items_per_second"), Unit("frame of a card", "each")
+PLAN, CALL, RUN, MIB64 = Unit("plan"), Unit("call"), Unit("run"), Unit("64 MiB")
+
+#: Of `counted`: what depends on the time of day or needs minutes under valgrind.
+NEVER = ""
 
 
 class Bench(NamedTuple):
     name: str
     means: str
-    unit: tuple[str, str]
+    unit: Unit
     baseline: str = ""
     counted: str = "."
 
@@ -99,11 +107,11 @@ PROGRAMS = [
     ]),
     Program("decode", "Sampled encoder lines", "The ratio is to a table of 16 transitions (four axes: of 65,536), the best of many runs. The last number of a name is the bytes of the data: in the first "
             "cache, in the second, in memory; of planes, the bytes of one line. Each kind of CPU's kernels that there is; valgrind knows no AVX-512.", [
-        Bench("one_axis_bytes", "A and B of one axis in each byte", SAMPLE, "", "16384$"),
-        Bench("reading_alone", "the bytes read and nothing else: the most that data of this size allows", MIB64, "", ""),
-        Bench("one_axis_with_index", "with an index each 40,000 samples", SAMPLE, "", ""),
-        Bench("four_axes_in_a_byte", "four axes; a sample of all four is one", SAMPLE, "", "16384$"),
-        Bench("bit_planes", "A and B as bits, 64 samples a word", SAMPLE, "", "8192$"),
+        Bench("one_axis_bytes", "A and B of one axis in each byte", SAMPLE, counted="16384$"),
+        Bench("reading_alone", "the bytes read and nothing else: the most that data of this size allows", MIB64, counted=NEVER),
+        Bench("one_axis_with_index", "with an index each 40,000 samples", SAMPLE, counted=NEVER),
+        Bench("four_axes_in_a_byte", "four axes; a sample of all four is one", SAMPLE, counted="16384$"),
+        Bench("bit_planes", "A and B as bits, 64 samples a word", SAMPLE, counted="8192$"),
     ]),
     Program("gcode", "Reading G-code", "200,000 lines from text. *Naive*: a line from a stream, and words by `strtod`, without meaning or checks.", [
         Bench("read_with_meaning/G1_X_Y_F", "`G1 X1.234 Y-5.678 F1000`, read, understood and checked", LINE, "tokenise_naively/G1_X_Y_F"),
@@ -116,15 +124,15 @@ PROGRAMS = [
     Program("planner", "Profiles and look-ahead", "16,384 random moves of all cases, so that no branch predictor learns them.", [
         Bench("trapezoid_plan", "a trapezoid from rest to rest", PLAN, "trapezoid_plan_by_steps_of_1_ms"),
         Bench("trapezoid_plan_between_speeds", "between two speeds", PLAN),
-        Bench("trapezoid_plan_by_steps_of_1_ms", "found by stepping through it at 1 kHz", PLAN, "", ""),
+        Bench("trapezoid_plan_by_steps_of_1_ms", "found by stepping through it at 1 kHz", PLAN, counted=NEVER),
         Bench("s_curve_plan", "an S-curve from rest to rest", PLAN, "s_curve_plan_by_bisection"),
         Bench("s_curve_plan_by_bisection", "its top speed found by bisection", PLAN),
-        Bench("sample_s_curve", "where four axes are at an instant, for each of them", ("sample of an axis", "per_axis"), "sample_s_curve_through_all_phases"),
-        Bench("sample_trapezoid", "the same of trapezoids", ("sample of an axis", "per_axis")),
+        Bench("sample_s_curve", "where four axes are at an instant, for each of them", AXIS_SAMPLE, "sample_s_curve_through_all_phases"),
+        Bench("sample_trapezoid", "the same of trapezoids", AXIS_SAMPLE),
         Bench("sample_s_curve_through_all_phases", "one axis, its phases run through from the start", CALL),
-        Bench("look_ahead_0_1_mm", "blocks of 0.1 mm into a window of 1,024", ITEM_BLOCK, "look_ahead_with_full_passes", ""),
-        Bench("look_ahead_2_um", "blocks of 2 um: stopping takes more than the window holds", ITEM_BLOCK, "look_ahead_with_full_passes", ""),
-        Bench("look_ahead_with_full_passes", "both passes over the whole window for each block", ITEM_BLOCK, "", ""),
+        Bench("look_ahead_0_1_mm", "blocks of 0.1 mm into a window of 1,024", ITEM_BLOCK, "look_ahead_with_full_passes", counted=NEVER),
+        Bench("look_ahead_2_um", "blocks of 2 um: stopping takes more than the window holds", ITEM_BLOCK, "look_ahead_with_full_passes", counted=NEVER),
+        Bench("look_ahead_with_full_passes", "both passes over the whole window for each block", ITEM_BLOCK, counted=NEVER),
         Bench("geometry_of_a_line", "length and directions of a line", CALL),
         Bench("sine_and_cosine", "both, with the same bits on every CPU", CALL, "sine_and_cosine_of_the_c_library"),
         Bench("sine_and_cosine_of_the_c_library", "both, by the C library", CALL),
@@ -141,32 +149,32 @@ PROGRAMS = [
     ]),
     Program("curve", "Jerk-limited paths", "*Curve*: moves made into cubic pieces. *Ride*: the speed along 20,000 blocks, planned as one. *Rider*: block by block through a window, which plans all that it "
             "knows when it has to; its slowest block in a thousand is told below the table.", [
-        Bench("curve/chords_of_0_1_mm", "lines of 0.1 mm on a smooth curve", ITEM_BLOCK, "", ""),
-        Bench("curve/chords_of_0_1_mm_rounded", "the same, rounded to 1 um as CAM systems write them", ITEM_BLOCK, "", ""),
-        Bench("curve/chords_of_2_um", "lines of 2 um", ITEM_BLOCK, "", ""),
-        Bench("curve/chords_in_inverse_time", "each with another feed, so that none is merged", ITEM_BLOCK, "", ""),
-        Bench("curve/long_lines", "lines of 25 mm with corners", ITEM_BLOCK, "", ""),
-        Bench("curve/arcs_of_1_mm", "quarters of circles of 1 mm", ITEM_BLOCK, "", ""),
-        Bench("curve/arcs_of_20_mm", "and of 20 mm", ITEM_BLOCK, "", ""),
-        Bench("ride/chords_of_0_1_mm", "lines of 0.1 mm", BLOCK, "", "."),
-        Bench("ride/chords_of_0_1_mm_rounded", "the same, rounded to 1 um", BLOCK, "", ""),
-        Bench("ride/long_lines", "lines of 25 mm with corners", BLOCK, "", ""),
-        Bench("ride/arcs_of_1_mm", "quarters of circles of 1 mm", BLOCK, "", ""),
-        Bench("rider/chords_of_0_1_mm", "lines of 0.1 mm", ITEM_BLOCK, "", ""),
-        Bench("rider/chords_of_0_1_mm_rounded", "the same, rounded to 1 um", ITEM_BLOCK, "", ""),
-        Bench("rider/long_lines", "lines of 25 mm with corners", ITEM_BLOCK, "", ""),
-        Bench("rider/arcs_of_1_mm", "quarters of circles of 1 mm", ITEM_BLOCK, "", ""),
+        Bench("curve/chords_of_0_1_mm", "lines of 0.1 mm on a smooth curve", ITEM_BLOCK, counted=NEVER),
+        Bench("curve/chords_of_0_1_mm_rounded", "the same, rounded to 1 um as CAM systems write them", ITEM_BLOCK, counted=NEVER),
+        Bench("curve/chords_of_2_um", "lines of 2 um", ITEM_BLOCK, counted=NEVER),
+        Bench("curve/chords_in_inverse_time", "each with another feed, so that none is merged", ITEM_BLOCK, counted=NEVER),
+        Bench("curve/long_lines", "lines of 25 mm with corners", ITEM_BLOCK, counted=NEVER),
+        Bench("curve/arcs_of_1_mm", "quarters of circles of 1 mm", ITEM_BLOCK, counted=NEVER),
+        Bench("curve/arcs_of_20_mm", "and of 20 mm", ITEM_BLOCK, counted=NEVER),
+        Bench("ride/chords_of_0_1_mm", "lines of 0.1 mm", BLOCK),
+        Bench("ride/chords_of_0_1_mm_rounded", "the same, rounded to 1 um", BLOCK, counted=NEVER),
+        Bench("ride/long_lines", "lines of 25 mm with corners", BLOCK, counted=NEVER),
+        Bench("ride/arcs_of_1_mm", "quarters of circles of 1 mm", BLOCK, counted=NEVER),
+        Bench("rider/chords_of_0_1_mm", "lines of 0.1 mm", ITEM_BLOCK, counted=NEVER),
+        Bench("rider/chords_of_0_1_mm_rounded", "the same, rounded to 1 um", ITEM_BLOCK, counted=NEVER),
+        Bench("rider/long_lines", "lines of 25 mm with corners", ITEM_BLOCK, counted=NEVER),
+        Bench("rider/arcs_of_1_mm", "quarters of circles of 1 mm", ITEM_BLOCK, counted=NEVER),
     ]),
     Program("job", "Whole jobs", "G-code read, planned and run on the router of the examples, with motors, encoders, switches and the monitor that watches them.", [
         Bench("run_example_part", "the example part: 85 lines, 40 s", RUN),
-        Bench("run_20000_short_lines", "20,000 lines of 0.3 mm along a spiral", ("line", "lines/s")),
+        Bench("run_20000_short_lines", "20,000 lines of 0.3 mm along a spiral", JOB_LINE),
         Bench("snapshot_of_a_rack", "the state of the whole rack, taken", CALL),
         Bench("restore_of_a_rack", "and put back", CALL),
     ]),
     Program("recording", "Recordings", "`watched_by` 0: nobody, 1: a VCD file with exact ticks, 2: a recording (HDF5) of everything.", [
         Bench("write_events", "a million pulses and counts into a recording", EVENT),
         Bench("compare_events", "two such recordings compared", EVENT),
-        Bench("run_example_part", "the example part, recorded or not", RUN, "", "0$"),
+        Bench("run_example_part", "the example part, recorded or not", RUN, counted="0$"),
     ]),
     Program("rtc5", "The virtual RTC5", "Two lists in a loop. *Fly*: positions corrected by an encoder. *Table*: a field correction. *Unseen*: nobody asks for the samples.", [
         Bench("run_card/micro_vectors_plain", "a vector each tick", TICK),
@@ -186,17 +194,17 @@ PROGRAMS = [
     ]),
     Program("dds", "Frames between two processes", "Over Cyclone DDS on the loopback; the ages of the frames are told below the table. A time here is real time between two frames, so that "
             "at 200 us it says only that none was late for long.", [
-        Bench("network", _NETWORK, FRAME, "", ""),
+        Bench("network", _NETWORK, FRAME, counted=NEVER),
         Bench("judging", "a frame judged: its CRC, its place in the order", FRAME),
     ]),
     Program("dds", "The same with a real-time priority", "Both processes under `chrt -f 50`, where the machine allows it.", [
-        Bench("network", _NETWORK, FRAME, "", ""),
+        Bench("network", _NETWORK, FRAME, counted=NEVER),
     ], ("chrt", "-f", "50"), "dds_chrt"),
     Program("growth", "Growth of a rack", "Every axis makes the move `stepper`, with machines; cards of a grating bus publish frames each 200 us. What stays the same down the rows grows with the work and no "
             "faster. More cards cost more a pulse: for each event the kernel looks through all devices for the one that is next.", [
-        Bench("axes", "so many axes of one card", ("pulse", "each")),
-        Bench("cards", "all four axes of so many cards in one kernel", ("pulse", "each"), "", "/(1|8)$"),
-        Bench("frames", "a grating bus with so many slaves and scales, nobody looking", CARD_FRAME, "", ""),
+        Bench("axes", "so many axes of one card", ONE_PULSE),
+        Bench("cards", "all four axes of so many cards in one kernel", ONE_PULSE, counted="/(1|8)$"),
+        Bench("frames", "a grating bus with so many slaves and scales, nobody looking", CARD_FRAME, counted=NEVER),
     ]),
 ]
 

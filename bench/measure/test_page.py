@@ -13,7 +13,7 @@ import whole
 from main import PAGE, STORED, stored_text
 from page import page
 from running import Trouble, peak_of, run
-from table import PROGRAMS, ROOT, Bench, bench_of, names_in_sources, plain_name
+from table import PROGRAMS, ROOT, Bench, Unit, bench_of, names_in_sources, plain_name
 from text import bytes_of, digits, time_of
 
 _MACHINE = {"cpu": "C", "virtual": False, "cores": 2, "memory_gb": 4, "system": "S", "kernel": "6.1", "compiler": "c++", "load": 0.0, "day": "2000-01-01", "version": "1", "peers": {"verilator": "5"}}
@@ -33,7 +33,7 @@ class EveryBench(unittest.TestCase):
         for program in PROGRAMS:
             told.setdefault(program.name, set()).update(bench.name for bench in program.benches)
             for bench in program.benches:
-                self.assertTrue(bench.means and bench.unit[0], bench.name)
+                self.assertTrue(bench.means and bench.unit.thing, bench.name)
                 self.assertTrue(not bench.baseline or any(bench.baseline == other.name for other in program.benches), bench.name)
         self.assertEqual(told, names_in_sources(), "bench/measure/table.py has a line for each bench of the sources")
 
@@ -116,7 +116,7 @@ class Results(unittest.TestCase):
         self.assertEqual(benches.nanoseconds_each(google("a", 5), ""), 5)
         self.assertEqual(benches.nanoseconds_each(google("a/real_time", 5), ""), 10)
         self.assertEqual(benches.nanoseconds_each(google("a", 5, each=2e-9), "each"), 2)
-        self.assertEqual(benches.summary_of([google("a", 5)], Bench("a", "", ("", ""))), {"ns": 5})
+        self.assertEqual(benches.summary_of([google("a", 5)], Bench("a", "", Unit(""))), {"ns": 5})
 
 
 class Instructions(unittest.TestCase):

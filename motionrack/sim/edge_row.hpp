@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <motionrack/sim/motion.hpp>
 
 namespace motionrack::sim {
@@ -11,7 +12,7 @@ class EdgeRow {
     /// An edge at `at`, not before the last one, that leads to `count`; `step` +1 or -1. What does not fit into the batch
     /// with it is handed over first.
     void add(EdgeListener& listener, Instant at, std::int64_t count, int step) {
-        const bool fits = batch_.size < EdgeBatch::capacity && step == batch_.step && (at - batch_.origin).count() <= 0xFFFF'FFFF;
+        const bool fits = batch_.size < EdgeBatch::capacity && step == batch_.step && (at - batch_.origin).count() <= longest;
         if (!fits) hand_over(listener);
         if (batch_.size == 0) {
             batch_.origin = at;
@@ -28,6 +29,8 @@ class EdgeRow {
     }
 
   private:
+    /// Ticks from a batch's first edge to its last.
+    static constexpr std::int64_t longest = std::numeric_limits<decltype(EdgeBatch::at)::value_type>::max();
     EdgeBatch batch_{};
 };
 

@@ -94,6 +94,14 @@ Result<Command> list_command(Op op, std::span<const double> parameters) {
     return out;
 }
 
+Result<void> check_parameter(std::string_view command, std::string_view name, double value, double least,
+                             double greatest, std::string_view unit) {
+    if (value >= least && value <= greatest) return {};
+    return fail(Trouble::refused,
+                fmt::format("{}{}{} is {}, outside {} to {}{}{}; nothing was changed", command,
+                            command.empty() ? "" : ": ", name, value, least, greatest, unit.empty() ? "" : " ", unit));
+}
+
 std::vector<std::string> decoded(std::uint32_t word, std::span<const BitInfo> bits) {
     std::vector<std::string> out;
     for (const BitInfo& bit : bits)

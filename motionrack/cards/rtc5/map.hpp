@@ -1,6 +1,7 @@
 // The RTC5's commands, status bits, pins and numbers as constants; model, library, documents and tests read them here.
 #pragma once
 
+#include <algorithm>
 #include <motionrack/base/card_map.hpp>
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/time.hpp>
@@ -34,6 +35,20 @@ inline constexpr std::uint32_t control_ext_start = 1u << 0, control_reset_at_sta
 Result<Command> list_command(Op op, std::span<const double> parameters);
 inline Result<Command> list_command(Op op, std::initializer_list<double> parameters) {
     return list_command(op, std::span<const double>(parameters.begin(), parameters.size()));
+}
+
+/// A parameter of a control command: refused (with command, if it is said, parameter, number and range) where it is no
+/// number or outside `least` to `greatest`, or the range of its kind.
+Result<void> check_parameter(std::string_view command, std::string_view name, double value, double least,
+                             double greatest, std::string_view unit = "");
+inline Result<void> check_parameter(std::string_view command, std::string_view name, double value, Kind kind) {
+    const KindInfo range = kind_info(kind);
+    return check_parameter(command, name, value, range.least, range.greatest, range.unit);
+}
+/// The nearest value in the range of its kind.
+constexpr double clipped(double value, Kind kind) {
+    const KindInfo range = kind_info(kind);
+    return std::clamp(value, range.least, range.greatest);
 }
 
 /// The names of the bits set, for people: "FLY_X_OVERFLOW: the corrected X was above 524287".

@@ -29,6 +29,12 @@ auto guarded(Call call, Failed failed) noexcept {
     }
 }
 
+/// `what`: of the argument, "The name".
+inline Result<void> check_pointer(const void* pointer, std::string_view what) {
+    if (pointer != nullptr) return {};
+    return fail(Trouble::bad_input, std::string(what) + " is a null pointer. Nothing was done.");
+}
+
 /// What the functions of a library share in a process.
 template <class Bench>
 class Process {

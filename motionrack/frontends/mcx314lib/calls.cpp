@@ -70,11 +70,6 @@ Result<unsigned> mode_word(int word) {
                 fmt::format("WR1Reg is {}, but a word is 0 to 65535. Nothing was written, nothing moved.", word));
 }
 
-Result<void> check_pointer(const void* pointer, std::string_view what) {
-    if (pointer != nullptr) return {};
-    return fail(Trouble::bad_input, fmt::format("{} is a null pointer. Nothing was done.", what));
-}
-
 }  // namespace motionrack::mcx314lib
 
 // ---- errors -----------------------------------------------------------------------------------------------------------

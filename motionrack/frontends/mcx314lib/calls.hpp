@@ -44,7 +44,7 @@ Result<unsigned> mask_of(int axis);
 Result<int> channel_of(int axis);
 /// WR1 as homing takes it.
 Result<unsigned> mode_word(int word);
-Result<void> check_pointer(const void* pointer, std::string_view what);
+using calls::check_pointer;
 
 /// The same with an axis mask: `call` takes the chip and the mask.
 template <class Call>

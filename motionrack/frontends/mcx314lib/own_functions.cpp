@@ -13,6 +13,7 @@ using motionrack::fail;
 using motionrack::Instant;
 using motionrack::Result;
 using motionrack::Trouble;
+using motionrack::mcx314::channels_of;
 using motionrack::mcx314::FourAxes;
 using motionrack::mcx314::StopKind;
 
@@ -35,8 +36,8 @@ int those_of(const char* who, int axis, Fits fits) {
     return with_chip(who, -1, [&](Chip& chip) -> Result<int> {
         MOTIONRACK_TRY(const unsigned axes, mask_of(axis));
         int out = 0;
-        for (int i = 0; i < 4; ++i)
-            if ((axes >> i & 1) && fits(chip, i)) out |= 1 << i;
+        for (const int i : channels_of(axes))
+            if (fits(chip, i)) out |= 1 << i;
         return out;
     });
 }
@@ -44,8 +45,8 @@ int those_of(const char* who, int axis, Fits fits) {
 /// Manual operations stop by themselves, other drives by the library.
 int stop(const char* who, int axis, StopKind kind) {
     return on_axes(who, axis, [&](Chip& chip, unsigned axes) -> Result<void> {
-        for (int i = 0; i < 4; ++i) {
-            if (!(axes >> i & 1) || chip.manual(i).state() == motionrack::mcx314::ManualState::standing) continue;
+        for (const int i : channels_of(axes)) {
+            if (chip.manual(i).state() == motionrack::mcx314::ManualState::standing) continue;
             kind == StopKind::quick ? chip.manual(i).stop_now() : chip.manual(i).stop();
             axes &= ~(1u << i);
         }
@@ -118,8 +119,8 @@ int mcx314_wait(int axis, int milliseconds) {
         MOTIONRACK_CHECK(bench.pass(*chip, Duration{0}));
         const Instant end = chip->now() + time;
         const auto manual = [&] {
-            for (int i = 0; i < 4; ++i)
-                if ((axes >> i & 1) && chip->manual(i).state() != motionrack::mcx314::ManualState::standing) return true;
+            for (const int i : channels_of(axes))
+                if (chip->manual(i).state() != motionrack::mcx314::ManualState::standing) return true;
             return false;
         };
         while (manual() && chip->now() < end)
@@ -158,8 +159,7 @@ int mcx314_at_limit(int axis) {
 const char* mcx314_report(int axis) {
     report_text.clear();
     on_axes(__func__, axis, [](Chip& chip, unsigned axes) -> Result<void> {
-        for (int i = 0; i < 4; ++i) {
-            if (!(axes >> i & 1)) continue;
+        for (const int i : channels_of(axes)) {
             if (!report_text.empty()) report_text += '\n';
             report_text += chip.driver.report(i).text();
         }

@@ -219,11 +219,6 @@ Result<void> as(Trouble trouble, Result<void> result) {
     return result;
 }
 
-Result<void> check_pointer(const void* pointer, std::string_view what) {
-    if (pointer != nullptr) return {};
-    return fail(Trouble::bad_input, fmt::format("{} is a null pointer. Nothing was done.", what));
-}
-
 Result<void> checked(rtc5::Op op, double parameter) {
     const auto made = rtc5::list_command(op, {parameter});
     if (made) return {};

@@ -170,7 +170,7 @@ inline rtc5::Point point(long x, long y) {
 }
 /// A whole number of 32 bits.
 Result<std::int32_t> whole32(std::string_view what, long value);
-Result<void> check_pointer(const void* pointer, std::string_view what);
+using calls::check_pointer;
 /// A whole number that the engine takes as int; what is greater is refused by it.
 int small(UINT value);
 

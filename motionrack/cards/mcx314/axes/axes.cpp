@@ -1,5 +1,6 @@
 // Playing segments: starting chains, queueing behind the running segment, rewriting speed at joints, standing still exactly.
 #include <motionrack/cards/mcx314/axes/axes.hpp>
+#include <motionrack/cards/mcx314/axes/set_up.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,12 +13,7 @@ namespace motionrack::mcx314 {
 namespace {
 
 // R of the second axis for R of the first: both axes step together, the path is sqrt(2) pulses long.
-constexpr double both_axes_factor = 1.41421356237309503;
-constexpr unsigned all_axes = 0xF;
-constexpr std::uint16_t wr1_drive_end = 0x8000;
-constexpr std::uint16_t wr2_software_limits = 0x0003;
-constexpr std::uint16_t wr2_limit_slows = 0x0004;
-constexpr std::uint16_t wr2_pulse_and_direction = 0x0040;
+constexpr double both_axes_factor = 1 + both_axes_extra;
 constexpr Duration joint_timeout = whole_seconds(3600);
 constexpr Duration brake_look = microseconds(50);
 
@@ -27,20 +23,14 @@ Axes::Axes(Driver& driver, const AxisMap& map, Duration access)
     : driver_(driver), map_(map), access_(access), range_(Segmenter::best_range(map)) {}
 
 Result<void> Axes::set_up(const control::Point& position) {
-    driver_.RESET();
-    driver_.WriteMode1(all_axes, 0);
-    driver_.WriteMode2(all_axes, wr2_pulse_and_direction | wr2_limit_slows);
-    driver_.WriteMode3(all_axes, 0);
-    MOTIONRACK_CHECK(driver_.SetAO(all_axes, 0));
+    MOTIONRACK_CHECK(prepare_chip(driver_));
     const Pulses4 at = map_.pulses(position);
     for (std::size_t i = 0; i < map_.channel.size(); ++i) {
-        if (map_.channel[i] < 0) continue;
-        const unsigned axis = 1u << map_.channel[i];
-        const control::AxisLimits& limits = map_.limits[i];
-        MOTIONRACK_CHECK(driver_.LPS(axis, at[static_cast<std::size_t>(map_.channel[i])]));
-        MOTIONRACK_CHECK(driver_.SetCompP(axis, static_cast<std::int64_t>(std::floor(limits.max_position * limits.pulses_per_unit + 0.5))));
-        MOTIONRACK_CHECK(driver_.SetCompM(axis, static_cast<std::int64_t>(std::floor(limits.min_position * limits.pulses_per_unit + 0.5))));
-        driver_.WriteMode2(axis, static_cast<std::uint16_t>(driver_.mode2(map_.channel[i]) | wr2_software_limits));
+        const int channel = map_.channel[i];
+        if (channel < 0) continue;
+        MOTIONRACK_CHECK(driver_.LPS(1u << channel, at[static_cast<std::size_t>(channel)]));
+        MOTIONRACK_CHECK(write_travel(driver_, channel, map_.limits[i]));
+        driver_.WriteMode2(1u << channel, static_cast<std::uint16_t>(driver_.mode2(channel) | software_limits));
     }
     clear_interrupts();
     return {};
@@ -94,7 +84,7 @@ Result<void> Axes::begin() {
     segments_ = 0;
     chain_running_ = false;
     companion_ = -1;
-    driver_.WriteMode1(all_axes, wr1_drive_end);
+    driver_.WriteMode1(xyzu, field("WR1", "DEND").mask);
     clear_interrupts();
     return {};
 }
@@ -160,7 +150,7 @@ Result<void> Axes::start_chain(const Segment& segment) {
     braking_ = false;
     const unsigned own = 1u << generator_;
     MOTIONRACK_CHECK(driver_.WriteRange(own, range_));
-    MOTIONRACK_CHECK(driver_.WriteRange(all_axes & ~own, std::llround(range_ * both_axes_factor)));
+    MOTIONRACK_CHECK(driver_.WriteRange(xyzu & ~own, std::llround(range_ * both_axes_factor)));
     MOTIONRACK_CHECK(driver_.SetSV(own, segment.initial_speed));
     driver_.SetSCurve(own, segment.s_curve);
     if (segment.s_curve) {
@@ -178,7 +168,7 @@ Result<void> Axes::start_chain(const Segment& segment) {
 Result<void> Axes::queue(const Segment& segment) {
     const MainStatus status = driver_.status();
     if (status.interpolating()) return command(segment);
-    if (status.error(all_axes) || (probing_ && probe_hit())) return stopped_by_machine();
+    if (status.error(xyzu) || (probing_ && probe_hit())) return stopped_by_machine();
     notes_.push_back({segment.line, fmt::format("line {}: the next piece came too late and the axes stopped at the joint for a moment; "
                                                 "lower the feed or bus_access_ns", segment.line), 0});
     return command(segment);
@@ -202,7 +192,7 @@ Result<void> Axes::wait_for_joint() {
         const MainStatus status = driver_.status();
         if (status.can_queue()) return {};
         if (!status.interpolating()) {
-            if (status.error(all_axes)) return stopped_by_machine();
+            if (status.error(xyzu)) return stopped_by_machine();
             return {};  // too late by a hair: the segment has run and ended on its own
         }
         if (driver_.interrupt().stop_requested()) {
@@ -262,7 +252,7 @@ Result<void> Axes::begin_segment(const Segment& segment) {
 Result<void> Axes::wait_until_all_stand() {
     while (true) {
         const MainStatus status = driver_.status();
-        if (!status.driving(all_axes) && !status.interpolating()) break;
+        if (!status.driving(xyzu) && !status.interpolating()) break;
         if (driver_.interrupt().stop_requested())
             MOTIONRACK_CHECK(brake());
         else if (driver_.interrupt().wait(joint_timeout))
@@ -289,9 +279,9 @@ Result<void> Axes::wait_for_standstill() {
 
 void Axes::stop(bool immediate) {
     if (immediate)
-        driver_.QuickStop(all_axes);
+        driver_.QuickStop(xyzu);
     else
-        driver_.SlowStop(all_axes);
+        driver_.SlowStop(xyzu);
     chain_running_ = false;
     if (segmenter_) segmenter_.emplace(map_, range_, expected_, access_);
 }
@@ -302,8 +292,8 @@ void Axes::clear_interrupts() {
 }
 
 tl::unexpected<Error> Axes::stopped_by_machine() {
-    driver_.SlowStop(all_axes);
-    while (driver_.status().driving(all_axes)) driver_.interrupt().pass(microseconds(100));
+    driver_.SlowStop(xyzu);
+    while (driver_.status().driving(xyzu)) driver_.interrupt().pass(microseconds(100));
     std::string why;
     for (std::size_t i = 0; i < map_.channel.size(); ++i) {
         if (map_.channel[i] < 0) continue;
@@ -319,8 +309,8 @@ tl::unexpected<Error> Axes::stopped_by_machine() {
 
 tl::unexpected<Error> Axes::stopped_by_user() {
     braking_ = false;
-    driver_.SlowStop(all_axes);
-    while (driver_.status().driving(all_axes)) driver_.interrupt().pass(microseconds(100));
+    driver_.SlowStop(xyzu);
+    while (driver_.status().driving(xyzu)) driver_.interrupt().pass(microseconds(100));
     chain_running_ = false;
     return control::stopped_on_request(current_line_, commanded_position(), map_.limits);
 }

@@ -39,7 +39,7 @@ class Axes final : public control::PathAxes, private control::DriveRule {
     std::vector<control::BlockStart> take_starts() override { return std::exchange(starts_, {}); }
 
     /// Speed of one V unit in pulses a second: rates that change by more than this at once are joints, not ramps.
-    double speed_step_hz() const { return 8e6 / range_; }
+    double speed_step_hz() const { return rules::clock_hz / range_; }
     /// Segments given to the chip since begin(): what the path cost.
     std::int64_t segments() const { return segments_; }
 

@@ -98,8 +98,8 @@ void Segmenter::emit_chords(const Work& work, const Speeds& speeds) {
         }
         const double share = work.companion >= 0 ? companion_share : 1;
         // V units squared; less the steps of whole units and the register accesses before the new speed counts.
-        const double slope = 125.0 * after.acceleration * share,
-                     spent = latency_seconds_ + 64'000.0 / after.acceleration / 8e6 * 2;
+        const double slope = rules::rate_unit * after.acceleration * share,
+                     spent = latency_seconds_ + speed_carry / after.acceleration / rules::clock_hz * 2;
         const double room = std::max(0.0, (static_cast<double>(pulses) - 2) / pulses_per_v_ - spent * chords[i - 1].v);
         // It begins with the speed of the chord before it.
         const double most = most_on(way, work.constant_vector).speed;

@@ -14,16 +14,16 @@ namespace motionrack::mcx314 {
 Result<void> Axes::take_companion(int channel, std::int64_t at) {
     companion_ = channel;
     companion_target_ = companion_from_ = at;
-    double acceleration = 8'000, start = 1, top = 8'000;
+    double acceleration = most_units, start = 1, top = most_units;
     for (std::size_t i = 0; i < map_.channel.size(); ++i) {
         if (map_.channel[i] != channel) continue;
         const control::AxisLimits& limits = map_.limits[i];
-        const double units = limits.pulses_per_unit * range_ / 8e6;
-        acceleration = limits.max_accel * units / 125;
+        const double units = limits.pulses_per_unit * range_ / rules::clock_hz;
+        acceleration = limits.max_accel * units / rules::rate_unit;
         start = 0.5 * limits.start_speed * units;
         top = limits.max_speed * units;
     }
-    auto whole = [](double x) { return static_cast<std::int32_t>(std::clamp(std::floor(x), 1.0, 8'000.0)); };
+    auto whole = [](double x) { return static_cast<std::int32_t>(std::clamp(std::floor(x), 1.0, most_units)); };
     companion_start_speed_ = whole(start);
     companion_acceleration_ = whole(acceleration);
     companion_top_speed_ = whole(top);
@@ -53,8 +53,8 @@ double basic_pulses(const Segment& segment) {
 
 /// About how long the segment takes: from the present speed to its own, then on.
 double Axes::segment_seconds(const Segment& segment) {
-    const double length = basic_pulses(segment) * range_ / 8e6;  // in V units * seconds
-    const double v0 = std::max(1, driver_.ReadCV(generator_)), v1 = segment.speed, slope = 125.0 * segment.acceleration;
+    const double length = basic_pulses(segment) * range_ / rules::clock_hz;  // in V units * seconds
+    const double v0 = std::max(1, driver_.ReadCV(generator_)), v1 = segment.speed, slope = rules::rate_unit * segment.acceleration;
     const double ramp = std::fabs(v1 - v0) / slope, ramp_length = ramp * (v0 + v1) / 2;
     if (ramp_length <= length) return ramp + (length - ramp_length) / v1;
     const double end = std::sqrt(std::max(1.0, v0 * v0 + (v1 > v0 ? 2 : -2) * slope * length));
@@ -74,7 +74,7 @@ Result<void> Axes::steer_companion(const Segment& segment) {
     const int direction = companion_negative_ ? -1 : 1;
     const std::int64_t goal = companion_target_ + segmenter_->companion_pulses_ahead(c, direction);
     if (direction * (goal - at) <= 0) return {};
-    const double mean = std::max(0.0, static_cast<double>(direction * left)) / segment_seconds(segment) * range_ / 8e6;
+    const double mean = std::max(0.0, static_cast<double>(direction * left)) / segment_seconds(segment) * range_ / rules::clock_hz;
     const std::int32_t v = companion_speed(mean);
     if (!driving) return drive_companion(at, goal, v);
     // Once it brakes it goes on to the end that it had; what is left is driven from there.
@@ -97,7 +97,7 @@ Result<void> Axes::steer_evenly(const Segment& segment, bool driving, std::int64
     if (!driving && segment.companion_pulses != 0) companion_negative_ = segment.companion_pulses < 0;
     const int direction = companion_negative_ ? -1 : 1;
     const std::int64_t ahead = direction * segmenter_->companion_pulses_ahead(companion_, direction);
-    const double pulses_per_v = 8e6 / range_, most = 125.0 * companion_acceleration_, start = companion_start_speed_;
+    const double pulses_per_v = rules::clock_hz / range_, most = rules::rate_unit * companion_acceleration_, start = companion_start_speed_;
     const double from = driving ? driver_.ReadCV(companion_) : start;
     const auto left = static_cast<double>(direction * (companion_target_ - at));
     if (!driving && left + static_cast<double>(ahead) <= 0) return {};  // it is there already
@@ -110,7 +110,7 @@ Result<void> Axes::steer_evenly(const Segment& segment, bool driving, std::int64
     double slope = std::fabs(v - from) / seconds;
     if (v < from && from > end)
         slope = way > 0 ? std::max(slope, sure * (from * from - end * end) / (2 * way)) : most;  // one that is ahead is there before its time
-    MOTIONRACK_CHECK(driver_.SetA(axis, static_cast<std::int32_t>(std::ceil(std::clamp(slope, 125.0, most) / 125))));
+    MOTIONRACK_CHECK(driver_.SetA(axis, static_cast<std::int32_t>(std::ceil(std::clamp(slope, rules::rate_unit, most) / rules::rate_unit))));
     const double falls_in = std::max(0.0, from * from - start * start) / (2 * most) * pulses_per_v;
     const std::int64_t goal = at + direction * std::max(static_cast<std::int64_t>(left) + ahead, static_cast<std::int64_t>(std::ceil(falls_in)));
     if (!driving) return drive_companion(at, goal, v, false);
@@ -125,7 +125,7 @@ std::int64_t Axes::companion_fall_from(std::int64_t pulses, std::int32_t v) cons
     const std::int64_t all = std::llabs(pulses);
     if (v <= companion_start_speed_) return all;
     const double top = v, low = companion_start_speed_;
-    const double phase = 64'000.0 / companion_acceleration_ * (top * (top + 1) - low * (low + 1)) / 2;
+    const double phase = speed_carry / companion_acceleration_ * (top * (top + 1) - low * (low + 1)) / 2;
     return std::max<std::int64_t>(0, all - static_cast<std::int64_t>(phase / range_) - 2);
 }
 
@@ -149,8 +149,8 @@ Result<void> Axes::finish_companion() {
     const std::int64_t at = driver_.ReadLPS(companion_);
     if (driver_.status().error(1u << companion_)) return {};
     const std::int64_t target = expected_[static_cast<std::size_t>(companion_)];
-    const double start = companion_start_speed_, slope = 125.0 * companion_acceleration_;
-    const double half = 0.5 * static_cast<double>(std::llabs(target - at)) * range_ / 8e6;  // V units * seconds
+    const double start = companion_start_speed_, slope = rules::rate_unit * companion_acceleration_;
+    const double half = 0.5 * static_cast<double>(std::llabs(target - at)) * range_ / rules::clock_hz;  // V units * seconds
     MOTIONRACK_CHECK(driver_.SetA(1u << companion_, companion_acceleration_));
     return drive_companion(at, target, companion_speed(std::sqrt(start * start + 2 * slope * half)));
 }

@@ -43,8 +43,8 @@ void Segmenter::make_even(const Work& work, Speeds& speeds) {
     const double length = (static_cast<double>(basic) - spent_pulses) / pulses_per_v_;  // V units * seconds
     const double change = to * to - from * from, slope = std::fabs(change) / (2 * length);
     const std::int32_t most = most_on(way, false).acceleration;
-    speeds.acceleration = std::clamp(static_cast<std::int32_t>(std::min(std::ceil(slope / 125), 8'000.0)), 1, most);
-    const double changed = 2 * length * 125 * speeds.acceleration;
+    speeds.acceleration = std::clamp(static_cast<std::int32_t>(std::min(std::ceil(slope / rules::rate_unit), most_units)), 1, most);
+    const double changed = 2 * length * rules::rate_unit * speeds.acceleration;
     reached_ = changed >= std::fabs(change) ? to : std::sqrt(std::max(1.0, from * from + (change > 0 ? changed : -changed)));
 }
 

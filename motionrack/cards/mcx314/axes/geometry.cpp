@@ -10,8 +10,7 @@ Pulses4 AxisMap::pulses(const control::Point& position) const {
     Pulses4 out = {};
     for (std::size_t i = 0; i < channel.size(); ++i)
         if (channel[i] >= 0)
-            out[static_cast<std::size_t>(channel[i])] =
-                static_cast<std::int64_t>(std::floor(position[i] * limits[i].pulses_per_unit + 0.5));
+            out[static_cast<std::size_t>(channel[i])] = nearest_pulse(position[i], limits[i].pulses_per_unit);
     return out;
 }
 

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstdint>
+#include <motionrack/cards/mcx314/arithmetic.hpp>
 #include <motionrack/cards/mcx314/axes/segment.hpp>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/limits.hpp>
@@ -12,6 +15,14 @@ namespace motionrack::mcx314 {
 
 /// R of the second axis over that of the first, less one, where the speed along the path of two axes is kept.
 inline constexpr double both_axes_extra = 0.41421356237309503;
+
+/// As doubles.
+inline constexpr double most_units = static_cast<double>(rules::most_units), speed_carry = static_cast<double>(rules::speed_carry);
+
+/// The nearest whole pulse, or count, to a place.
+inline std::int64_t nearest_pulse(double place, double pulses_per_unit) {
+    return static_cast<std::int64_t>(std::floor(place * pulses_per_unit + 0.5));
+}
 
 /// Which card channel moves which axis of the machine, and how far one pulse is.
 struct AxisMap {

@@ -7,17 +7,17 @@
 #include <fmt/format.h>
 #include <motionrack/base/trig.hpp>
 #include <motionrack/cards/mcx314/arithmetic.hpp>
+#include <motionrack/cards/mcx314/driver/parameters.hpp>
 
 namespace motionrack::mcx314 {
 
 namespace {
 
-// The planner keeps a little of each axis' acceleration back (Mcx314Axes::kept_back); this much of it is given to the chip, so that
+// The planner keeps a little of each axis' acceleration back (Axes::kept_back); this much of it is given to the chip, so that
 // its whole-number steps are never slower than the plan.
 constexpr double acceleration_reserve = 1.015;
 // Register accesses between the interrupt at a joint and the new speed being written.
 constexpr double accesses_to_speed = 8;
-constexpr std::int32_t top_speed_units = 8'000;
 constexpr std::int64_t longest_line = 8'000'000;
 
 }  // namespace
@@ -26,12 +26,12 @@ std::int32_t Segmenter::best_range(const AxisMap& map) {
     double fastest = 1;
     for (std::size_t i = 0; i < map.channel.size(); ++i)
         if (map.channel[i] >= 0) fastest = std::max(fastest, map.limits[i].max_speed * map.limits[i].pulses_per_unit);
-    const double range = 8e6 * top_speed_units / (fastest * 1.4143);
-    return static_cast<std::int32_t>(std::clamp(std::floor(range), 16'000.0, 8e6));
+    const double range = rules::clock_hz * most_units / (fastest * 1.4143);
+    return static_cast<std::int32_t>(std::clamp(std::floor(range), static_cast<double>(param::R.least), static_cast<double>(param::R.greatest)));
 }
 
 Segmenter::Segmenter(const AxisMap& map, std::int32_t range, const Pulses4& start, Duration access)
-    : map_(map), range_(range), pulses_per_v_(8e6 / range), latency_seconds_(accesses_to_speed * to_seconds(access)), at_(start) {}
+    : map_(map), range_(range), pulses_per_v_(rules::clock_hz / range), latency_seconds_(accesses_to_speed * to_seconds(access)), at_(start) {}
 
 void Segmenter::add(const control::PlannedMove& move) {
     Work work = classify(move);
@@ -75,11 +75,11 @@ double Segmenter::units_along(const Work& work, const control::Point& tangent) c
 }
 
 std::int32_t Segmenter::speed_units(double units, double speed) const {
-    return static_cast<std::int32_t>(std::clamp(std::floor(units * speed), 1.0, double{top_speed_units}));
+    return static_cast<std::int32_t>(std::clamp(std::floor(units * speed), 1.0, most_units));
 }
 
 std::int32_t Segmenter::acceleration_units(double units, double acceleration) const {
-    return static_cast<std::int32_t>(std::clamp(std::floor(units * acceleration * acceleration_reserve / 125), 1.0, 8'000.0));
+    return static_cast<std::int32_t>(std::clamp(std::floor(units * acceleration * acceleration_reserve / rules::rate_unit), 1.0, most_units));
 }
 
 /// The speed to start and stop with: half of what each axis may jump, because a stop and a start the other way may follow at once.
@@ -100,8 +100,8 @@ Pulses4 Segmenter::pulses_at(const Work& work, double s) const {
 double Segmenter::fall_length(double units, const Speeds& speeds) const {
     if (speeds.top <= speeds.exit) return 0;
     const double top = speeds.top, exit = speeds.exit;
-    const double ticks_per_step = 64'000.0 / speeds.acceleration;
-    const double phase = ticks_per_step * (top * (top + 1) - exit * (exit + 1)) / 2 + ticks_per_step * top + latency_seconds_ * 8e6 * top;
+    const double ticks_per_step = speed_carry / speeds.acceleration;
+    const double phase = ticks_per_step * (top * (top + 1) - exit * (exit + 1)) / 2 + ticks_per_step * top + latency_seconds_ * rules::clock_hz * top;
     return (phase / range_ + 2) / (units * pulses_per_v_);
 }
 
@@ -168,18 +168,18 @@ bool Segmenter::emit_s_curve(const Work& work) {
     if (work.shape != Shape::line || work.companion >= 0) return false;
     const double units = work.units_in;
     const double initial = std::floor(units * start_speed(work.path.tangent_in));
-    const double k = std::ceil(500'000 * 125 / (units * work.move.jerk));
-    if (k > 65'535 || initial < 1) return false;
+    const double k = std::ceil(rules::jerk_unit / (units * work.move.jerk));
+    if (k > static_cast<double>(param::K.greatest) || initial < 1) return false;
     // The top speed for which two S-ramps with the acceleration limit (or without reaching it) take at most the move's length.
-    const double a = units * work.move.accel, j = 62.5e6 / std::max(1.0, k), v0 = initial;
+    const double a = units * work.move.accel, j = rules::jerk_unit / std::max(1.0, k), v0 = initial;
     auto ramp_length = [&](double v) {  // in V units * seconds
         const double dv = v - v0;
         const double time = dv * j <= a * a ? 2 * std::sqrt(dv / j) : dv / a + a / j;
         return (v + v0) / 2 * time;
     };
     const double whole = units * work.path.length;
-    const double spare = (8 + 0.02 * whole * 8e6 / range_) * range_ / 8e6 + v0 * 1e-3;
-    double low = v0 + 1, high = std::min(double{top_speed_units}, units * work.move.cruise);
+    const double spare = (8 + 0.02 * whole * rules::clock_hz / range_) * range_ / rules::clock_hz + v0 * 1e-3;
+    double low = v0 + 1, high = std::min(most_units, units * work.move.cruise);
     if (high <= low || 2 * ramp_length(low) + spare > whole) return false;
     if (2 * ramp_length(high) + spare > whole)
         for (int i = 0; i < 40; ++i) (2 * ramp_length((low + high) / 2) + spare > whole ? high : low) = (low + high) / 2;
@@ -189,7 +189,7 @@ bool Segmenter::emit_s_curve(const Work& work) {
         if (work.to[c] - at_[c] > longest_line || at_[c] - work.to[c] > longest_line) return false;
     // The chip's S-ramps are not quite symmetric: what falling takes more than rising goes into AO, or it would end too fast.
     const auto v = static_cast<std::int32_t>(low), sv = static_cast<std::int32_t>(initial);
-    const auto limit = static_cast<std::int32_t>(std::clamp(std::floor(a / 125), 1.0, 8'000.0));
+    const auto limit = static_cast<std::int32_t>(std::clamp(std::floor(a / rules::rate_unit), 1.0, most_units));
     const auto jerk = static_cast<std::int32_t>(std::max(1.0, k));
     if (v <= sv) return false;
     const std::int64_t rise = rules::s_ramp(sv, v, limit, jerk).phase / range_;
@@ -326,9 +326,9 @@ Segmenter::Most Segmenter::most_on(const Pulses4& way, bool constant_vector) con
         if (map_.channel[i] < 0 || way[static_cast<std::size_t>(map_.channel[i])] == 0) continue;
         const auto own = static_cast<double>(std::llabs(way[static_cast<std::size_t>(map_.channel[i])]));
         const double units = map_.limits[i].pulses_per_unit * basic / own / pulses_per_v_;
-        auto at_most = [](double value) { return static_cast<std::int32_t>(std::clamp(std::floor(value), 1.0, 8'000.0)); };
+        auto at_most = [](double value) { return static_cast<std::int32_t>(std::clamp(std::floor(value), 1.0, most_units)); };
         most.speed = std::min(most.speed, at_most(map_.limits[i].max_speed * units));
-        most.acceleration = std::min(most.acceleration, at_most(map_.limits[i].max_accel * units / 125));
+        most.acceleration = std::min(most.acceleration, at_most(map_.limits[i].max_accel * units / rules::rate_unit));
     }
     return most;
 }

@@ -62,7 +62,7 @@ class Segmenter {
         std::int32_t block = 0;
         std::int32_t companion = -1;  ///< channel of a fourth axis that moves beside the interpolation
         Pulses4 to = {};
-        std::int32_t most_at_end = 8'000;  ///< V with which the piece after it may begin
+        std::int32_t most_at_end = rules::most_units;  ///< V with which the piece after it may begin
         bool turns_back = false;           ///< the piece after it goes back
     };
     /// Which pieces a move is cut into: it drives towards `top` until `fall_from` along it, then towards `exit`.
@@ -75,8 +75,8 @@ class Segmenter {
 
     /// In V and A units.
     struct Most {
-        std::int32_t speed = 8'000;
-        std::int32_t acceleration = 8'000;
+        std::int32_t speed = rules::most_units;
+        std::int32_t acceleration = rules::most_units;
     };
 
     Work classify(const control::PlannedMove& move);

@@ -1,4 +1,6 @@
 // Orders in mm and seconds to the function library's; what may be trusted.
+#include <motionrack/cards/mcx314/axes/geometry.hpp>
+#include <motionrack/cards/mcx314/axes/set_up.hpp>
 #include <motionrack/cards/mcx314/axes/single_axis.hpp>
 
 #include <algorithm>
@@ -10,8 +12,7 @@ namespace motionrack::mcx314 {
 namespace {
 
 constexpr Duration look_every = milliseconds(1);
-constexpr std::uint16_t outputs_and_limits = field("WR2", "PLSMD").mask | field("WR2", "LMTMD").mask;
-constexpr unsigned software_limits = field("WR2", "SLMTP").mask | field("WR2", "SLMTM").mask;
+constexpr double most_pulses = static_cast<double>(param::pulses.greatest), most_place = static_cast<double>(param::LP.greatest);
 
 }  // namespace
 
@@ -21,20 +22,14 @@ SingleAxis::SingleAxis(Driver& driver, const SingleAxisSettings& settings)
       manual_(driver, settings.channel) {}
 
 Result<void> SingleAxis::prepare(Driver& driver) {
-    driver.RESET();
-    driver.WriteMode1(xyzu, 0);
-    driver.WriteMode2(xyzu, outputs_and_limits);
-    driver.WriteMode3(xyzu, 0);
-    return driver.SetAO(xyzu, 0);
+    return prepare_chip(driver);
 }
 
 Result<void> SingleAxis::set_up() {
-    const control::AxisLimits& limits = settings_.limits;
     trust(false);
     MOTIONRACK_CHECK(driver_.LPS(mask(), 0));
     MOTIONRACK_CHECK(driver_.EPS(mask(), 0));
-    MOTIONRACK_CHECK(driver_.SetCompP(mask(), static_cast<std::int64_t>(std::floor(limits.max_position * limits.pulses_per_unit + 0.5))));
-    return driver_.SetCompM(mask(), static_cast<std::int64_t>(std::floor(limits.min_position * limits.pulses_per_unit + 0.5)));
+    return write_travel(driver_, settings_.channel, settings_.limits);
 }
 
 Result<void> SingleAxis::go_on(std::int64_t pulses, std::int64_t counts, bool trusted) {
@@ -104,7 +99,7 @@ Result<void> SingleAxis::move_to(double position, double speed) {
 Result<void> SingleAxis::move_by(double distance, double speed) {
     if (trusted_) return move_to(real_.position() + distance, speed);
     MOTIONRACK_CHECK(check_speed("Move", speed));
-    const double most = 268'435'455 / settings_.limits.pulses_per_unit;
+    const double most = most_pulses / settings_.limits.pulses_per_unit;
     if (!(std::fabs(distance) <= most)) return refuse("Move", fmt::format("the distance is {} {}, but may be up to {:.0f}", distance, settings_.unit, most));
     MOTIONRACK_CHECK(check_free("Move"));
     MOTIONRACK_CHECK(check_into_limit("Move", distance < 0));
@@ -124,7 +119,7 @@ Result<void> SingleAxis::jog(double speed, Instant now) {
         MOTIONRACK_CHECK(manual_.set(manual));
     }
     const double unit = driver_.multiple(settings_.channel) / settings_.limits.pulses_per_unit;
-    const auto v = static_cast<std::int64_t>(std::clamp(std::floor(std::fabs(speed) / unit + 0.5), 1.0, 8'000.0));
+    const auto v = static_cast<std::int64_t>(std::clamp(std::floor(std::fabs(speed) / unit + 0.5), 1.0, most_units));
     return manual_.jog(speed < 0 ? -v : v, now);
 }
 
@@ -137,8 +132,8 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomeOrder& order) 
         if (value >= least && value <= greatest) return {};
         return refuse("Homing", fmt::format("{} is {}, but may be {} to {}", what, value, least, greatest));
     };
-    const double most_way = 268'435'455 / limits.pulses_per_unit, most_place = 2'147'483'647 / limits.pulses_per_unit;
-    MOTIONRACK_CHECK(outside("the home position", order.position, -most_place, most_place));
+    const double most_way = most_pulses / limits.pulses_per_unit, most_home = most_place / limits.pulses_per_unit;
+    MOTIONRACK_CHECK(outside("the home position", order.position, -most_home, most_home));
     MOTIONRACK_CHECK(outside("the clearance", order.clearance, 0, most_way));
     MOTIONRACK_CHECK(outside("the settling time in s", order.settle_s, 0, 10));
     MOTIONRACK_CHECK(outside("the longest search", order.travel, 0, most_way));
@@ -146,8 +141,8 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomeOrder& order) 
     const bool index = order.type == control::HomeType::index_after_switch || order.type == control::HomeType::twice_and_index;
     if (index && !(settings_.counts_per_unit > 0)) return refuse("Homing", "it has no encoder, so no index; home it with type 1 or 2");
     MOTIONRACK_TRY(const RealSetting setting, real_setting({limits.pulses_per_unit}, drive_at(order.speed, false)));
-    const auto pulses = [&](double way) { return static_cast<std::int64_t>(std::min(268'435'455.0, std::floor(way * limits.pulses_per_unit + 0.5))); };
-    const double unit = 8e6 / static_cast<double>(setting.R) / limits.pulses_per_unit;
+    const auto pulses = [&](double way) { return static_cast<std::int64_t>(std::min(most_pulses, std::floor(way * limits.pulses_per_unit + 0.5))); };
+    const double unit = rules::clock_hz / static_cast<double>(setting.R) / limits.pulses_per_unit;
     HomeSettings out;
     out.type = static_cast<int>(order.type);
     out.negative = !order.towards_plus;
@@ -165,8 +160,8 @@ Result<HomeSettings> SingleAxis::home_settings(const control::HomeOrder& order) 
     out.clearance = std::min(out.travel, pulses(order.clearance));
     out.settle = from_seconds(order.settle_s);
     out.turn_at_limit = order.turn_at_limit;
-    out.home_position = static_cast<std::int64_t>(std::floor(order.position * limits.pulses_per_unit + 0.5));
-    out.home_counts = static_cast<std::int64_t>(std::floor(order.position * settings_.counts_per_unit + 0.5));
+    out.home_position = nearest_pulse(order.position, limits.pulses_per_unit);
+    out.home_counts = nearest_pulse(order.position, settings_.counts_per_unit);
     out.name = settings_.name;
     out.unit = settings_.unit;
     out.pulses_per_unit = limits.pulses_per_unit;
@@ -221,13 +216,13 @@ void SingleAxis::trust(bool on) {
 }
 
 Result<void> SingleAxis::set_position(double position) {
-    const double most = 2'147'483'647 / std::max(settings_.limits.pulses_per_unit, settings_.counts_per_unit);
+    const double most = most_place / std::max(settings_.limits.pulses_per_unit, settings_.counts_per_unit);
     if (!(std::fabs(position) <= most))
         return refuse("Position", fmt::format("it is {}, but may be up to {:.0f} {} either way", position, most, settings_.unit));
     if (busy()) return refuse("Position", "it moves; stop it and wait until it stands");
     MOTIONRACK_CHECK(real_.set_position(position));
     if (settings_.counts_per_unit > 0)
-        MOTIONRACK_CHECK(driver_.EPS(mask(), static_cast<std::int64_t>(std::floor(position * settings_.counts_per_unit + 0.5))));
+        MOTIONRACK_CHECK(driver_.EPS(mask(), nearest_pulse(position, settings_.counts_per_unit)));
     trust(true);
     return {};
 }

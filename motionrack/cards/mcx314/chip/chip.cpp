@@ -96,10 +96,8 @@ Chip::Chip(sim::Kernel& kernel, const std::string& name, const ChipOptions& opti
 }
 
 int Chip::Output::listen(sim::MotionListener& listener) {
-    MOTIONRACK_ASSERT(listener_count < max_listeners);
-    listeners[listener_count] = &listener;
     chip->listened_ |= 1u << axis;
-    return listener_count++;
+    return listeners.add(listener);
 }
 
 // ---- time -----------------------------------------------------------------------------------------------------------
@@ -180,6 +178,23 @@ void Chip::catch_up(Instant now) {
     stale_ = true;
 }
 
+/// The same before an input changes: what changes at the very instant of a tick counts for that tick.
+void Chip::catch_up_before(Instant now) {
+    advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
+    note_rates();
+    stale_ = true;
+}
+
+/// Inputs, limits or commands have changed: the next working tick of every generator is worked in full.
+void Chip::look_anew() {
+    for (Axis& axis : state_.axis) axis.gen.look = true;
+}
+
+/// What is watched, compared or asked for has changed: no generator knows its next special pulse any more.
+void Chip::forget_specials() {
+    for (Axis& axis : state_.axis) axis.gen.special_known = false;
+}
+
 void Chip::sync(Instant now) {
     advance_to(tick_of(now));
     for (int a = 0; a < axes_of_chip; ++a)
@@ -187,11 +202,8 @@ void Chip::sync(Instant now) {
 }
 
 void Chip::on_wire(int pin, int wire_level, Instant now) {
-    // A level that changes at the very instant of a tick counts for that tick.
     if (!state_.begun) begin();
-    advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
-    note_rates();
-    stale_ = true;
+    catch_up_before(now);
     if (pin >= encoder_pin) return encoder_lines((pin - encoder_pin) / 2, now);
     if (extended_) {
         wake();
@@ -207,7 +219,7 @@ void Chip::on_wire(int pin, int wire_level, Instant now) {
         set_level(state_.axis[pin / 16].levels, pin % 16, wire_level != 0);
         hear_external(pin);
     }
-    for (Axis& axis : state_.axis) axis.gen.look = true;
+    look_anew();
     settle(now);
 }
 
@@ -231,7 +243,7 @@ void Chip::note_rates() {
     if (state_.chain == 0 || !state_.path.command.arc()) return;
     for (int i = 0; i < 2; ++i) {
         const int a = state_.path.command.axis[i];
-        if (outputs_[a].listener_count > 0)
+        if (outputs_[a].listeners.size() > 0)
             state_.axis[a].told_rate = std::bit_cast<std::uint64_t>(rate_of(a, Instant{0}));
     }
 }
@@ -242,35 +254,28 @@ void Chip::tell_listeners(Instant now) {
         Output& output = outputs_[a];
         if (changed >> a & 1u) {
             if (output.edge_listener) flush_edges(a);
-            if (output.listener_count > 0) {
+            if (output.listeners.size() > 0) {
                 const double rate = rate_of(a, now);
                 const auto before =
                     std::bit_cast<double>(std::exchange(state_.axis[a].told_rate, std::bit_cast<std::uint64_t>(rate)));
-                for (int i = 0; i < output.listener_count; ++i) output.listeners[i]->rate_changed(before, rate, now);
+                output.listeners.tell_rate(before, rate, now);
             }
         }
         Axis& axis = state_.axis[a];
         if (!(state_.crossed >> a & 1u)) return;
         state_.crossed &= ~(1u << a);
         if (output.edge_listener) flush_edges(a);
-        for (int i = 0; i < output.listener_count; ++i) {
-            Watch& watched = axis.watch[i];
-            if (axis.count > watched.below && axis.count < watched.above) continue;
-            watched = Watch{};
-            output.listeners[i]->crossed(now);
-        }
+        output.listeners.tell_crossed(axis.watch, axis.count, now);
     });
 }
 
 void Chip::watch(int a, int slot, std::int64_t below, std::int64_t above) {
     Axis& axis = state_.axis[a];
     axis.watch[slot] = {below, above};
-    for (Axis& each : state_.axis) each.gen.special_known = false;
+    forget_specials();
     stale_ = true;
     const Instant now = kernel_.now();
-    const std::int64_t count = count_at(a, now);
-    if ((count <= below && below != sim::unwatched_below) || (count >= above && above != sim::unwatched_above))
-        state_.crossed |= 1u << a;
+    if (axis.watch[slot].left(count_at(a, now))) state_.crossed |= 1u << a;
     // In an event of the chip's own settle() comes afterwards anyhow; else it is asked for, at this very instant.
     kernel_.schedule(id_, state_.crossed != 0 ? now + Duration{1} : now);
 }
@@ -298,7 +303,8 @@ double Chip::rate_of(int a, Instant t) const {
     const Generator& gen = state_.axis[generator].gen;
     if (gen.drive == Drive::idle || halted(generator)) return 0;
     const std::int64_t ticks = std::max<std::int64_t>(0, tick_of(t) - gen.at - gen.wait);
-    const double phase = 8e6 * static_cast<double>(gen.walks ? walk(generator, ticks, far).law.speed : gen.speed);
+    const double phase =
+        rules::clock_hz * static_cast<double>(gen.walks ? walk(generator, ticks, far).law.speed : gen.speed);
     if (!on_path) return phase / static_cast<double>(gen.range_now) * axis.direction;
     const Path& path = state_.path;
     const double r1 = static_cast<double>(path.range_for[0]);

@@ -15,6 +15,7 @@
 #include <motionrack/cards/mcx314/chip/options.hpp>
 #include <motionrack/cards/mcx314/chip/state.hpp>
 #include <motionrack/sim/kernel.hpp>
+#include <motionrack/sim/listeners.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <motionrack/sim/register_device.hpp>
 #include <optional>
@@ -97,8 +98,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
 
         Chip* chip = nullptr;
         int axis = 0;
-        std::array<sim::MotionListener*, max_listeners> listeners{};
-        int listener_count = 0;
+        sim::Listeners listeners;
         sim::EdgeListener* edge_listener = nullptr;
         sim::EdgeBatch batch;
         std::int64_t batch_tick = 0;  ///< of its origin
@@ -127,6 +127,9 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void settle(Instant now);
     void begin();
     void catch_up(Instant now);
+    void catch_up_before(Instant now);
+    void look_anew();
+    void forget_specials();
     void update_interrupt();
     void law_changed(int a) { changed_ |= 1u << a; }
     void law_changed_of(int generator);
@@ -161,6 +164,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void work(int a);
     bool inputs(int a);
     std::uint16_t active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const;
+    std::int32_t compared_counter(int a) const;
     bool beyond_software_limit(int a) const;
     bool stop(int a, bool decelerating, bool immediate);
     bool pulse(int a);
@@ -314,7 +318,7 @@ class Chip final : public sim::Device, public sim::RegisterDevice {
     void set_filters(int a);
     void sample(std::int64_t tick);
     bool sample_filters(int a, std::int64_t tick);
-    bool sample_chip_filter(ChipFilter& filter, int enable, bool seen, std::int64_t tick);
+    bool sample_chip_filter(ChipFilter& filter, Field enable, bool seen, std::int64_t tick);
     void sample_edges(int a);
     void work_in_full(std::int64_t tick);
     // home_search.cpp

@@ -110,9 +110,9 @@ void Chip::listen_edges(int axis, sim::EdgeListener* listener) {
     advance_to(tick_of(kernel_.now()));
     if (outputs_[axis].edge_listener) flush_edges(axis);
     outputs_[axis].edge_listener = listener;
-    for (Axis& each : state_.axis) each.gen.special_known = false;
+    forget_specials();
     stale_ = true;
-    listened_ = listener || outputs_[axis].listener_count > 0 ? listened_ | 1u << axis : listened_ & ~(1u << axis);
+    listened_ = listener || outputs_[axis].listeners.size() > 0 ? listened_ | 1u << axis : listened_ & ~(1u << axis);
     outputs_[axis].batch.size = 0;
 }
 

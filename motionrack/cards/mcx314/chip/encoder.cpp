@@ -5,10 +5,10 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-/// The edges that EP counts (WR2 PINMD, PIND1,0); up/down pulses and the undefined 11 count all.
+/// The edges that EP counts; up/down pulses and the undefined 11 count all.
 sim::Edges edges_of(const Axis& axis) {
-    if (bit(axis.wr2, 9)) return sim::Edges::all;
-    switch (axis.wr2 >> 10 & 3) {
+    if (wr2::PINMD.test(axis.wr2)) return sim::Edges::all;
+    switch (wr2::PIND.get(axis.wr2)) {
         case 1:
             return sim::Edges::both_of_a;
         case 2:
@@ -51,7 +51,7 @@ void Chip::watch_encoder(int a) {
     const Axis& axis = state_.axis[a];
     const EncoderEar& ear = ears_[a];
     if (!ear.motion) return;
-    if (!encoder_connected(a) || !bit(axis.wr2, 5) || !compares(axis)) {
+    if (!encoder_connected(a) || !wr2::CMPSL.test(axis.wr2) || !compares(axis)) {
         ear.motion->watch(ear.slot, sim::unwatched_below, sim::unwatched_above);
         return;
     }
@@ -62,12 +62,10 @@ void Chip::watch_encoder(int a) {
 }
 
 void Chip::encoder_crossed(int a, Instant now) {
-    advance_to((now.count() + rules::tick_100ps - 1) / rules::tick_100ps - 1);
-    note_rates();
-    stale_ = true;
+    catch_up_before(now);
     compare(a);
     watch_encoder(a);
-    for (Axis& axis : state_.axis) axis.gen.look = true;
+    look_anew();
     settle(now);
 }
 
@@ -99,7 +97,7 @@ void Chip::encoder_lines(int a, Instant now) {
     const unsigned before = axis.encoder_lines;
     axis.encoder_lines = static_cast<std::uint8_t>(lines);
     int change = 0;
-    if (bit(axis.wr2, 9)) {
+    if (wr2::PINMD.test(axis.wr2)) {
         const unsigned risen = lines & ~before;  // up/down pulses: A counts up, B counts down
         change = static_cast<int>(risen & 1u) - static_cast<int>(risen >> 1);
     } else {
@@ -110,7 +108,7 @@ void Chip::encoder_lines(int a, Instant now) {
     if (em::EPINV.test(state_.extension[a].em6)) change = -change;
     axis.ep = stepped(axis, axis.ep, change);
     compare(a);
-    for (Axis& each : state_.axis) each.gen.look = true;
+    look_anew();
     settle(now);
 }
 

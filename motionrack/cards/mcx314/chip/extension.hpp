@@ -3,24 +3,8 @@
 
 #include <array>
 #include <cstdint>
-#include <motionrack/cards/mcx314/map.hpp>
 
 namespace motionrack::mcx314 {
-
-/// Masks of the words of EM and SM, as the map has them.
-namespace em {
-inline constexpr Field EPCLR = field("EM6", "EPCLR"), EPINV = field("EM6", "EPINV"), POINV = field("EM6", "POINV"),
-                       AVTRI = field("EM6", "AVTRI"), VRING = field("EM6", "VRING"), HMINT = field("EM6", "HMINT"),
-                       FL = field("EM6", "FL");
-inline constexpr Field PCLR = field("EM7", "PCLR"), SAND = field("EM7", "SAND"), LIMIT = field("EM7", "LIMIT"),
-                       DCCE = field("EM7", "DCCE"), DCCL = field("EM7", "DCCL"), DCCW = field("EM7", "DCCW");
-}  // namespace em
-
-namespace sm {
-inline constexpr Field DSTA = field("SM6", "DSTA"), DEND = field("SM6", "DEND"), IN3UP = field("SM6", "IN3UP"),
-                       IN3DN = field("SM6", "IN3DN"), LPRD = field("SM6", "LPRD"), CMD = field("SM6", "CMD"),
-                       AXIS = field("SM6", "AXIS");
-}  // namespace sm
 
 struct HomeSearch {
     std::int32_t hmst = 0;      ///< 0: none

@@ -24,7 +24,7 @@ constexpr std::array<unsigned, 5> filter_pins = {
     mask(Pin::exp_plus) | mask(Pin::exp_minus),
     mask(Pin::in3),
 };
-constexpr int emergency_filter_bit = 8, step_filter_bit = 11;  // FE0 and FE3 of X
+constexpr Field emergency_is_filtered = em::FE0, step_is_filtered = em::FE3;  // of X
 constexpr unsigned edge_pins = mask(Pin::in2) | mask(Pin::in3);
 
 std::int64_t delay_of(const Extension& ext) {
@@ -49,7 +49,7 @@ void Chip::set_filters(int a) {
     Extension& ext = state_.extension[a];
     unsigned pins = 0;
     for (std::size_t i = 0; i < filter_pins.size(); ++i)
-        if (bit(ext.em6, 8 + static_cast<int>(i))) pins |= filter_pins[i];
+        if ((ext.em6 & em::FE0.mask << i) != 0) pins |= filter_pins[i];
     const unsigned begun = pins & ~ext.filtered;
     ext.filtered = 0;
     for_each_axis(begun, [&](int pin) {
@@ -59,8 +59,8 @@ void Chip::set_filters(int a) {
         ext.since[pin] = -1;
     });
     ext.filtered = static_cast<std::uint16_t>(pins);
-    if (a == 0 && !bit(ext.em6, emergency_filter_bit)) state_.emergency_high = state_.emergency_filter.wire != 0;
-    if (a == 0 && !bit(ext.em6, step_filter_bit)) hear_step_wire(static_cast<int>(state_.step_filter.wire));
+    if (a == 0 && !emergency_is_filtered.test(ext.em6)) state_.emergency_high = state_.emergency_filter.wire != 0;
+    if (a == 0 && !step_is_filtered.test(ext.em6)) hear_step_wire(static_cast<int>(state_.step_filter.wire));
     set_wants(a);
     ext.sampled = state_.axis[a].levels;
     hear_external(16 * a + static_cast<int>(Pin::exp_plus));
@@ -72,11 +72,11 @@ bool Chip::passes_filter(int pin, int wire_level) {
     const unsigned chip_filters = state_.extension[0].em6;
     if (pin == emergency_pin) {
         state_.emergency_filter.wire = wire_level != 0;
-        return !bit(chip_filters, emergency_filter_bit);
+        return !emergency_is_filtered.test(chip_filters);
     }
     if (pin == step_pin) {
         state_.step_filter.wire = wire_level != 0;
-        return !bit(chip_filters, step_filter_bit);
+        return !step_is_filtered.test(chip_filters);
     }
     Extension& ext = state_.extension[pin / 16];
     set_level(ext.wires, pin % 16, wire_level != 0);
@@ -86,9 +86,9 @@ bool Chip::passes_filter(int pin, int wire_level) {
 /// Before tick `to` is worked: what its samples change counts for it.
 void Chip::sample(std::int64_t to) {
     state_.next_sample = far;
-    bool changed = sample_chip_filter(state_.emergency_filter, emergency_filter_bit, state_.emergency_high, to);
+    bool changed = sample_chip_filter(state_.emergency_filter, emergency_is_filtered, state_.emergency_high, to);
     if (changed) state_.emergency_high = !state_.emergency_high;
-    if (sample_chip_filter(state_.step_filter, step_filter_bit, state_.step_high, to))
+    if (sample_chip_filter(state_.step_filter, step_is_filtered, state_.step_high, to))
         hear_step_wire(state_.step_high ? 0 : 1);
     for (int a = 0; a < axes_of_chip; ++a) {
         if (sample_filters(a, to)) changed = true;
@@ -111,9 +111,9 @@ void Chip::work_in_full(std::int64_t to) {
 }
 
 /// EMGN or EXPLSN, of which the chip sees the level `seen`: true if it is to see the other one.
-bool Chip::sample_chip_filter(ChipFilter& filter, int enable, bool seen, std::int64_t to) {
+bool Chip::sample_chip_filter(ChipFilter& filter, Field enable, bool seen, std::int64_t to) {
     const Extension& x = state_.extension[0];
-    if (!bit(x.em6, enable) || (filter.wire != 0) == seen) {
+    if (!enable.test(x.em6) || (filter.wire != 0) == seen) {
         filter.since = -1;
         return false;
     }
@@ -160,9 +160,9 @@ void Chip::sample_edges(int a) {
     if (changed == 0) return;
     if ((changed & mask(Pin::in3)) != 0) note(a, level(axis, Pin::in3) ? sm::IN3UP : sm::IN3DN);
     if ((changed & mask(Pin::in2)) == 0 || !em::EPCLR.test(ext.em6)) return;
-    if (level(axis, Pin::in2) != bit(axis.wr1, 4)) return;
+    if (!input_active(axis, 2)) return;
     set_encoder_position(a, 0);
-    if (!bit(axis.wr2, 5)) return;
+    if (!wr2::CMPSL.test(axis.wr2)) return;
     compare(a);
     watch_encoder(a);
     work_in_full(state_.tick);

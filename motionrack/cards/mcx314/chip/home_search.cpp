@@ -9,18 +9,13 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr unsigned error_causes = 0xFu << 12;
-
+// ST1E, ST1D, ST2E, ..: enable and direction of each step are neighbours.
 bool step_enabled(const Extension& ext, int step) {
-    return bit(ext.em7, 2 * step - 2);
+    return (ext.em7 & em::ST1E.mask << 2 * (step - 1)) != 0;
 }
 /// +1 or -1.
 int step_direction(const Extension& ext, int step) {
-    return bit(ext.em7, 2 * step - 1) ? -1 : 1;
-}
-bool limit_active(const Axis& axis, int direction) {
-    const bool plus = direction > 0;
-    return level(axis, plus ? Pin::limit_plus : Pin::limit_minus) == bit(axis.wr2, plus ? 3 : 4);
+    return (ext.em7 & em::ST1D.mask << 2 * (step - 1)) != 0 ? -1 : 1;
 }
 
 }  // namespace
@@ -38,10 +33,9 @@ void Chip::start_home(int a) {
 bool Chip::home_input(int a, int step) const {
     const Extension& ext = state_.extension[a];
     const Axis& axis = state_.axis[a];
-    auto active = [&axis](int i) { return bit(axis.levels, i) == bit(axis.wr1, 2 * i); };
-    if (step == 3) return active(2) && (!em::SAND.test(ext.em7) || active(1));
+    if (step == 3) return input_active(axis, 2) && (!em::SAND.test(ext.em7) || input_active(axis, 1));
     if (em::LIMIT.test(ext.em7)) return limit_active(axis, step_direction(ext, step));
-    return active(step - 1);
+    return input_active(axis, step - 1);
 }
 
 /// In step 1 of a tick: whether the drive of a home search is to stop, as by a stop input.
@@ -63,7 +57,7 @@ void Chip::go_home(int a, int hmst) {
     ext.home.hmst = hmst;
     ext.home.found = false;
     const int direction = step_direction(ext, drive.step) * (drive.back ? -1 : 1);
-    start_drive(a, (drive.step == 4 ? 0x20 : 0x22) + (direction < 0 ? 1 : 0));
+    start_drive(a, drive_code(drive.step == 4 ? Drive::fixed : Drive::continuous, direction));
 }
 
 /// The first of the steps from `step` on that is to be done begins; false if there is none, or an error instead.
@@ -98,7 +92,7 @@ void Chip::end_home(int a) {
     ext.home.hmst = 0;
     set_drive_speed(a);
     set_wants(a);
-    if (em::HMINT.test(ext.em6)) state_.axis[a].flags = static_cast<std::uint16_t>(state_.axis[a].flags | 1u << 8);
+    if (em::HMINT.test(ext.em6)) state_.axis[a].flags |= rr3::HMEND.mask;
 }
 
 /// The drive of a step is over: what follows.
@@ -108,8 +102,8 @@ void Chip::end_home_drive(int a) {
     const Axis& axis = state_.axis[a];
     const map::HomeDrive& drive = map::home_drive(home.hmst);
     if (home.cancelled) return end_home(a);
-    const unsigned errors = axis.finished & error_causes;
-    const unsigned own_limit = step_direction(ext, drive.step) > 0 ? 1u << 12 : 2u << 12;
+    const unsigned errors = axis.finished & rr1::errors.mask;
+    const unsigned own_limit = step_direction(ext, drive.step) > 0 ? rr1::LMTP.mask : rr1::LMTM.mask;
     const bool limit_is_home = em::LIMIT.test(ext.em7);
     if (home.hmst == 8 && !limit_is_home && errors == own_limit) {
         home.seen = home_input(a, 2);

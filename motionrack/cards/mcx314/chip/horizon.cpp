@@ -113,20 +113,22 @@ std::int64_t Chip::pulses_to_final(int a) const {
 /// Steps of an axis in `direction` until a limit, a comparison or a watched count is passed (>= 1), far if never.
 std::int64_t Chip::steps_to_threshold(int a, int direction) const {
     const Axis& axis = state_.axis[a];
-    if (axis.pulses_wanted || (bit(axis.wr1, 8) && !(axis.flags & 1u))) return 1;
+    if (axis.pulses_wanted || (wr1::PULSE.test(axis.wr1) && !rr3::PULSE.test(axis.flags))) return 1;
     std::int64_t steps = far;
-    for (int i = 0; i < outputs_[a].listener_count; ++i) {
-        const Watch& watch = axis.watch[i];
+    for (int i = 0; i < outputs_[a].listeners.size(); ++i) {
+        const sim::Range& watch = axis.watch[i];
         if (direction > 0 && watch.above != sim::unwatched_above) steps = std::min(steps, watch.above - axis.count);
         if (direction < 0 && watch.below != sim::unwatched_below) steps = std::min(steps, axis.count - watch.below);
     }
-    if (compares(axis) && !bit(axis.wr2, 5)) steps = std::min(steps, steps_to_comparison(axis, axis.lp, direction));
+    if (compares(axis) && !wr2::CMPSL.test(axis.wr2))
+        steps = std::min(steps, steps_to_comparison(axis, axis.lp, direction));
     return std::max<std::int64_t>(1, steps);
 }
 
 /// Whether anything hangs on the comparisons with COMP+ and COMP-: interrupts, software limits, outputs.
 bool Chip::compares(const Axis& axis) const {
-    return axis.comparisons != 0 || (axis.wr2 & 3u) != 0 || (axis.outputs_wanted && bit(axis.wr3, 7));
+    return axis.comparisons != 0 || wr2::SLMTP.test(axis.wr2) || wr2::SLMTM.test(axis.wr2) ||
+           (axis.outputs_wanted && wr3::OUTSL.test(axis.wr3));
 }
 
 /// Steps in `direction` until a comparison may turn out differently (>= 1); counters wrap at 32 bits.
@@ -288,7 +290,7 @@ void Chip::skip_pulses(int a, std::int64_t pulses, const PulseMoment& last) {
         axis.count += steps;
         axis.made += rules::magnitude(steps);
         if (axis.comparisons != 0) compare(i);
-        if (bit(axis.wr1, 8)) axis.flags |= 1u;
+        request_interrupt(axis, rr3::PULSE.mask);
     };
     unsigned stepped = 1u << a;
     if (gen.drive == Drive::path) {

@@ -56,7 +56,7 @@ void Chip::next_pattern_word() {
     } else {
         kernel_.report(id_, pattern_ran_out, state_.axis[state_.master].gen.n);
     }
-    if (before == 2 && pattern_counter() == 1 && bit(state_.wr5, 15)) pattern.interrupt = true;
+    if (before == 2 && pattern_counter() == 1 && wr5::BPINT.test(state_.wr5)) pattern.interrupt = true;
     law_changed_of(state_.master);
 }
 

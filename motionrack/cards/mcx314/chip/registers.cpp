@@ -82,11 +82,8 @@ void Chip::write_bits(std::uint32_t offset, std::uint16_t value, std::uint16_t m
         put(state_.wr7);
     if (state_.homing != 0) wake();  // WR2 may have ended the wait for nINPOS
     if (state_.acting != 0) act_together();
-    // Whatever changed: the next working tick of every generator is worked in full.
-    for (Axis& axis : state_.axis) {
-        axis.gen.look = true;
-        axis.gen.special_known = false;
-    }
+    look_anew();
+    forget_specials();
     settle(now);
 }
 
@@ -115,44 +112,45 @@ void Chip::write_mode(std::uint32_t offset, int a, const Put& put) {
 }
 
 void Chip::command(std::uint16_t value) {
-    if (bit(value, 15)) return reset();
-    const int code = value & 0xFF;
+    if (field("WR0", "RESET").test(value)) return reset();
+    const unsigned code = value & 0xFFu;
     const unsigned axes = value >> 8 & 0xFu;
     if (axes != 0) state_.selected = static_cast<std::uint16_t>(axes);
     auto each = [axes](auto&& call) {
         for (int a = 0; a < axes_of_chip; ++a)
             if (axes >> a & 1u) call(a);
     };
-    if (code <= 0x0D) {
+    auto from_to = [code](unsigned first, unsigned last) { return code >= first && code <= last; };
+    if (from_to(cmd::R, cmd::AO)) {
         each([&](int a) { data_write(code, a); });
-        if (code == 0x06 || code == 0x07 || code == 0x0D)
+        if (code == cmd::P || code == cmd::DP || code == cmd::AO)
             each([&](int a) {
                 if (state_.axis[a].gen.drive == Drive::fixed) check_final(a);
             });
-    } else if (code == 0x0F) {
-    } else if (code >= 0x10 && code <= 0x13) {
+    } else if (code == cmd::NOP) {
+    } else if (from_to(cmd::READ_LP, cmd::READ_CA)) {
         if (axes != 0) data_read(code, first_selected());
-        if (extended_ && axes != 0 && code == 0x10) note(first_selected(), sm::LPRD);
-    } else if (code >= 0x20 && code <= 0x23) {
+        if (extended_ && axes != 0 && code == cmd::READ_LP) note(first_selected(), sm::LPRD);
+    } else if (from_to(cmd::FIXED_PLUS, cmd::CONTINUOUS_MINUS)) {
         drive_command(code, axes);
-    } else if (code >= 0x30 && code <= 0x35) {
+    } else if (from_to(cmd::LINE2, cmd::BP3)) {
         path_command(code);
-    } else if (code >= 0x36 && code <= 0x39) {
+    } else if (from_to(cmd::BP_ENABLE, cmd::BP_CLEAR)) {
         pattern_command(code);
-    } else if (code == 0x3A) {
+    } else if (code == cmd::STEP) {
         if (!ask_step(PathCommand::by_command)) kernel_.report(id_, step_ignored);
-    } else if (code == 0x24) {
+    } else if (code == cmd::HOLD) {
         each([&](int a) { state_.axis[a].hold = true; });
-    } else if (code == 0x25) {
+    } else if (code == cmd::START) {
         free_held(axes);
-    } else if (code == 0x26 || code == 0x27) {
-        ask_stop(axes, code == 0x27);
-    } else if (code == 0x3B) {
+    } else if (code == cmd::SLOW_STOP || code == cmd::QUICK_STOP) {
+        ask_stop(axes, code == cmd::QUICK_STOP);
+    } else if (code == cmd::DECELERATION_ON) {
         state_.decel_enabled = true;
         if (state_.chain != 0) check_final(state_.master);
-    } else if (code == 0x3C) {
+    } else if (code == cmd::DECELERATION_OFF) {
         state_.decel_enabled = false;
-    } else if (code == 0x3D) {
+    } else if (code == cmd::INTERPOLATION_INTERRUPT_CLEAR) {
         state_.path_interrupt = state_.pattern.interrupt = false;
     } else if (!extended_ || !extended_command(code, axes)) {
         kernel_.report(id_, unknown_command, code, !extended_ && has_extended_command(code) ? 1 : 0);
@@ -163,55 +161,55 @@ void Chip::data_write(int code, int a) {
     const std::uint32_t value = std::uint32_t{state_.wr7} << 16 | state_.wr6;
     Axis& axis = state_.axis[a];
     switch (code) {
-        case 0x00:
+        case cmd::R:
             axis.range = value & 0x00FF'FFFFu;
             break;
-        case 0x01:
+        case cmd::K:
             axis.jerk = state_.wr6;
             if (!extended_) axis.decel_jerk = state_.wr6;
             break;
-        case 0x02:
+        case cmd::A:
             axis.accel = state_.wr6;
             break;
-        case 0x03:
+        case cmd::D:
             axis.decel = state_.wr6;
             break;
-        case 0x04:
+        case cmd::SV:
             axis.start_speed = state_.wr6;
             set_drive_speed(a);
             break;
-        case 0x05:
+        case cmd::V:
             set_drive_speed(a, state_.wr6);
             break;
-        case 0x06:
+        case cmd::P:
             axis.pulses = extended_ ? value : value & 0x0FFF'FFFFu;
             break;
-        case 0x07:
+        case cmd::DP:
             axis.decel_point = extended_ ? value : value & 0x0FFF'FFFFu;
             break;
-        case 0x08:
+        case cmd::C:
             axis.centre = extended_ ? value : value & 0x00FF'FFFFu;
             break;
-        case 0x09:
+        case cmd::LP:
             axis.lp = stepped(axis, static_cast<std::int32_t>(value), 0);
             break;
-        case 0x0A:
+        case cmd::EP:
             set_encoder_position(a, static_cast<std::int32_t>(value));
             break;
-        case 0x0B:
+        case cmd::COMP_PLUS:
             if (axis.ring)
                 set_ring_end(a, static_cast<std::int32_t>(value));
             else
                 axis.comp_plus = static_cast<std::int32_t>(value);
             break;
-        case 0x0C:
+        case cmd::COMP_MINUS:
             axis.comp_minus = static_cast<std::int32_t>(value);
             break;
         default:
             axis.offset = state_.wr6;
             break;
     }
-    if (code >= 0x09 && code <= 0x0C) {
+    if (code == cmd::LP || code == cmd::EP || code == cmd::COMP_PLUS || code == cmd::COMP_MINUS) {
         compare(a);
         watch_encoder(a);
     }
@@ -221,13 +219,13 @@ void Chip::data_read(int code, int a) {
     const Axis& axis = state_.axis[a];
     std::uint32_t value = 0;
     switch (code) {
-        case 0x10:
+        case cmd::READ_LP:
             value = static_cast<std::uint32_t>(axis.lp);
             break;
-        case 0x11:
+        case cmd::READ_EP:
             value = static_cast<std::uint32_t>(encoder_position(axis, a));
             break;
-        case 0x12:
+        case cmd::READ_CV:
             value = axis.gen.drive == Drive::idle ? 0 : static_cast<std::uint32_t>(axis.gen.speed);
             break;
         default:
@@ -257,8 +255,8 @@ void Chip::drive_command(int code, unsigned axes) {
 }
 
 void Chip::start_drive(int a, int code) {
-    state_.axis[a].direction = code & 1 ? -1 : 1;
-    begin_generator(a, code <= 0x21 ? Drive::fixed : Drive::continuous);
+    state_.axis[a].direction = code == cmd::FIXED_MINUS || code == cmd::CONTINUOUS_MINUS ? -1 : 1;
+    begin_generator(a, code == cmd::FIXED_PLUS || code == cmd::FIXED_MINUS ? Drive::fixed : Drive::continuous);
     state_.axis[a].finished = state_.axis[a].causes = 0;
     check_final(a);
     law_changed(a);
@@ -271,9 +269,9 @@ void Chip::begin_generator(int a, Drive drive) {
     Generator gen;
     gen.drive = drive;
     gen.wait = rules::start_ticks;
-    gen.manual = bit(axis.wr3, 0);
-    gen.own_deceleration = bit(axis.wr3, 1);
-    gen.s_curve = bit(axis.wr3, 2);
+    gen.manual = wr3::MANLD.test(axis.wr3);
+    gen.own_deceleration = wr3::DSNDE.test(axis.wr3);
+    gen.s_curve = wr3::SACC.test(axis.wr3);
     gen.range = gen.range_now = rules::used_range(axis.range);
     const std::int64_t v = rules::used_speed(axis.speed), sv = rules::used_speed(axis.start_speed);
     gen.constant = v <= sv;
@@ -293,11 +291,13 @@ std::int64_t Chip::coordinate(std::uint32_t v) const {
 PathCommand Chip::captured(int code) const {
     PathCommand command;
     command.code = code;
-    command.count = code == 0x31 || code == 0x35 ? 3 : 2;
-    command.vector_speed = state_.wr5 >> 8 & 3;
-    command.steps = state_.wr5 >> 11 & 3u;
+    command.count = code == cmd::LINE3 || code == cmd::BP3 ? 3 : 2;
+    command.vector_speed = static_cast<std::int32_t>(wr5::LSPD.get(state_.wr5));
+    if (wr5::EXPLS.test(state_.wr5)) command.steps |= PathCommand::by_wire;
+    if (wr5::CMPLS.test(state_.wr5)) command.steps |= PathCommand::by_command;
+    static constexpr std::array<Field, 3> axes = {wr5::AX1, wr5::AX2, wr5::AX3};
     for (int i = 0; i < 3; ++i) {
-        command.axis[i] = state_.wr5 >> (2 * i) & 3;
+        command.axis[i] = static_cast<std::int32_t>(axes[i].get(state_.wr5));
         command.finish[i] = coordinate(state_.axis[command.axis[i]].pulses);
         if (i < 2) command.centre[i] = coordinate(state_.axis[command.axis[i]].centre);
     }
@@ -357,7 +357,7 @@ void Chip::free_held(unsigned axes) {
         const int code = axis.held_command;
         if (!(axes >> a & 1u) || code == 0) continue;
         axis.held_command = 0;
-        if (code < 0x30) {
+        if (code < static_cast<int>(cmd::LINE2)) {
             if (driving(a))
                 kernel_.report(id_, drive_ignored, code, a);
             else

@@ -4,11 +4,6 @@
 
 namespace motionrack::mcx314 {
 
-namespace {
-constexpr unsigned flag_constant_end = 1u << 5;
-constexpr unsigned flag_constant_start = 1u << 6;
-}  // namespace
-
 /// True if the drive ended.
 bool Chip::speed_step(int a) {
     Axis& axis = state_.axis[a];
@@ -34,16 +29,13 @@ std::int64_t Chip::target(const Axis& axis) const {
 void Chip::set_ramp(int a, int ramp) {
     Axis& axis = state_.axis[a];
     Generator& gen = axis.gen;
-    auto flag = [&axis](unsigned which) {
-        axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & which));
-    };
     if (gen.ramp != 0 && ramp == 0 && !gen.final) {
         gen.constant = true;
-        flag(flag_constant_start);
+        request_interrupt(axis, rr3::CSTA.mask);
     }
     if (gen.ramp == 0 && ramp != 0 && gen.constant) {
         gen.constant = false;
-        flag(flag_constant_end);
+        request_interrupt(axis, rr3::CEND.mask);
     }
     if (gen.ramp != ramp) gen.special_known = false;
     gen.ramp = ramp;

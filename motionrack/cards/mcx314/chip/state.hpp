@@ -7,8 +7,9 @@
 #include <cstdint>
 #include <motionrack/cards/mcx314/arithmetic.hpp>
 #include <motionrack/cards/mcx314/chip/extension.hpp>
+#include <motionrack/cards/mcx314/chip/fields.hpp>
 #include <motionrack/sim/blocks/quadrature_counter.hpp>
-#include <motionrack/sim/motion.hpp>
+#include <motionrack/sim/listeners.hpp>
 #include <type_traits>
 
 namespace motionrack::mcx314 {
@@ -18,9 +19,15 @@ inline constexpr int axes_of_chip = 4;
 enum class Drive : std::uint8_t { idle, fixed, continuous, path };
 enum class Phase : std::uint8_t { increasing, constant, decreasing };
 
+/// The command of a drive of its own.
+constexpr int drive_code(Drive drive, int direction) {
+    if (drive == Drive::fixed) return direction > 0 ? cmd::FIXED_PLUS : cmd::FIXED_MINUS;
+    return direction > 0 ? cmd::CONTINUOUS_PLUS : cmd::CONTINUOUS_MINUS;
+}
+
 /// What an interpolation command captures.
 struct PathCommand {
-    std::int32_t code = 0;  ///< 30h .. 35h
+    std::int32_t code = 0;  ///< cmd::LINE2 .. cmd::BP3
     std::int32_t count = 2;
     std::int32_t vector_speed = 0;  ///< WR5.LSPD
     std::uint32_t steps = 0;        ///< WR5.EXPLS, CMPLS: a basic pulse a request
@@ -31,9 +38,9 @@ struct PathCommand {
 
     static constexpr std::uint32_t by_wire = 1, by_command = 2;  ///< of steps
 
-    bool line() const { return code <= 0x31; }
-    bool arc() const { return code == 0x32 || code == 0x33; }
-    bool pattern() const { return code >= 0x34; }
+    bool line() const { return code <= static_cast<int>(cmd::LINE3); }
+    bool arc() const { return code == cmd::ARC_CW || code == cmd::ARC_CCW; }
+    bool pattern() const { return code >= static_cast<int>(cmd::BP2); }
     unsigned mask() const {
         unsigned bits = 0;
         for (int i = 0; i < count; ++i) bits |= 1u << axis[static_cast<std::size_t>(i)];
@@ -122,12 +129,6 @@ struct Generator : Speed {
     std::int64_t at = 0;            ///< the tick up to which it has worked; behind State::tick while nothing happens
 };
 
-/// A range of counts that a listener watches.
-struct Watch {
-    std::int64_t below = sim::unwatched_below;
-    std::int64_t above = sim::unwatched_above;
-};
-
 /// The last pulse on an axis' wires, as phases: it came at tick - acc / speed.
 struct PulseMark {
     std::int64_t tick = 0;
@@ -170,7 +171,7 @@ struct Axis {
     std::int64_t count = 0;       ///< net pulses since the start
     std::int64_t made = 0;        ///< pulses of both directions
     std::uint64_t told_rate = 0;  ///< bits of the double that listeners heard last, or that it has drifted to since
-    std::array<Watch, sim::Motion::max_listeners> watch{};
+    sim::Listeners::Watches watch{};
     PathCommand held_path;
     Generator gen;
 };
@@ -229,9 +230,8 @@ constexpr std::int64_t quick_div(std::int64_t a, std::int64_t b) {
 constexpr bool bit(unsigned value, int n) {
     return (value >> n & 1u) != 0;
 }
-/// WR3.EXOP.
 constexpr unsigned external_mode(std::uint16_t wr3) {
-    return wr3 >> 3 & 3u;
+    return wr3::EXOP.get(wr3);
 }
 inline constexpr unsigned external_continuous = 1, external_fixed = 2, external_wheel = 3;
 constexpr bool drives_by_wire(std::uint16_t wr3) {
@@ -239,6 +239,33 @@ constexpr bool drives_by_wire(std::uint16_t wr3) {
 }
 constexpr bool level(const Axis& axis, Pin pin) {
     return bit(axis.levels, static_cast<int>(pin));
+}
+
+// What the levels of its inputs mean to an axis, by its mode registers.
+
+/// IN0 .. IN3, whose fields in WR1 are neighbours: IN0L, IN0E, IN1L, IN1E, ..
+constexpr bool stop_input_enabled(const Axis& axis, int i) {
+    return (axis.wr1 & wr1::IN0E.mask << 2 * i) != 0;
+}
+constexpr bool input_active(const Axis& axis, int i) {
+    return bit(axis.levels, i) == ((axis.wr1 & wr1::IN0L.mask << 2 * i) != 0);
+}
+/// The limit switch of a direction.
+constexpr bool limit_active(const Axis& axis, int direction) {
+    if (direction > 0) return level(axis, Pin::limit_plus) == wr2::HLMTP.test(axis.wr2);
+    return level(axis, Pin::limit_minus) == wr2::HLMTM.test(axis.wr2);
+}
+constexpr bool alarm_active(const Axis& axis) {
+    return wr2::ALME.test(axis.wr2) && level(axis, Pin::alarm) == wr2::ALML.test(axis.wr2);
+}
+/// nINPOS is active, or nobody asks for it.
+constexpr bool in_position(const Axis& axis) {
+    return !wr2::INPE.test(axis.wr2) || level(axis, Pin::in_position) == wr2::INPL.test(axis.wr2);
+}
+
+/// Interrupts have come: RR3 shows those of `causes` that WR1 enables.
+constexpr void request_interrupt(Axis& axis, unsigned causes) {
+    axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> enable_shift & causes));
 }
 
 /// Sets bit `pin` of some levels.

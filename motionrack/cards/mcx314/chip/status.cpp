@@ -33,7 +33,7 @@ std::uint8_t Chip::read_byte(std::uint32_t port) {
 void Chip::clear_flags(std::uint16_t mask) {
     Axis& read_axis = state_.axis[first_selected()];
     read_axis.flags = static_cast<std::uint16_t>(read_axis.flags & ~mask);
-    for (Axis& axis : state_.axis) axis.gen.special_known = false;
+    forget_specials();
 }
 
 std::uint16_t Chip::peek(std::uint32_t offset) const {
@@ -62,7 +62,7 @@ std::uint16_t Chip::peek(std::uint32_t offset) const {
 /// The drive is over, and nINPOS is enabled and not active.
 bool Chip::waits_for_position(int a) const {
     const Axis& axis = state_.axis[a];
-    return bit(state_.in_place, a) && bit(axis.wr2, 15) && level(axis, Pin::in_position) != bit(axis.wr2, 14);
+    return bit(state_.in_place, a) && !in_position(axis);
 }
 
 /// Drives, searches its home or waits for nINPOS.
@@ -71,32 +71,32 @@ bool Chip::busy(int a) const {
 }
 
 std::uint16_t Chip::main_status() const {
-    unsigned v = 0;
+    unsigned busy_axes = 0, wrong_axes = 0;
     for (int a = 0; a < axes_of_chip; ++a) {
-        if (busy(a)) v |= 1u << a;
-        if ((status2(a) & 0xBFu) != 0 || (state_.axis[a].finished & 0xF000u) != 0) v |= 1u << (4 + a);
+        if (busy(a)) busy_axes |= 1u << a;
+        if (rr2::errors.test(status2(a)) || rr1::errors.test(state_.axis[a].finished)) wrong_axes |= 1u << a;
     }
+    unsigned v = rr0::ERR.set(rr0::DRV.set(0, busy_axes), wrong_axes);
     if (state_.chain != 0) {
-        v |= 1u << 8;
-        if (!state_.queued && !state_.path.command.pattern()) v |= 1u << 9;
+        const rules::Arc& arc = state_.path.arc;
+        v |= rr0::IDRV.mask;
+        if (!state_.queued && !state_.path.command.pattern()) v |= rr0::CNEXT.mask;
         if (state_.path.command.arc())
-            v |= static_cast<unsigned>(state_.path.arc.clockwise ? 7 - state_.path.arc.octant : state_.path.arc.octant)
-                 << 10;
+            v = rr0::ZONE.set(v, static_cast<unsigned>(arc.clockwise ? 7 - arc.octant : arc.octant));
     }
-    v |= static_cast<unsigned>(pattern_counter()) << 13;
-    return static_cast<std::uint16_t>(v);
+    return rr0::BPSC.set(v, static_cast<unsigned>(pattern_counter()));
 }
 
 std::uint16_t Chip::status1(int a) const {
     const Axis& axis = state_.axis[a];
     const Generator& gen = axis.gen;
-    const std::int32_t counter = bit(axis.wr2, 5) ? encoder_position(axis, a) : axis.lp;
+    const std::int32_t counter = compared_counter(a);
     unsigned v = axis.finished;
-    if (counter >= axis.comp_plus) v |= 1u << 0;
-    if (counter < axis.comp_minus) v |= 1u << 1;
+    if (counter >= axis.comp_plus) v |= rr1::CMPP.mask;
+    if (counter < axis.comp_minus) v |= rr1::CMPM.mask;
     if (gen.drive != Drive::idle) {
-        v |= gen.ramp > 0 ? 1u << 2 : gen.ramp < 0 ? 1u << 4 : 1u << 3;
-        if (gen.s_curve && gen.ramp != 0) v |= 1u << (5 + static_cast<int>(gen.phase));
+        v |= gen.ramp > 0 ? rr1::ASND.mask : gen.ramp < 0 ? rr1::DSND.mask : rr1::CNST.mask;
+        if (gen.s_curve && gen.ramp != 0) v |= unsigned{rr1::AASND.mask} << static_cast<int>(gen.phase);
     }
     return static_cast<std::uint16_t>(v);
 }
@@ -104,15 +104,14 @@ std::uint16_t Chip::status1(int a) const {
 std::uint16_t Chip::status2(int a) const {
     const Axis& axis = state_.axis[a];
     unsigned v = 0;
-    if (beyond_software_limit(a)) v |= axis.direction > 0 ? 1u << 0 : 1u << 1;
-    if (level(axis, Pin::limit_plus) == bit(axis.wr2, 3)) v |= 1u << 2;
-    if (level(axis, Pin::limit_minus) == bit(axis.wr2, 4)) v |= 1u << 3;
-    if (bit(axis.wr2, 13) && level(axis, Pin::alarm) == bit(axis.wr2, 12)) v |= 1u << 4;
-    if (!state_.emergency_high) v |= 1u << 5;
+    if (beyond_software_limit(a)) v |= axis.direction > 0 ? rr2::SLMTP.mask : rr2::SLMTM.mask;
+    if (limit_active(axis, +1)) v |= rr2::HLMTP.mask;
+    if (limit_active(axis, -1)) v |= rr2::HLMTM.mask;
+    if (alarm_active(axis)) v |= rr2::ALARM.mask;
+    if (!state_.emergency_high) v |= rr2::EMG.mask;
     const HomeSearch& home = state_.extension[a].home;
-    if (home.error) v |= 1u << 7;
-    v |= static_cast<unsigned>(home.hmst) << 8;
-    return static_cast<std::uint16_t>(v);
+    if (home.error) v |= rr2::HOME.mask;
+    return rr2::HMST.set(v, static_cast<unsigned>(home.hmst));
 }
 
 /// RR4 and RR5: eight input levels of one axis; those of filtered inputs are the filters'.

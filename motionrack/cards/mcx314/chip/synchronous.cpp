@@ -6,6 +6,25 @@ namespace motionrack::mcx314 {
 
 namespace {
 
+/// A comparison as a condition (SM6) and as an interrupt (RR3).
+struct Comparison {
+    Field condition, interrupt;
+};
+constexpr std::array<Comparison, 4> comparisons = {
+    {{sm::PGECP, rr3::PGECP}, {sm::PLCP, rr3::PLCP}, {sm::PLCM, rr3::PLCM}, {sm::PGECM, rr3::PGECM}}};
+
+/// Actions (SM7) that are commands.
+struct Act {
+    Field action;
+    int code;
+};
+constexpr std::array<Act, 4> sets = {
+    {{sm::LPSET, cmd::LP}, {sm::EPSET, cmd::EP}, {sm::OPSET, cmd::P}, {sm::VLSET, cmd::V}}};
+constexpr std::array<Act, 4> drives = {{{sm::FDRVP, cmd::FIXED_PLUS},
+                                        {sm::FDRVM, cmd::FIXED_MINUS},
+                                        {sm::CDRVP, cmd::CONTINUOUS_PLUS},
+                                        {sm::CDRVM, cmd::CONTINUOUS_MINUS}}};
+
 /// The axes that act when axis `a` is the one with the condition.
 unsigned acting_with(int a, const Extension& ext) {
     unsigned axes = 1u << a;
@@ -27,19 +46,19 @@ void Chip::note(int a, Field condition) {
     state_.acting |= 1u << a;
 }
 
-/// Comparisons of RR3 D1..D4 have become true; those of SM6 D3..D0 are the same.
+/// Comparisons have become true, as bits of RR3.
 void Chip::note_comparisons(int a, unsigned risen) {
-    for (int i = 0; i < 4; ++i)
-        if (bit(risen, 4 - i)) note(a, Field{static_cast<std::uint16_t>(1u << i)});
+    for (const Comparison& each : comparisons)
+        if (each.interrupt.test(risen)) note(a, each.condition);
 }
 
 /// Which comparisons anybody hears of.
 void Chip::hear_comparisons(int a) {
     Axis& axis = state_.axis[a];
     const unsigned conditions = state_.extension[a].sm6;
-    unsigned heard = axis.wr1 >> 8 & 0x1Eu;
-    for (int i = 0; i < 4; ++i)
-        if (bit(conditions, i)) heard |= 1u << (4 - i);
+    unsigned heard = axis.wr1 >> enable_shift & rr3::comparisons.mask;
+    for (const Comparison& each : comparisons)
+        if (each.condition.test(conditions)) heard |= each.interrupt.mask;
     axis.comparisons = static_cast<std::uint16_t>(heard);
 }
 
@@ -49,10 +68,8 @@ void Chip::act_together() {
     for_each_axis(std::exchange(state_.acting, 0u), [&](int a) { acting |= acting_with(a, state_.extension[a]); });
     for_each_axis(state_.working, [&](int a) { bring_up(a, state_.tick); });
     for_each_axis(acting, [&](int a) { act_alone(a); });
-    for (Axis& axis : state_.axis) {
-        axis.gen.look = true;
-        axis.gen.special_known = false;
-    }
+    look_anew();
+    forget_specials();
     if (state_.acting != 0) wake();
     stale_ = true;
 }
@@ -61,19 +78,18 @@ void Chip::act_together() {
 void Chip::act_alone(int a) {
     Extension& ext = state_.extension[a];
     Axis& axis = state_.axis[a];
-    auto asked = [&ext](int action) { return bit(ext.sm7, action); };
-    if (asked(6)) ext.buffer = static_cast<std::uint32_t>(axis.lp);
-    if (asked(7)) ext.buffer = static_cast<std::uint32_t>(encoder_position(axis, a));
-    static constexpr std::array<int, 4> sets = {cmd::LP, cmd::EP, cmd::P, cmd::V};
-    for (int i = 0; i < 4; ++i)
-        if (asked(8 + i)) data_write(sets[i], a);
-    if (asked(10) && axis.gen.drive == Drive::fixed) check_final(a);
-    if (asked(4)) ask_stop(1u << a, false);
-    if (asked(5)) ask_stop(1u << a, true);
-    for (int i = 0; i < 4; ++i)
-        if (asked(i)) drive_command(0x20 + i, 1u << a);
-    if (asked(14)) ask_clear(a);
-    if (asked(15)) axis.flags = static_cast<std::uint16_t>(axis.flags | 1u << 9);
+    auto asked = [&ext](Field action) { return action.test(ext.sm7); };
+    if (asked(sm::LPSAV)) ext.buffer = static_cast<std::uint32_t>(axis.lp);
+    if (asked(sm::EPSAV)) ext.buffer = static_cast<std::uint32_t>(encoder_position(axis, a));
+    for (const Act& each : sets)
+        if (asked(each.action)) data_write(each.code, a);
+    if (asked(sm::OPSET) && axis.gen.drive == Drive::fixed) check_final(a);
+    if (asked(sm::SSTOP)) ask_stop(1u << a, false);
+    if (asked(sm::ISTOP)) ask_stop(1u << a, true);
+    for (const Act& each : drives)
+        if (asked(each.action)) drive_command(each.code, 1u << a);
+    if (asked(sm::OUT)) ask_clear(a);
+    if (asked(sm::INT)) axis.flags |= rr3::SYNC.mask;
 }
 
 }  // namespace motionrack::mcx314

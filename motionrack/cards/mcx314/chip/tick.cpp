@@ -3,11 +3,6 @@
 
 namespace motionrack::mcx314 {
 
-namespace {
-constexpr unsigned flag_pulse = 1u << 0;
-constexpr unsigned flag_drive_end = 1u << 7;
-}  // namespace
-
 /// Everything up to and including tick `to`, the next interesting one: generators that only change their speed there do
 /// so in closed form, those with more to do work that tick by the rules. Those to which nothing happens, and on which
 /// no path hangs, stay behind.
@@ -43,8 +38,7 @@ void Chip::work_off(std::int64_t to) {
 
 void Chip::look_at_in_position() {
     for_each_axis(state_.in_place, [&](int a) {
-        const Axis& axis = state_.axis[a];
-        if (!bit(axis.wr2, 15) || level(axis, Pin::in_position) == bit(axis.wr2, 14)) state_.in_place &= ~(1u << a);
+        if (in_position(state_.axis[a])) state_.in_place &= ~(1u << a);
     });
 }
 
@@ -80,30 +74,35 @@ std::uint32_t Chip::moved_by(int a) const {
 std::uint16_t Chip::active_inputs(const Axis& axis, bool& decelerating, bool& immediate) const {
     unsigned causes = 0;
     for (int i = 0; i < 4; ++i)
-        if (bit(axis.wr1, 2 * i + 1) && bit(axis.levels, i) == bit(axis.wr1, 2 * i)) causes |= 1u << (8 + i);
+        if (stop_input_enabled(axis, i) && input_active(axis, i)) causes |= unsigned{rr1::IN0.mask} << i;
     if (causes != 0) decelerating = true;
-    const bool plus = axis.direction > 0;
-    if (level(axis, plus ? Pin::limit_plus : Pin::limit_minus) == bit(axis.wr2, plus ? 3 : 4)) {
-        causes |= plus ? 1u << 12 : 1u << 13;
-        (bit(axis.wr2, 2) ? decelerating : immediate) = true;
+    if (limit_active(axis, axis.direction)) {
+        causes |= axis.direction > 0 ? rr1::LMTP.mask : rr1::LMTM.mask;
+        (wr2::LMTMD.test(axis.wr2) ? decelerating : immediate) = true;
     }
-    if (bit(axis.wr2, 13) && level(axis, Pin::alarm) == bit(axis.wr2, 12)) {
-        causes |= 1u << 14;
+    if (alarm_active(axis)) {
+        causes |= rr1::ALARM.mask;
         immediate = true;
     }
     if (!state_.emergency_high) {
-        causes |= 1u << 15;
+        causes |= rr1::EMG.mask;
         immediate = true;
     }
     return static_cast<std::uint16_t>(causes);
 }
 
+/// The counter that COMP+ and COMP- are compared with.
+std::int32_t Chip::compared_counter(int a) const {
+    const Axis& axis = state_.axis[a];
+    return wr2::CMPSL.test(axis.wr2) ? encoder_position(axis, a) : axis.lp;
+}
+
 bool Chip::beyond_software_limit(int a) const {
     const Axis& axis = state_.axis[a];
-    if ((axis.wr2 & 3u) == 0) return false;
-    const std::int64_t counter = bit(axis.wr2, 5) ? encoder_position(axis, a) : axis.lp;
-    if (axis.direction > 0) return bit(axis.wr2, 0) && counter > axis.comp_plus - limit_begins_;
-    return bit(axis.wr2, 1) && counter < axis.comp_minus;
+    const bool plus = axis.direction > 0;
+    if (!(plus ? wr2::SLMTP : wr2::SLMTM).test(axis.wr2)) return false;
+    const std::int64_t counter = compared_counter(a);
+    return plus ? counter > axis.comp_plus - limit_begins_ : counter < axis.comp_minus;
 }
 
 /// True if the drive ended.
@@ -139,10 +138,10 @@ void Chip::end(int a) {
     for (int i = 0; i < axes_of_chip; ++i) {
         if (!(ended >> i & 1)) continue;
         Axis& axis = state_.axis[i];
-        if (path && !state_.emergency_high) axis.causes = static_cast<std::uint16_t>(axis.causes | 1u << 15);
+        if (path && !state_.emergency_high) axis.causes |= rr1::EMG.mask;
         axis.finished = static_cast<std::uint16_t>(axis.finished | axis.causes);
         axis.causes = 0;
-        axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & flag_drive_end));
+        request_interrupt(axis, rr3::DEND.mask);
         if (extended_) note(i, sm::DEND);
         state_.in_place |= 1u << i;
         law_changed(i);
@@ -222,13 +221,13 @@ void Chip::move(int a, int direction, std::int64_t tick_now) {
     axis.lp = stepped(axis, axis.lp, direction);
     axis.count += direction;
     ++axis.made;
-    axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & flag_pulse));
+    request_interrupt(axis, rr3::PULSE.mask);
     moved_last_ |= 1u << a;
     went_[a] = direction;
     if (axis.comparisons != 0) compare(a);
     if (outputs_[a].edge_listener) add_edge(a, tick_now, direction, axis.count);
-    for (int i = 0; i < outputs_[a].listener_count; ++i)
-        if (axis.count <= axis.watch[i].below || axis.count >= axis.watch[i].above) state_.crossed |= 1u << a;
+    for (int i = 0; i < outputs_[a].listeners.size(); ++i)
+        if (axis.watch[i].left(axis.count)) state_.crossed |= 1u << a;
 }
 
 /// The wires of the generator's axes after a basic pulse: `stepped` have a new pulse, the others' last one is over.
@@ -272,7 +271,7 @@ bool Chip::segment_end(int a) {
     gen.special_known = false;
     gen.look = true;
     law_changed_of(a);
-    if (bit(state_.wr5, 14)) state_.path_interrupt = true;
+    if (wr5::CIINT.test(state_.wr5)) state_.path_interrupt = true;
     if (path_finished()) return end(a), true;
     check_final(a);
     return false;
@@ -288,7 +287,7 @@ void Chip::begin_segment(const PathCommand& command) {
         look_ahead_in_pattern();
     } else if (command.arc())
         path.arc.begin(command.centre[0], command.centre[1], command.finish[0], command.finish[1],
-                       command.code == 0x32);
+                       command.code == cmd::ARC_CW);
     else
         for (int i = 0; i < command.count; ++i)
             path.longest = std::max(path.longest, rules::magnitude(command.finish[i]));
@@ -325,15 +324,12 @@ void Chip::check_final(int a) {
 
 void Chip::compare(int a) {
     Axis& axis = state_.axis[a];
-    const std::int32_t counter = bit(axis.wr2, 5) ? encoder_position(axis, a) : axis.lp;
-    unsigned now = 0;
-    if (counter >= axis.comp_minus) now |= 1u << 1;
-    if (counter < axis.comp_minus) now |= 1u << 2;
-    if (counter < axis.comp_plus) now |= 1u << 3;
-    if (counter >= axis.comp_plus) now |= 1u << 4;
+    const std::int32_t counter = compared_counter(a);
+    unsigned now = counter >= axis.comp_minus ? rr3::PGECM.mask : rr3::PLCM.mask;
+    now |= counter >= axis.comp_plus ? rr3::PGECP.mask : rr3::PLCP.mask;
     const unsigned risen = now & ~axis.compared;
     axis.compared = static_cast<std::uint16_t>(now);
-    axis.flags = static_cast<std::uint16_t>(axis.flags | (axis.wr1 >> 8 & risen));
+    request_interrupt(axis, risen);
     if (extended_) note_comparisons(a, risen);
 }
 

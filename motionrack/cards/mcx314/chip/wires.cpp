@@ -19,11 +19,11 @@ void Chip::set_wants(int a) {
         if (bit(filtered, i)) return;  // its level is the filter's
         set_level(axis.levels, i, !wanted || kernel_.level(inputs_[a][i]) != 0);
     };
-    for (int i = 0; i < 4; ++i) set(static_cast<Pin>(i), bit(axis.wr1, 2 * i + 1));
+    for (int i = 0; i < 4; ++i) set(static_cast<Pin>(i), stop_input_enabled(axis, i));
     set(Pin::exp_plus, drives_by_wire(axis.wr3));
     set(Pin::exp_minus, drives_by_wire(axis.wr3));
-    set(Pin::in_position, bit(axis.wr2, 15));
-    set(Pin::alarm, bit(axis.wr2, 13));
+    set(Pin::in_position, wr2::INPE.test(axis.wr2));
+    set(Pin::alarm, wr2::ALME.test(axis.wr2));
     set(Pin::limit_plus, true);
     set(Pin::limit_minus, true);
     for (int i = 0; i < 2; ++i) kernel_.want(encoder_wires_[a][i], id_, true);
@@ -69,7 +69,8 @@ PulseMark Chip::mark_at(int a, std::int64_t to) const {
 
 int Chip::pulse_level(int a, int which, bool pulse, int direction) const {
     const Axis& axis = state_.axis[a];
-    const bool one_pulse = bit(axis.wr2, 6), negative = bit(axis.wr2, 7), high_is_plus = bit(axis.wr2, 8);
+    const bool one_pulse = wr2::PLSMD.test(axis.wr2), negative = wr2::PLSL.test(axis.wr2),
+               high_is_plus = wr2::DIRL.test(axis.wr2);
     if (em::POINV.test(state_.extension[a].em6)) which = 1 - which;
     if (one_pulse && which == 1) return (axis.direction > 0) == high_is_plus;
     return (pulse && (one_pulse || (direction > 0) == (which == 0))) != negative;
@@ -77,9 +78,10 @@ int Chip::pulse_level(int a, int which, bool pulse, int direction) const {
 
 /// nOUT4..7: bits of WR3, or the drive's status: CMP+, CMP-, ASND, DSND.
 int Chip::output_level(int a, int output) const {
-    static constexpr std::array<int, 4> status_bits = {0, 1, 2, 4};
+    static constexpr std::array<Field, 4> shown = {rr1::CMPP, rr1::CMPM, rr1::ASND, rr1::DSND};
     const Axis& axis = state_.axis[a];
-    return bit(axis.wr3, 7) ? status1(a) >> status_bits[output - 4] & 1 : axis.wr3 >> (4 + output) & 1;
+    if (wr3::OUTSL.test(axis.wr3)) return shown[output - 4].test(status1(a));
+    return (axis.wr3 & wr3::OUT4.mask << (output - 4)) != 0;
 }
 
 /// nDRIVE: whether the axis drives, or the deviation counter clear pulse.
@@ -114,7 +116,7 @@ void Chip::note_followers() {
         for (int i = 4; i < 8; ++i) outputs = outputs || kernel_.wanted(general_outputs_[a][i]);
         axis.drive_wanted = kernel_.wanted(drive_wires_[a]);
         if (pulses != axis.pulses_wanted || outputs != axis.outputs_wanted) {
-            for (Axis& each : state_.axis) each.gen.special_known = false;
+            forget_specials();
             axis.shown = axis.made;
         }
         axis.pulses_wanted = pulses;

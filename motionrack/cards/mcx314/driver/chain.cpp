@@ -111,8 +111,7 @@ Result<void> Driver::give_kept_back(bool last, Duration timeout) {
         if (last) aim_at_end(piece);
         chain_.next_v = chain_.kept_back_v;
         read_start(piece);  // of an axis that joins the chain here; the others are on their way
-        for (std::size_t i = 0; i < 4; ++i)
-            if (chain_.axes >> i & 1) piece.from[i] = chain_.at[i];
+        for (const int i : channels_of(chain_.axes)) piece.from[i] = chain_.at[i];
     }
     path_axes_ |= piece.axes;
     put_piece(piece);
@@ -134,8 +133,7 @@ void Driver::note_end(const Piece& piece) {
         moved[h] = end.first;
         moved[v] = end.second;
     }
-    for (std::size_t i = 0; i < 4; ++i)
-        if (piece.axes >> i & 1) chain_.at[i] = piece.from[i] + moved[i];
+    for (const int i : channels_of(piece.axes)) chain_.at[i] = piece.from[i] + moved[i];
 }
 
 /// The last piece must hold the fall to SV: where it is too short the speed is lowered before it.

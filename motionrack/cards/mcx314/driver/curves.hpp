@@ -14,6 +14,7 @@
 #include <functional>
 #include <motionrack/base/result.hpp>
 #include <motionrack/base/time.hpp>
+#include <motionrack/cards/mcx314/arithmetic.hpp>
 #include <optional>
 
 namespace motionrack::mcx314 {
@@ -57,7 +58,7 @@ struct CurvePlan {
     /// Ends at SV, or at V where that is not above it.
     bool ends_slow() const { return end_v <= std::min(data.SV, data.V); }
 
-    double hz(std::int64_t v) const { return static_cast<double>(v) * 8e6 / static_cast<double>(data.R); }
+    double hz(std::int64_t v) const { return static_cast<double>(v) * rules::clock_hz / static_cast<double>(data.R); }
     double top_hz() const { return hz(top_v); }
     /// Pulses/s2 of a part at its steepest.
     double peak_acceleration(const CurvePart& part) const { return 125.0 * hz(part.peak_rate); }

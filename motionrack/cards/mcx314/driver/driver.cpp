@@ -19,13 +19,11 @@ std::int64_t range_of_multiple(std::int64_t multiple) {
 
 std::string axes_text(unsigned axes) {
     std::string out;
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) out += "XYZU"[i];
+    for (const int i : channels_of(axes)) out += "XYZU"[i];
     return out;
 }
 
-// ---- traffic
-// ----------------------------------------------------------------------------------------------------------
+// ---- traffic --------------------------------------------------------------------------------------------------------
 
 void Driver::command(unsigned axes, unsigned code) {
     port_.write(reg::WR0, static_cast<std::uint16_t>((axes & xyzu) << 8 | code));
@@ -50,20 +48,17 @@ void Driver::write_mode(unsigned axes, int number, std::uint16_t word) {
     const PlainRegisters plain(*this);
     command(axes, cmd::NOP);
     port_.write(reg::WR0 + 2u * static_cast<unsigned>(number), word);
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) kept(i).mode[static_cast<std::size_t>(number - 1)] = word;
+    for (const int i : channels_of(axes)) kept(i).mode[static_cast<std::size_t>(number - 1)] = word;
 }
 
 void Driver::set_mode(unsigned axes, int number, Field bits, unsigned value) {
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1)
-            write_mode(1u << i, number, bits.set(kept(i).mode[static_cast<std::size_t>(number - 1)], value));
+    for (const int i : channels_of(axes))
+        write_mode(1u << i, number, bits.set(kept(i).mode[static_cast<std::size_t>(number - 1)], value));
 }
 
 void Driver::put(unsigned axes, const Parameter& parameter, std::int64_t value) {
     write_data(axes, parameter.code, static_cast<std::uint32_t>(value));
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) kept(i).data[parameter.code] = value;
+    for (const int i : channels_of(axes)) kept(i).data[parameter.code] = value;
 }
 
 Driver::Kept& Driver::kept(int axis) {
@@ -76,8 +71,7 @@ const Driver::Kept& Driver::kept(int axis) const {
     return kept_[static_cast<std::size_t>(axis)];
 }
 
-// ---- checks
-// -----------------------------------------------------------------------------------------------------------
+// ---- checks ---------------------------------------------------------------------------------------------------------
 
 Result<void> Driver::check_axes(unsigned axes, const char* who) {
     if (axes >= 1 && axes <= xyzu) return {};
@@ -117,8 +111,8 @@ Result<void> Driver::check_standing(unsigned axes, const char* who, MainStatus m
 
 Result<void> Driver::check_initialised(unsigned axes, const char* who) const {
     unsigned without = 0;
-    for (int i = 0; i < 4; ++i)
-        if ((axes >> i & 1) && !kept(i).data[cmd::R]) without |= 1u << i;
+    for (const int i : channels_of(axes))
+        if (!kept(i).data[cmd::R]) without |= 1u << i;
     if (without == 0) return {};
     return fail(Trouble::refused,
                 fmt::format("{}: the multiple of {} is not set. Nothing was written. Call SetMultiple, SetRange or "
@@ -140,8 +134,7 @@ Result<void> Driver::write_switch(const char* who, unsigned axes, int number, Fi
     return {};
 }
 
-// ---- initial
-// ----------------------------------------------------------------------------------------------------------
+// ---- initial --------------------------------------------------------------------------------------------------------
 
 void Driver::RESET() {
     port_.write(reg::WR0, reset_word);
@@ -210,8 +203,7 @@ Result<void> Driver::SetMaxSpeed(unsigned axes, std::int64_t pulses_a_second) {
 
 Result<void> Driver::WriteRange(unsigned axes, std::int64_t range) {
     MOTIONRACK_CHECK(write(axes, param::vector_range, range));
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) kept(i).own_range = range;
+    for (const int i : channels_of(axes)) kept(i).own_range = range;
     return {};
 }
 
@@ -220,8 +212,7 @@ double Driver::multiple(int axis) const {
     return range == 0 ? 0 : static_cast<double>(rules::sclk_hz) / static_cast<double>(range);
 }
 
-// ---- speeds and ramps
-// -------------------------------------------------------------------------------------------------
+// ---- speeds and ramps -----------------------------------------------------------------------------------------------
 
 Result<void> Driver::SetSV(unsigned axes, std::int64_t value) {
     return write(axes, param::SV, value);
@@ -245,39 +236,34 @@ Result<void> Driver::SetAO(unsigned axes, std::int64_t value) {
 Result<void> Driver::Pulse(unsigned axes, std::int64_t pulses) {
     MOTIONRACK_CHECK(check(axes, param::pulses, pulses));
     put(axes, param::pulses, rules::magnitude(pulses));
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) kept(i).negative = pulses < 0;
+    for (const int i : channels_of(axes)) kept(i).negative = pulses < 0;
     return {};
 }
 
 Result<void> Driver::AutoDec(unsigned axes) {
     MOTIONRACK_CHECK(check_axes(axes, "AutoDec"));
     set_mode(axes, 3, field("WR3", "MANLD"), 0);
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) kept(i).manual = false;
+    for (const int i : channels_of(axes)) kept(i).manual = false;
     return {};
 }
 
 Result<void> Driver::SetDecPoint(unsigned axes, std::int64_t point) {
     MOTIONRACK_CHECK(write(axes, param::DP, point));
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) kept(i).dec_point = point;
+    for (const int i : channels_of(axes)) kept(i).dec_point = point;
     return {};
 }
 
 Result<void> Driver::ManualDec(unsigned axes, std::int64_t point) {
     MOTIONRACK_CHECK(SetDecPoint(axes, point));
     set_mode(axes, 3, field("WR3", "MANLD"), 1);
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) kept(i).manual = true;
+    for (const int i : channels_of(axes)) kept(i).manual = true;
     return {};
 }
 
 Result<void> Driver::SetAsymmetric(unsigned axes, bool on) {
     MOTIONRACK_CHECK(check_axes(axes, "SetAsymmetric"));
     set_mode(axes, 3, field("WR3", "DSNDE"), on);
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) kept(i).asymmetric = on;
+    for (const int i : channels_of(axes)) kept(i).asymmetric = on;
     return {};
 }
 
@@ -285,13 +271,11 @@ void Driver::SetSCurve(unsigned axes, bool on) {
     set_mode(axes, 3, field("WR3", "SACC"), on);
 }
 
-// ---- positions
-// --------------------------------------------------------------------------------------------------------
+// ---- positions ------------------------------------------------------------------------------------------------------
 
 Result<void> Driver::LPS(unsigned axes, std::int64_t value) {
     MOTIONRACK_CHECK(write(axes, param::LP, value));
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) kept(i).from_known = false;
+    for (const int i : channels_of(axes)) kept(i).from_known = false;
     if (axes & path_axes_) pieces_ = {};  // where its axes began is no longer known
     return {};
 }

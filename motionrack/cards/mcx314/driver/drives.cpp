@@ -55,9 +55,8 @@ CurveData Driver::curve_of(int axis, const Speeds& speeds, std::int64_t pulses) 
 
 /// Constant vector speed of an interpolation may have left another R in the chip.
 void Driver::own_range_again(unsigned axes) {
-    for (int i = 0; i < 4; ++i)
-        if ((axes >> i & 1) && kept(i).data[cmd::R] != kept(i).own_range)
-            put(1u << i, param::vector_range, kept(i).own_range);
+    for (const int i : channels_of(axes))
+        if (kept(i).data[cmd::R] != kept(i).own_range) put(1u << i, param::vector_range, kept(i).own_range);
 }
 
 Result<void> Driver::start_curve(const char* who, unsigned axes, const Speeds& speeds,
@@ -67,8 +66,8 @@ Result<void> Driver::start_curve(const char* who, unsigned axes, const Speeds& s
     if (pulses) MOTIONRACK_CHECK(check(axes, param::pulses, *pulses));
     MOTIONRACK_CHECK(check_initialised(axes, who));
     std::array<std::optional<std::int64_t>, 4> points;
-    for (int i = 0; i < 4; ++i) {
-        if (!(axes >> i & 1) || !kept(i).asymmetric) continue;
+    for (const int i : channels_of(axes)) {
+        if (!kept(i).asymmetric) continue;
         const std::optional<std::int64_t> decel = written(i, cmd::D);
         if (!decel)
             return fail(Trouble::refused,
@@ -85,8 +84,7 @@ Result<void> Driver::start_curve(const char* who, unsigned axes, const Speeds& s
     own_range_again(axes);
     put_speeds(axes, speeds);
     if (pulses) MOTIONRACK_CHECK(Pulse(axes, *pulses));
-    for (int i = 0; i < 4; ++i) {
-        if (!(axes >> i & 1)) continue;
+    for (const int i : channels_of(axes)) {
         const std::optional<std::int64_t>& point = points[static_cast<std::size_t>(i)];
         put_deceleration(i,
                          point            ? point
@@ -112,8 +110,7 @@ void Driver::put_deceleration(int axis, std::optional<std::int64_t> point, bool 
 /// are two directions both commands are held until 25h.
 void Driver::begin_fixed(unsigned axes) {
     unsigned minus = 0;
-    for (int i = 0; i < 4; ++i) {
-        if (!(axes >> i & 1)) continue;
+    for (const int i : channels_of(axes)) {
         if (kept(i).negative) minus |= 1u << i;
         kept(i).from = ReadLPS(i);
         kept(i).from_known = true;
@@ -144,9 +141,9 @@ Result<void> Driver::SCurve_C(unsigned axes, std::int64_t sv, std::int64_t v, st
 Result<void> Driver::DriveFixed(unsigned axes) {
     MOTIONRACK_CHECK(check_axes(axes, "DriveFixed"));
     MOTIONRACK_CHECK(check_initialised(axes, "DriveFixed"));
-    for (int i = 0; i < 4; ++i)
+    for (const int i : channels_of(axes))
         for (const Parameter& needed : {param::SV, param::V, param::A, param::pulses})
-            if ((axes >> i & 1) && !written(i, needed.code))
+            if (!written(i, needed.code))
                 return fail(Trouble::refused,
                             fmt::format("DriveFixed: {} of {} is not set. Nothing was written. Set it first.",
                                         needed.name, axes_text(1u << i)));
@@ -156,8 +153,7 @@ Result<void> Driver::DriveFixed(unsigned axes) {
     return {};
 }
 
-// ---- bare commands
-// ----------------------------------------------------------------------------------------------------
+// ---- bare commands --------------------------------------------------------------------------------------------------
 
 void Driver::Drive(unsigned axes, bool negative) {
     note_direction(axes, negative);
@@ -166,14 +162,12 @@ void Driver::Drive(unsigned axes, bool negative) {
 
 void Driver::DriveContinuous(unsigned axes, bool negative) {
     note_direction(axes, negative);
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) kept(i).from_known = false;
+    for (const int i : channels_of(axes)) kept(i).from_known = false;
     command(axes, negative ? cmd::CONTINUOUS_MINUS : cmd::CONTINUOUS_PLUS);
 }
 
 void Driver::note_direction(unsigned axes, bool negative) {
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) kept(i).negative = negative;
+    for (const int i : channels_of(axes)) kept(i).negative = negative;
 }
 
 void Driver::Hold(unsigned axes) {

@@ -36,8 +36,7 @@ std::string Driver::not_changeable(int axis, MainStatus main) {
 Result<void> Driver::change_speed(unsigned axes, std::int64_t v) {
     MOTIONRACK_CHECK(check(axes, param::V, v));
     const MainStatus main = status();
-    for (int i = 0; i < 4; ++i) {
-        if (!(axes >> i & 1)) continue;
+    for (const int i : channels_of(axes)) {
         const std::string why = not_changeable(i, main);
         if (!why.empty())
             return fail(Trouble::refused,
@@ -68,9 +67,7 @@ Result<void> Driver::change_pulses(int axis, std::int64_t pulses, Duration margi
             fmt::format("{} drives in {} direction, and the chip cannot turn back; stop it and start the other way",
                         name, own.negative ? "-" : "+"));
     const std::int64_t v = ReadCV(axis);
-    const std::int64_t at =
-        static_cast<std::int32_t>(static_cast<std::uint32_t>(ReadLPS(axis)) - static_cast<std::uint32_t>(own.from));
-    const std::int64_t made = rules::magnitude(at), wanted = rules::magnitude(pulses);
+    const std::int64_t made = rules::magnitude(way_between(own.from, ReadLPS(axis))), wanted = rules::magnitude(pulses);
     const bool s_curve = field("WR3", "SACC").test(own.mode[2]), manual = field("WR3", "MANLD").test(own.mode[2]);
     Speeds speeds{s_curve ? Curve::s : Curve::t,
                   written(axis, cmd::SV).value_or(1),

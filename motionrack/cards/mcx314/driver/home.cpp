@@ -15,14 +15,6 @@ constexpr Field plus_limit_stopped = field("RR1", "LMTP"), minus_limit_stopped =
 constexpr Field plus_limit = field("RR2", "HLMTP"), minus_limit = field("RR2", "HLMTM");
 constexpr Field alarm_stopped = field("RR1", "ALARM"), alarm = field("RR2", "ALARM");
 constexpr Field emergency_stopped = field("RR1", "EMG"), emergency = field("RR2", "EMG");
-constexpr std::int64_t greatest_pulses = 268'435'455;
-
-/// Counters wrap: the way from one reading to another.
-std::int64_t way(std::int32_t from, std::int32_t to) {
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from));
-}
-
-std::int64_t length(std::int64_t pulses) { return pulses < 0 ? -pulses : pulses; }
 
 }  // namespace
 
@@ -40,8 +32,8 @@ Home::Look Home::look() {
     return out;
 }
 
-bool Home::limit_in_way(const Look& look, HomeWay w) const {
-    return (settings_.negative == (w == HomeWay::towards) ? minus_limit : plus_limit).test(look.status.rr2);
+bool Home::limit_in_way(const Look& look, HomeWay way) const {
+    return (settings_.negative == (way == HomeWay::towards) ? minus_limit : plus_limit).test(look.status.rr2);
 }
 
 /// The change of the home input that a drive waits for is its edge, once; every other change is a bounce.
@@ -68,7 +60,7 @@ HomeEdge Home::edge_here(const Look& look, Instant now) {
     const bool exact = state_->pace != HomePace::fast;
     const bool index = state_->until == HomeUntil::index;
     return {state_->name, index ? settings_.index_input : settings_.input, index || state_->until == HomeUntil::on, look.lp, driver_.ReadEPS(axis_),
-            exact ? 0 : length(way(last_lp_, look.lp)) + 1, hertz(exact ? speed() : std::max(look.cv, last_cv_)), now};
+            exact ? 0 : rules::magnitude(way_between(last_lp_, look.lp)) + 1, hertz(exact ? speed() : std::max(look.cv, last_cv_)), now};
 }
 
 // ---- beginning -----------------------------------------------------------------------------------------------------
@@ -320,20 +312,20 @@ void Home::finish(const Look& look, Instant now) {
 // ---- arithmetic ----------------------------------------------------------------------------------------------------
 
 /// Pulses of the present drive so far.
-std::int64_t Home::distance(const Look& look) const { return length(way(report_.stays.back().from_lp, look.lp)); }
+std::int64_t Home::distance(const Look& look) const { return rules::magnitude(way_between(report_.stays.back().from_lp, look.lp)); }
 
 /// Pulses from SV to V and a hundredth of a second at V, so that a look falls into it.
 std::int64_t Home::run_up() const {
     const auto v = static_cast<double>(settings_.v), sv = static_cast<double>(settings_.sv);
     const double m = hertz(1) > 0 ? hertz(1) : 500;  // where nobody wrote R: the longest
     const double ramp = m * (v * (v + 1) - sv * (sv + 1)) / (250.0 * static_cast<double>(settings_.a));
-    return std::min(greatest_pulses, static_cast<std::int64_t>(ramp * 1.05 + v * m * 0.01) + 2);
+    return std::min(param::pulses.greatest, static_cast<std::int64_t>(ramp * 1.05 + v * m * 0.01) + 2);
 }
 
 /// Longest time that a drive can take: the way at its speed, two ramps, a second.
 Duration Home::drive_time(std::int64_t pulses, std::int64_t v) const {
     if (hertz(1) <= 0) return settings_.timeout;
-    const double ramps = 2 * static_cast<double>(settings_.v) / (125.0 * static_cast<double>(settings_.a));
+    const double ramps = 2 * static_cast<double>(settings_.v) / (rules::rate_unit * static_cast<double>(settings_.a));
     const double seconds = 1.1 * static_cast<double>(pulses) / hertz(v) + 1.1 * ramps + 1;
     return seconds > to_seconds(settings_.timeout) ? settings_.timeout : from_seconds(seconds);
 }

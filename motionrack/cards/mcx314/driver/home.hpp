@@ -26,7 +26,7 @@ struct HomeSettings {
     std::int64_t a = 100;          ///< acceleration and deceleration, 1 .. 8,000
     std::int64_t back_v = 0;       ///< speed off the switch, 1 .. sv; 0: sv
     std::int64_t slow_v = 0;       ///< second approach and index, 1 .. sv; 0: half of sv
-    std::int64_t travel = 268'435'455;   ///< longest way of a search, 1 .. 268,435,455
+    std::int64_t travel = param::pulses.greatest;   ///< longest way of a search, 1 .. 268,435,455
     std::int64_t turn = 0;               ///< pulses of a motor turn: the index is searched one turn far; 0: as far as `travel`
     std::int64_t clearance = 50;         ///< driven on after the switch is released, 0 .. travel
     Duration settle = milliseconds(5);   ///< how long contacts must be at rest, 0 .. 10 s

@@ -22,8 +22,7 @@ Result<std::vector<HomeReport>> home_axes(Driver& driver, int type, unsigned axe
                                                   "Nothing was moved.", type, axes));
     MOTIONRACK_TRY(const HomeSettings settings, home_settings(type, wr1, sv, v, a));
     std::vector<Home> homes;
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) homes.emplace_back(driver, i);
+    for (const int i : channels_of(axes)) homes.emplace_back(driver, i);
     std::vector<Home*> started;
     Result<void> refused;
     for (Home& home : homes) {

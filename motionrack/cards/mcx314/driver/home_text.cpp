@@ -21,14 +21,12 @@ struct Bound {
     std::int64_t value, least, greatest;
 };
 
-constexpr std::int64_t least_32 = -2'147'483'648LL, greatest_32 = 2'147'483'647LL;
-
 }  // namespace
 
 // ---- the report ----------------------------------------------------------------------------------------------------
 
 std::int64_t HomeReport::relative(std::int32_t lp) const {
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(lp) - static_cast<std::uint32_t>(zero_lp)) + home_position;
+    return way_between(zero_lp, lp) + home_position;
 }
 
 std::optional<std::int64_t> HomeReport::switch_to_index() const {
@@ -73,19 +71,19 @@ Result<void> Home::check_ready() {
         {"the type", s.type, 1, 4},
         {"the home input", s.input, 0, 3},
         {"the index input", s.index_input, 0, 3},
-        {"the range R", s.range == 0 ? 16'000 : s.range, 16'000, 8'000'000},
-        {"the initial speed SV", s.sv, 1, 8'000},
-        {"the search speed V", s.v, 1, 8'000},
-        {"the acceleration A", s.a, 1, 8'000},
+        {"the range R", s.range == 0 ? param::R.least : s.range, param::R.least, param::R.greatest},
+        {"the initial speed SV", s.sv, param::SV.least, param::SV.greatest},
+        {"the search speed V", s.v, param::V.least, param::V.greatest},
+        {"the acceleration A", s.a, param::A.least, param::A.greatest},
         {"the speed off the switch (at most SV)", s.back_v == 0 ? 1 : s.back_v, 1, s.sv},
         {"the slow speed (at most SV)", s.slow_v == 0 ? 1 : s.slow_v, 1, s.sv},
-        {"the travel", s.travel, 1, 268'435'455},
-        {"the pulses of a turn", s.turn, 0, 268'435'455},
+        {"the travel", s.travel, 1, param::pulses.greatest},
+        {"the pulses of a turn", s.turn, 0, param::pulses.greatest},
         {"the clearance", s.clearance, 0, s.travel},
         {"the settling time in ms", s.settle / milliseconds(1), 0, 10'000},
         {"the time-out in ms", s.timeout / milliseconds(1), 1, 1'000'000'000},
-        {"the home position", s.home_position, least_32, greatest_32},
-        {"the encoder's home position", s.home_counts, least_32, greatest_32},
+        {"the home position", s.home_position, param::LP.least, param::LP.greatest},
+        {"the encoder's home position", s.home_counts, param::EP.least, param::EP.greatest},
     };
     for (const Bound& bound : bounds)
         if (bound.value < bound.least || bound.value > bound.greatest)

@@ -20,22 +20,14 @@ std::int64_t times(std::int64_t range, double factor) {
 }
 
 bool is_zero(const FourAxes& values, unsigned axes) {
-    for (std::size_t i = 0; i < 4; ++i)
-        if ((axes >> i & 1) && values[i] != 0) return false;
+    for (const int i : channels_of(axes))
+        if (values[i] != 0) return false;
     return true;
 }
 
 }  // namespace
 
-ChannelList channels_of(unsigned axes) {
-    ChannelList out;
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) out.channel[static_cast<std::size_t>(out.count++)] = i;
-    return out;
-}
-
-// ---- the bare registers
-// -------------------------------------------------------------------------------------------------
+// ---- the bare registers ---------------------------------------------------------------------------------------------
 
 void Driver::write_path_mode(std::uint16_t word) {
     const PlainRegisters plain(*this);
@@ -89,20 +81,17 @@ void Driver::EnableInterpolationInterrupts(bool joints, bool patterns) {
     write_path_mode(field("WR5", "BPINT").set(field("WR5", "CIINT").set(path_mode_, joints), patterns));
 }
 
-// ---- points and settings
-// ----------------------------------------------------------------------------------------------
+// ---- points and settings --------------------------------------------------------------------------------------------
 
 Result<void> Driver::SetFP(unsigned axes, std::int64_t finish) {
     MOTIONRACK_CHECK(write(axes, param::finish, finish));
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) kept(i).finish = finish;
+    for (const int i : channels_of(axes)) kept(i).finish = finish;
     return {};
 }
 
 Result<void> Driver::SetCP(unsigned axes, std::int64_t centre) {
     MOTIONRACK_CHECK(write(axes, param::C, centre));
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) kept(i).centre = centre;
+    for (const int i : channels_of(axes)) kept(i).centre = centre;
     return {};
 }
 
@@ -122,8 +111,7 @@ Result<void> Driver::SetVectorSpeed(int axes_count) {
     return {};
 }
 
-// ---- checks
-// -----------------------------------------------------------------------------------------------------------
+// ---- checks ---------------------------------------------------------------------------------------------------------
 
 Result<void> Driver::check_count(const char* who, unsigned axes, int count) {
     MOTIONRACK_CHECK(check_axes(axes, who));
@@ -136,8 +124,7 @@ Result<void> Driver::check_count(const char* who, unsigned axes, int count) {
 
 /// Finish points and centres in range and useful.
 Result<void> Driver::check_piece(const char* who, const Piece& piece) const {
-    for (int i = 0; i < 4; ++i) {
-        if (!(piece.axes >> i & 1)) continue;
+    for (const int i : channels_of(piece.axes)) {
         MOTIONRACK_CHECK(check(1u << i, param::finish, piece.finish[static_cast<std::size_t>(i)]));
         if (piece.arc) MOTIONRACK_CHECK(check(1u << i, param::C, piece.centre[static_cast<std::size_t>(i)]));
     }
@@ -173,8 +160,7 @@ Result<void> Driver::check_piece(const char* who, const Piece& piece) const {
 Driver::Piece Driver::piece_of(unsigned axes, const FourAxes& finish, const FourAxes* centre, bool clockwise) const {
     Piece piece{axes, centre != nullptr, clockwise, finish, centre ? *centre : FourAxes{}, {}, vector_axes_};
     const bool use_kept = is_zero(centre ? *centre : finish, axes);
-    for (std::size_t i = 0; i < 4; ++i) {
-        if (!(axes >> i & 1)) continue;
+    for (const int i : channels_of(axes)) {
         if (use_kept) piece.finish[i] = kept_[i].finish.value_or(0);
         if (use_kept && centre) piece.centre[i] = kept_[i].centre.value_or(0);
     }
@@ -189,13 +175,11 @@ std::int64_t Driver::basic_pulses(const Piece& piece) {
             .basic_pulses;
     }
     std::int64_t most = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-        if (piece.axes >> i & 1) most = std::max(most, rules::magnitude(piece.finish[i]));
+    for (const int i : channels_of(piece.axes)) most = std::max(most, rules::magnitude(piece.finish[i]));
     return most;
 }
 
-// ---- starting
-// ---------------------------------------------------------------------------------------------------------
+// ---- starting -------------------------------------------------------------------------------------------------------
 
 /// R of the axes that constant vector speed uses, WR5, points and the command of one piece.
 void Driver::put_piece(const Piece& piece) {
@@ -221,8 +205,7 @@ void Driver::put_piece(const Piece& piece) {
 
 /// Where the axes of a piece stand.
 void Driver::read_start(Piece& piece) {
-    for (int i = 0; i < 4; ++i)
-        if (piece.axes >> i & 1) piece.from[static_cast<std::size_t>(i)] = ReadLPS(i);
+    for (const int i : channels_of(piece.axes)) piece.from[static_cast<std::size_t>(i)] = ReadLPS(i);
 }
 
 Result<void> Driver::start_piece(const char* who, Piece piece, const Speeds& speeds) {

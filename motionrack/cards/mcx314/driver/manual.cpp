@@ -45,9 +45,9 @@ Result<void> Manual::set(const ManualSettings& settings) {
         std::int64_t value, least, greatest;
     };
     const Bound bounds[] = {
-        {"the initial speed SV", settings.sv, 1, 8'000},
-        {"the acceleration A", settings.a, 1, 8'000},
-        {"the greatest speed", settings.most_v, 1, 8'000},
+        {"the initial speed SV", settings.sv, param::SV.least, param::SV.greatest},
+        {"the acceleration A", settings.a, param::A.least, param::A.greatest},
+        {"the greatest speed", settings.most_v, param::V.least, param::V.greatest},
         {"the time a jog is held, in ms,", settings.hold / milliseconds(1), 1, 10'000},
     };
     for (const Bound& bound : bounds)

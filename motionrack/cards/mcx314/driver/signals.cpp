@@ -59,8 +59,7 @@ Result<void> Driver::SetStopInput(unsigned axes, int input, StopInput mode) {
     // IN0L, IN0E, IN1L, IN1E, ..: level and enable of each input are neighbours.
     const auto high = static_cast<std::uint16_t>(field("WR1", "IN0L").mask << 2 * input);
     const auto enable = static_cast<std::uint16_t>(field("WR1", "IN0E").mask << 2 * input);
-    for (int i = 0; i < 4; ++i) {
-        if (!(axes >> i & 1)) continue;
+    for (const int i : channels_of(axes)) {
         const unsigned word = Field{high}.set(mode1(i), mode == StopInput::at_high);
         write_mode(1u << i, 1, Field{enable}.set(word, mode != StopInput::off));
     }
@@ -73,8 +72,7 @@ Result<void> Driver::SetExternalDrive(unsigned axes, ExternalDrive mode) {
     return {};
 }
 
-// ---- synchronous actions of the MCX314As
-// ----------------------------------------------------------------------------------------
+// ---- synchronous actions of the MCX314As ----------------------------------------------------------------------------
 
 Result<void> Driver::SetSynchronous(unsigned axes, std::uint16_t conditions, std::uint16_t actions) {
     MOTIONRACK_CHECK(check_axes(axes, "SetSynchronous"));
@@ -92,8 +90,7 @@ std::int32_t Driver::ReadBR(int axis) {
     return static_cast<std::int32_t>(read_data(axis, cmd::READ_BR));
 }
 
-// ---- outputs and inputs
-// -----------------------------------------------------------------------------------------------
+// ---- outputs and inputs ---------------------------------------------------------------------------------------------
 
 void Driver::write_outputs(std::uint16_t word) {
     const PlainRegisters plain(*this);
@@ -110,8 +107,8 @@ Result<void> Driver::SetOutput(unsigned axes, int output, bool high) {
         return {};
     }
     unsigned word = outputs_;
-    for (int i = 0; i < 4; ++i)
-        if (axes >> i & 1) word = Field{static_cast<std::uint16_t>(1u << (4 * i + output))}.set(word, high);
+    for (const int i : channels_of(axes))
+        word = Field{static_cast<std::uint16_t>(1u << (4 * i + output))}.set(word, high);
     write_outputs(static_cast<std::uint16_t>(word));
     return {};
 }
@@ -136,8 +133,7 @@ InputLevels Driver::inputs(int axis) {
     return levels;
 }
 
-// ---- interrupts
-// -------------------------------------------------------------------------------------------------------
+// ---- interrupts -----------------------------------------------------------------------------------------------------
 
 Result<void> Driver::EnableInterrupt(unsigned axes, std::uint16_t causes) {
     return change_interrupts("EnableInterrupt", axes, causes, true);
@@ -152,8 +148,7 @@ Result<void> Driver::change_interrupts(const char* who, unsigned axes, std::uint
         return fail(
             Trouble::refused,
             fmt::format("{}: the causes {:04X}h are not bits 0 to 7 of RR3. Nothing was written.", who, causes));
-    for (int i = 0; i < 4; ++i) {
-        if (!(axes >> i & 1)) continue;
+    for (const int i : channels_of(axes)) {
         const unsigned bits = unsigned{causes} << cause_shift;
         write_mode(1u << i, 1, static_cast<std::uint16_t>(on ? mode1(i) | bits : mode1(i) & ~bits));
     }
@@ -182,8 +177,7 @@ void Driver::WriteMode2(unsigned axes, std::uint16_t word) {
 }
 void Driver::WriteMode3(unsigned axes, std::uint16_t word) {
     write_mode(axes, 3, word);
-    for (int i = 0; i < 4; ++i) {
-        if (!(axes >> i & 1)) continue;
+    for (const int i : channels_of(axes)) {
         kept(i).manual = field("WR3", "MANLD").test(word);
         kept(i).asymmetric = field("WR3", "DSNDE").test(word);
     }

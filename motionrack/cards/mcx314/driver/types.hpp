@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <motionrack/cards/mcx314/map.hpp>
 #include <string>
@@ -21,12 +22,24 @@ struct Finish {
     std::int32_t centre = 0;  ///< arcs only
 };
 
-/// The channels of a mask, X before Y before Z before U.
+/// The channels of a mask, X before Y before Z before U: for (const int i : channels_of(axes)).
 struct ChannelList {
     std::array<int, 4> channel = {};
     int count = 0;
+    const int* begin() const { return channel.data(); }
+    const int* end() const { return channel.data() + count; }
 };
-ChannelList channels_of(unsigned axes);
+constexpr ChannelList channels_of(unsigned axes) {
+    ChannelList out;
+    for (int i = 0; i < 4; ++i)
+        if (axes >> i & 1) out.channel[static_cast<std::size_t>(out.count++)] = i;
+    return out;
+}
+
+/// Pulses or counts from one reading of a 32-bit counter to another; counters wrap.
+constexpr std::int64_t way_between(std::int32_t from, std::int32_t to) {
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(to) - static_cast<std::uint32_t>(from));
+}
 
 using FourAxes = std::array<std::int64_t, 4>;
 

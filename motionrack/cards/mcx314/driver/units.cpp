@@ -11,10 +11,9 @@ namespace motionrack::mcx314 {
 
 namespace {
 
-constexpr double sclk = static_cast<double>(rules::sclk_hz);
-constexpr double rate_unit = 125, jerk_unit = 62.5e6;  // pulses/s2 of A = 1 and pulses/s3 of K = 1, times M
+using rules::clock_hz, rules::rate_unit, rules::jerk_unit;
 constexpr double most_multiple = 500;
-constexpr double most_units = 8'000;
+constexpr double most_units = static_cast<double>(rules::most_units);
 constexpr double most_distance = 2'147'483'647;
 
 /// One value of a drive: what it is called, and how much of it one M gives at most.
@@ -83,7 +82,7 @@ Rounded rounded_jerk(const Scale& scale, double asked, double multiple) {
 }
 
 RealSetting with_range(const Scale& scale, const RealDrive& drive, std::int64_t range) {
-    const double multiple = sclk / static_cast<double>(range);
+    const double multiple = clock_hz / static_cast<double>(range);
     RealSetting out;
     out.R = range;
     out.speed = rounded(scale, drive.speed, multiple, param::V);
@@ -107,12 +106,12 @@ Result<RealSetting> real_setting(const Scale& scale, const RealDrive& drive) {
                                    drive.acceleration * pulses / accel_kind.most_per_multiple,
                                    drive.deceleration * pulses / decel_kind.most_per_multiple,
                                    drive.jerk * pulses / jerk_kind.most_per_multiple});
-    const double widest = std::clamp(std::floor(sclk / least), static_cast<double>(param::R.least),
+    const double widest = std::clamp(std::floor(clock_hz / least), static_cast<double>(param::R.least),
                                      static_cast<double>(param::R.greatest));
     // V is what fits into the widest range; R is then as much narrower as makes V the asked speed, rounded to reach it.
-    const double v = std::clamp(std::floor(drive.speed * pulses * widest / sclk), 1.0, most_units);
+    const double v = std::clamp(std::floor(drive.speed * pulses * widest / clock_hz), 1.0, most_units);
     const double range =
-        std::clamp(std::floor(sclk * v / (drive.speed * pulses)), static_cast<double>(param::R.least), widest);
+        std::clamp(std::floor(clock_hz * v / (drive.speed * pulses)), static_cast<double>(param::R.least), widest);
     return with_range(scale, drive, static_cast<std::int64_t>(range));
 }
 
@@ -120,12 +119,12 @@ Result<RealSetting> real_setting_at(const Scale& scale, const RealDrive& drive, 
     if (range < param::R.least || range > param::R.greatest)
         return fail(Trouble::refused, fmt::format("{} is {}, but the chip takes {} to {}. Nothing was set.",
                                                   param::R.name, range, param::R.least, param::R.greatest));
-    MOTIONRACK_CHECK(check_drive(scale, drive, sclk / static_cast<double>(range)));
+    MOTIONRACK_CHECK(check_drive(scale, drive, clock_hz / static_cast<double>(range)));
     return with_range(scale, drive, range);
 }
 
 RealDrive real_values(const Scale& scale, const CurveData& curve) {
-    const double unit = sclk / static_cast<double>(curve.R) / scale.pulses_per_unit;
+    const double unit = clock_hz / static_cast<double>(curve.R) / scale.pulses_per_unit;
     return {static_cast<double>(curve.V) * unit, static_cast<double>(curve.SV) * unit,
             static_cast<double>(curve.A) * rate_unit * unit,
             curve.asymmetric ? static_cast<double>(curve.D) * rate_unit * unit : 0,
@@ -157,7 +156,7 @@ std::string RealSetting::text() const {
         const char* symbol;
         const Rounded& value;
     };
-    std::string out = fmt::format("R {}: M = {:.6g}\n", R, sclk / static_cast<double>(R));
+    std::string out = fmt::format("R {}: M = {:.6g}\n", R, clock_hz / static_cast<double>(R));
     for (const Row& row :
          {Row{"speed", "V", speed}, Row{"start speed", "SV", start_speed}, Row{"acceleration", "A", acceleration},
           Row{"deceleration", "D", deceleration}, Row{"jerk", "K", jerk}}) {

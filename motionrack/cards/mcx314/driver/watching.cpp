@@ -39,16 +39,15 @@ AxisReport Driver::report(int axis) {
 
 std::string Driver::error_text(unsigned axes) {
     std::string out;
-    for (int i = 0; i < 4; ++i) {
-        if (!(axes >> i & 1) || axis_status(i).why_stopped().empty()) continue;
+    for (const int i : channels_of(axes)) {
+        if (axis_status(i).why_stopped().empty()) continue;
         if (!out.empty()) out += ' ';
         out += report(i).text();
     }
     return out;
 }
 
-// ---- waiting
-// ----------------------------------------------------------------------------------------------------------
+// ---- waiting --------------------------------------------------------------------------------------------------------
 
 /// Sleeps until the interrupt line or for `slice`. The interrupts of `axes` are fetched, so that the line can rest;
 /// time passes also where the line is active for somebody else.
@@ -57,8 +56,7 @@ void Driver::doze(unsigned axes, Duration slice) {
     const bool woken = interrupt_.wait(slice);
     bool ours = false;
     if (woken)
-        for (int i = 0; i < 4; ++i)
-            if (axes >> i & 1) ours = fetch_interrupts(i) || ours;
+        for (const int i : channels_of(axes)) ours = fetch_interrupts(i) || ours;
     if (!ours && (woken || interrupt_.now() == before)) interrupt_.pass(slice);
 }
 
@@ -90,8 +88,7 @@ Result<void> Driver::wait_until_done(unsigned axes, Duration timeout) {
     return fail(Trouble::machine, why);
 }
 
-// ---- speeds
-// -----------------------------------------------------------------------------------------------------------
+// ---- speeds ---------------------------------------------------------------------------------------------------------
 
 /// Part of the basic pulses that step each axis of a piece, signed, at the place where the axes are.
 std::array<double, 4> Driver::shares(const Piece& piece) {
@@ -99,15 +96,14 @@ std::array<double, 4> Driver::shares(const Piece& piece) {
     const ChannelList list = channels_of(piece.axes);
     if (!piece.arc) {
         const auto longest = static_cast<double>(std::max<std::int64_t>(1, basic_pulses(piece)));
-        for (std::size_t i = 0; i < 4; ++i)
-            if (piece.axes >> i & 1) out[i] = static_cast<double>(piece.finish[i]) / longest;
+        for (const int i : channels_of(piece.axes)) out[i] = static_cast<double>(piece.finish[i]) / longest;
         return out;
     }
     // On a circle the axes' speeds are as the other's distance from the centre; the axis nearer to it steps every time.
     const auto h = static_cast<std::size_t>(list.channel[0]), v = static_cast<std::size_t>(list.channel[1]);
     auto from_centre = [&](std::size_t i) {
-        const std::int64_t moved = static_cast<std::int32_t>(static_cast<std::uint32_t>(ReadLPS(static_cast<int>(i))) -
-                                                             static_cast<std::uint32_t>(piece.from[i]));
+        const std::int64_t moved =
+            way_between(static_cast<std::int32_t>(piece.from[i]), ReadLPS(static_cast<int>(i)));
         return static_cast<double>(moved - piece.centre[i]);
     };
     const double x = from_centre(h), y = from_centre(v);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <motionrack/cards/mcx314/chip/chip.hpp>
+#include <motionrack/cards/mcx314/test/commands.hpp>
 #include <motionrack/sim/kernel.hpp>
 #include <motionrack/sim/motion.hpp>
 #include <string>
@@ -97,7 +98,14 @@ class HandWheel final : public sim::Motion {
     sim::MotionListener* listener_ = nullptr;
 };
 
-class Bench {
+/// Lets time pass, whoever breaks the run.
+inline void advance(sim::Kernel& kernel, Duration time) {
+    const Instant until = kernel.now() + time;
+    while (kernel.run_until(until) == sim::RunEnd::broken) {
+    }
+}
+
+class Bench : public Commands<Bench> {
   public:
     explicit Bench(Variant variant = Variant::mcx314) : Bench(ChipOptions{variant}) {}
     explicit Bench(const ChipOptions& options) : chip(kernel, "c", options) {}
@@ -107,17 +115,6 @@ class Bench {
         chip.write(static_cast<std::uint32_t>(2 * number), static_cast<std::uint16_t>(value));
     }
     unsigned read(int number) { return chip.read(static_cast<std::uint32_t>(2 * number)); }
-    void command(unsigned axes, unsigned code) { write(0, axes << 8 | code); }
-    void data(unsigned axes, unsigned code, std::int64_t value) {
-        const auto bits = static_cast<std::uint32_t>(value);
-        write(7, bits >> 16);
-        write(6, bits & 0xFFFFu);
-        command(axes, code);
-    }
-    void mode(unsigned axes, int number, unsigned value) {
-        command(axes, 0x0F);
-        write(number, value);
-    }
     unsigned status(unsigned axis, int number) {
         command(axis, 0x0F);
         return read(number);
@@ -142,11 +139,7 @@ class Bench {
 
     // ---- time and wires
     void start() { kernel.start(); }
-    void advance(Duration time) {
-        const Instant until = kernel.now() + time;
-        while (kernel.run_until(until) == sim::RunEnd::broken) {
-        }
-    }
+    void advance(Duration time) { outside::advance(kernel, time); }
     /// Runs until the interrupt line is active or `time` has passed; true if it is active.
     bool wait(Duration time) {
         const Instant until = kernel.now() + time;

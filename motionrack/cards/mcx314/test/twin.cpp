@@ -52,8 +52,7 @@ void Twin::work(int a) {
     if (gen.stopping) end(a);
 }
 
-// ---- step 1
-// -----------------------------------------------------------------------------------------------------------------
+// ---- step 1 ---------------------------------------------------------------------------------------------------------
 
 // Does generator `a` step axis `other` in the present segment (or is it its own)?
 bool Twin::moves_with(int a, int other) const {
@@ -138,8 +137,7 @@ void Twin::end(int a) {
     axes_[a].external = -1;
 }
 
-// ---- step 2
-// -----------------------------------------------------------------------------------------------------------------
+// ---- step 2 ---------------------------------------------------------------------------------------------------------
 
 // A pulse of the generator; true if the drive ended with it.
 bool Twin::pulse(int a) {
@@ -270,8 +268,7 @@ void Twin::begin_segment(const Segment& segment) {
         if (path_.direction(i) != 0) axes_[segment.axis[i]].direction = path_.direction(i);
 }
 
-// ---- when the final deceleration begins
-// -------------------------------------------------------------------------------------
+// ---- when the final deceleration begins -----------------------------------------------------------------------------
 
 void Twin::check_final(int a) {
     const Axis& axis = axes_[a];
@@ -293,8 +290,7 @@ void Twin::check_final_of_path() {
     }
 }
 
-// ---- comparisons
-// ------------------------------------------------------------------------------------------------------------
+// ---- comparisons ----------------------------------------------------------------------------------------------------
 
 void Twin::compare(int a) {
     Axis& axis = axes_[a];

@@ -35,8 +35,7 @@ void Twin::reset() {
     for (int a = 0; a < axis_count; ++a) compare(a);
 }
 
-// ---- writing
-// ----------------------------------------------------------------------------------------------------------------
+// ---- writing --------------------------------------------------------------------------------------------------------
 
 void Twin::write(std::uint32_t offset, std::uint16_t value) {
     write_register(offset, value, 0xFFFF);
@@ -198,8 +197,7 @@ void Twin::data_read(int code, const Axis& axis) {
     rr7_ = static_cast<std::uint16_t>(value >> 16);
 }
 
-// ---- commands
-// ---------------------------------------------------------------------------------------------------------------
+// ---- commands -------------------------------------------------------------------------------------------------------
 
 void Twin::drive_command(int code, unsigned axes) {
     for (int a = 0; a < axis_count; ++a) {

@@ -1,22 +1,14 @@
 // A little host for the twin: the register traffic of a command in one call.
 #pragma once
 
+#include <motionrack/cards/mcx314/test/commands.hpp>
 #include <motionrack/cards/mcx314/test/twin.hpp>
 
 namespace motionrack::mcx314::twin {
 
-class Host {
+class Host : public Commands<Host> {
   public:
-    void command(unsigned axes, int code) {
-        twin.write(0, static_cast<std::uint16_t>(axes << 8 | static_cast<unsigned>(code)));
-    }
-    void data(unsigned axes, int code, std::int64_t value) {
-        twin.write(14, static_cast<std::uint16_t>(value >> 16));
-        twin.write(12, static_cast<std::uint16_t>(value));
-        command(axes, code);
-    }
-    void mode(unsigned axes, int number, unsigned value) {
-        command(axes, 0x0F);
+    void write(int number, unsigned value) {
         twin.write(static_cast<std::uint32_t>(2 * number), static_cast<std::uint16_t>(value));
     }
     /// R, V, SV, A, D, K and AO of some axes.

@@ -49,48 +49,43 @@ Result<void> Engine::select_cor_table(int head_a, int head_b) {
 }
 
 Result<void> Engine::set_delays(const Delays& d) {
-    for (const std::int64_t v : {d.jump, d.mark, d.polygon, d.edge_level, d.least_jump})
-        if (v < 0 || v > 4294967295)
-            return fail(Trouble::refused,
-                        fmt::format("a delay of {} times 10 us is outside 0 to 4294967295; nothing was changed", v));
-    if (d.laser_on < -32768 || d.laser_on > 65535 || d.laser_off < 0 || d.laser_off > 65535)
-        return fail(
-            Trouble::refused,
-            fmt::format("laser delays of {} and {} times 0.5 us are outside -32768 and 0 to 65535; nothing was changed",
-                        d.laser_on, d.laser_off));
-    if (!within(d.jump_limit, 0, 16777215))
-        return fail(
-            Trouble::refused,
-            fmt::format("a length limit of {} bits is outside 0 to 16777215; nothing was changed", d.jump_limit));
+    struct Item {
+        std::string_view name;
+        std::int64_t ticks;
+    };
+    for (const Item& item : {Item{"Jump", d.jump}, Item{"Mark", d.mark}, Item{"Polygon", d.polygon},
+                             Item{"EdgeLevel", d.edge_level}, Item{"MinJumpDelay", d.least_jump}})
+        MOTIONRACK_CHECK(check_parameter("", item.name, static_cast<double>(item.ticks), Kind::ticks));
+    const KindInfo laser = kind_info(Kind::half_us);
+    MOTIONRACK_CHECK(check_parameter("", "LaserOnDelay", static_cast<double>(d.laser_on), Kind::half_us));
+    MOTIONRACK_CHECK(
+        check_parameter("", "LaserOffDelay", static_cast<double>(d.laser_off), 0, laser.greatest, laser.unit));
+    MOTIONRACK_CHECK(check_parameter("", "JumpLengthLimit", d.jump_limit, 0, 16777215, "bits"));
     state_.delays = d;
     return {};
 }
 
 void Engine::set_jump_speed(double bits_ms) {
-    if (std::isfinite(bits_ms)) state_.jump_speed = std::clamp(bits_ms, 1.6, 800000.0);
+    if (std::isfinite(bits_ms)) state_.jump_speed = clipped(bits_ms, Kind::speed);
 }
 void Engine::set_mark_speed(double bits_ms) {
-    if (std::isfinite(bits_ms)) state_.mark_speed = std::clamp(bits_ms, 1.6, 800000.0);
+    if (std::isfinite(bits_ms)) state_.mark_speed = clipped(bits_ms, Kind::speed);
 }
 
 Result<void> Engine::set_hi(int head, Point gain, Point offset) {
-    if (head < 1 || head > 3)
-        return fail(Trouble::refused, fmt::format("set_hi: there is no scan head {}; 1, 2 or 3 (both)", head));
-    if (!within(gain.x, -16, 16) || !within(gain.y, -16, 16) || !within(offset.x, field_least, field_greatest) ||
-        !within(offset.y, field_least, field_greatest))
-        return fail(Trouble::refused,
-                    fmt::format("set_hi: gain ({}, {}) or offset ({}, {}) is out of range; nothing was changed", gain.x,
-                                gain.y, offset.x, offset.y));
+    MOTIONRACK_CHECK(check_parameter("set_hi", "HeadNo", head, 1, 3));
+    MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoGainX", gain.x, -16, 16));
+    MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoGainY", gain.y, -16, 16));
+    MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoOffsetX", offset.x, field_least, field_greatest, "bits"));
+    MOTIONRACK_CHECK(check_parameter("set_hi", "GalvoOffsetY", offset.y, field_least, field_greatest, "bits"));
     for (std::size_t i = 0; i < head_count; ++i)
         if (head >> i & 1) state_.heads[i].gain = gain, state_.heads[i].offset = offset;
     return {};
 }
 
 Result<void> Engine::set_rot_center(Point centre) {
-    if (!within(centre.x, -8388608, 8388607) || !within(centre.y, -8388608, 8388607))
-        return fail(Trouble::refused,
-                    fmt::format("set_rot_center: ({}, {}) is outside -8388608 to 8388607 bits; nothing was changed",
-                                centre.x, centre.y));
+    MOTIONRACK_CHECK(check_parameter("set_rot_center", "X", centre.x, Kind::centre));
+    MOTIONRACK_CHECK(check_parameter("set_rot_center", "Y", centre.y, Kind::centre));
     state_.rot_center = centre;
     return {};
 }
@@ -115,12 +110,11 @@ Result<void> Engine::set_ext_start_delay(std::int32_t delay, int encoder) {
 }
 
 Result<void> Engine::set_encoder_speed(int encoder, double counts_ms, double smooth) {
-    if (encoder < 0 || encoder > 3)
+    MOTIONRACK_CHECK(check_parameter("set_encoder_speed", "EncoderNo", encoder, 0, 3));
+    if (!std::isfinite(counts_ms))
         return fail(Trouble::refused,
-                    fmt::format("set_encoder_speed: there is no encoder {}; 0, 1, or 2, 3 for both", encoder));
-    if (!std::isfinite(counts_ms) || !within(smooth, 0, 1))
-        return fail(Trouble::refused,
-                    fmt::format("set_encoder_speed: speed {}, smoothing {} (0 to 1)", counts_ms, smooth));
+                    fmt::format("set_encoder_speed: Speed is {}, which is no number; nothing was changed", counts_ms));
+    MOTIONRACK_CHECK(check_parameter("set_encoder_speed", "Smooth", smooth, 0, 1));
     State& s = state_;
     s.speed_watched = 1;
     s.speed_encoder = encoder;

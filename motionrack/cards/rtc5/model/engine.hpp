@@ -323,7 +323,7 @@ class Engine {
     // control.cpp
     void set_online(std::size_t which, double value);
     template <class Change>
-    Result<void> change_transform(int head, int at_once, const Change& change);
+    Result<void> change_transform(std::string_view command, int head, int at_once, const Change& change);
     void transforms_of_jump();
 
     Settings settings_;

@@ -13,6 +13,14 @@ Point through(const Transform& t, Point p) {
     return {t.product[0] * p.x + t.product[1] * p.y + t.offset.x, t.product[2] * p.x + t.product[3] * p.y + t.offset.y};
 }
 
+/// What set_fly_limits and set_fly_limits_z watch, of X, Y, Z.
+struct LimitBits {
+    std::uint32_t below = 0, above = 0;
+};
+constexpr std::array<LimitBits, 3> limit_bits = {{{marking_bit("LIMIT_X_MIN"), marking_bit("LIMIT_X_MAX")},
+                                                  {marking_bit("LIMIT_Y_MIN"), marking_bit("LIMIT_Y_MAX")},
+                                                  {marking_bit("LIMIT_Z_MIN"), marking_bit("LIMIT_Z_MAX")}}};
+
 }  // namespace
 
 void Engine::pipeline_command(const Command& c) {
@@ -39,12 +47,10 @@ void Engine::pipeline_command(const Command& c) {
             s.limits[4] = whole(0), s.limits[5] = whole(1);
             return;
         case Op::clear_fly_overflow: {
-            const std::int64_t mode = whole(0), all = mode == 0 ? 7 : mode;
-            std::int64_t bits = 0;
-            if (all & 1) bits |= 0x30;
-            if (all & 2) bits |= 0xC0;
-            if (all & 4) bits |= 0x3000000;
-            s.marking_info &= ~bits;
+            const std::int64_t mode = whole(0);
+            for (std::size_t axis = 0; axis < limit_bits.size(); ++axis)
+                if (mode == 0 || (mode >> axis & 1))
+                    s.marking_info &= ~std::int64_t{limit_bits[axis].below | limit_bits[axis].above};
             return;
         }
         case Op::park_position:
@@ -292,8 +298,7 @@ Point Engine::fly_of(Point p, bool backwards) const {
 void Engine::move_by_fly(bool backwards) {
     if (!state_.fly.on()) return;
     const Point g = through(state_.global, state_.p), way = fly_of(g, backwards) - g;
-    state_.p = {std::clamp(state_.p.x + way.x, -8388608.0, 8388607.0),
-                std::clamp(state_.p.y + way.y, -8388608.0, 8388607.0)};
+    state_.p = {clipped(state_.p.x + way.x, Kind::coordinate), clipped(state_.p.y + way.y, Kind::coordinate)};
 }
 
 void Engine::leave_fly() {
@@ -327,10 +332,8 @@ void Engine::park(const Command& c) {
 
 void Engine::condition(const Command& c) {
     const auto number = static_cast<std::uint32_t>(c.op) - static_cast<std::uint32_t>(Op::if_fly_x_overflow);
-    const std::uint32_t axis = number % 3;
-    const int lower = axis == 0 ? 4 : axis == 1 ? 6 : 24;
-    std::int64_t bits = c.p[0] > 0 ? 2 : c.p[0] < 0 ? 1 : 3;
-    bits <<= lower;
+    const auto [below, above] = limit_bits[number % 3];
+    const std::int64_t bits = c.p[0] > 0 ? above : c.p[0] < 0 ? below : below | above;
     const bool holds = ((state_.marking_info & bits) != 0) == (number < 3);
     state_.marking_info &= ~bits;
     state_.lists.skip = !holds;

@@ -15,10 +15,6 @@ std::int64_t steps_for(double length, double step) {
     return steps < 1 ? 1 : static_cast<std::int64_t>(steps);
 }
 
-double clipped(double v) {
-    return std::clamp(v, -8388608.0, 8388607.0);
-}
-
 bool is_mark(Op op) {
     return op == Op::mark_abs || op == Op::mark_rel || op == Op::arc_abs || op == Op::arc_rel ||
            op == Op::timed_mark_abs || op == Op::timed_mark_rel;
@@ -128,7 +124,7 @@ std::int64_t Engine::corner_delay(const Command& next, bool& cut) const {
 
 Point Engine::target_of(const Command& c, bool relative) const {
     if (!relative) return {c.p[0], c.p[1]};
-    return {clipped(state_.p.x + c.p[0]), clipped(state_.p.y + c.p[1])};
+    return {clipped(state_.p.x + c.p[0], Kind::coordinate), clipped(state_.p.y + c.p[1], Kind::coordinate)};
 }
 
 void Engine::begin_hold(std::int64_t ticks, Ending ending) {

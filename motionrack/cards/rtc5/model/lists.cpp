@@ -8,12 +8,15 @@
 namespace motionrack::rtc5 {
 
 Result<void> check(const Settings& s) {
-    if (s.list_memory < 16 || s.list_memory > greatest_list_memory)
-        return fail(Trouble::refused, fmt::format("a list memory of {} positions: 16 to {} are possible", s.list_memory,
-                                                  greatest_list_memory));
-    if (s.list1 < 1 || s.list2 < 0 || s.list1 + s.list2 > s.list_memory)
-        return fail(Trouble::refused, fmt::format("lists of {} and {} positions do not fit a memory of {}", s.list1,
-                                                  s.list2, s.list_memory));
+    if (s.list_memory < least_list_memory || s.list_memory > greatest_list_memory)
+        return fail(Trouble::refused,
+                    fmt::format("a list memory of {} positions is outside {} to {}; nothing was changed", s.list_memory,
+                                least_list_memory, greatest_list_memory));
+    if (s.list1 < 1 || s.list2 < 0 || s.list1 > s.list_memory - s.list2)
+        return fail(Trouble::refused,
+                    fmt::format("lists of {} and {} positions do not fit a memory of {}; nothing was changed. List 1 "
+                                "takes 1 or more, list 2 none or more",
+                                s.list1, s.list2, s.list_memory));
     return {};
 }
 
@@ -21,8 +24,9 @@ Result<void> Engine::config_list(std::int64_t list1, std::int64_t list2) {
     if (state_.lists.running)
         return fail(Trouble::refused,
                     "config_list: a list is running; the memory was left as it is. Stop the list first");
+    const std::int64_t rest = settings_.list_memory - std::clamp<std::int64_t>(list1, 0, settings_.list_memory);
     Settings changed = settings_;
-    changed.list1 = list1, changed.list2 = list2 == -1 ? settings_.list_memory - list1 : list2;
+    changed.list1 = list1, changed.list2 = list2 == -1 ? rest : list2;
     MOTIONRACK_CHECK(check(changed));
     state_.lists.begin = {0, list1, list1 + changed.list2, settings_.list_memory};
     state_.lists.subroutines = {};

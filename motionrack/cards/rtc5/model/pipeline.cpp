@@ -81,23 +81,27 @@ void Engine::check_flags(std::size_t n) {
     extent_.take(e);
     const auto& m = state_.limits;
     struct Bound {
+        std::uint32_t flag;
         const Doubles* values;
         double bound, least, greatest;
         bool upper;
     };
     const auto limit = [&](std::size_t i) { return static_cast<double>(m[i]); };
-    const Bound bounds[8] = {
-        {&b.x, field_least, e.least_x, e.greatest_x, false}, {&b.x, field_greatest, e.least_x, e.greatest_x, true},
-        {&b.y, field_least, e.least_y, e.greatest_y, false}, {&b.y, field_greatest, e.least_y, e.greatest_y, true},
-        {&b.x, limit(0), e.least_x, e.greatest_x, false},    {&b.x, limit(1), e.least_x, e.greatest_x, true},
-        {&b.y, limit(2), e.least_y, e.greatest_y, false},    {&b.y, limit(3), e.least_y, e.greatest_y, true},
+    const Bound bounds[] = {
+        {marking_bit("FLY_X_UNDERFLOW"), &b.x, field_least, e.least_x, e.greatest_x, false},
+        {marking_bit("FLY_X_OVERFLOW"), &b.x, field_greatest, e.least_x, e.greatest_x, true},
+        {marking_bit("FLY_Y_UNDERFLOW"), &b.y, field_least, e.least_y, e.greatest_y, false},
+        {marking_bit("FLY_Y_OVERFLOW"), &b.y, field_greatest, e.least_y, e.greatest_y, true},
+        {marking_bit("LIMIT_X_MIN"), &b.x, limit(0), e.least_x, e.greatest_x, false},
+        {marking_bit("LIMIT_X_MAX"), &b.x, limit(1), e.least_x, e.greatest_x, true},
+        {marking_bit("LIMIT_Y_MIN"), &b.y, limit(2), e.least_y, e.greatest_y, false},
+        {marking_bit("LIMIT_Y_MAX"), &b.y, limit(3), e.least_y, e.greatest_y, true},
     };
-    for (std::uint32_t bit = 0; bit < 8; ++bit) {
-        const Bound& c = bounds[bit];
-        if (!(c.upper ? c.greatest > c.bound : c.least < c.bound) || (state_.marking_info >> bit & 1)) continue;
+    for (const Bound& c : bounds) {
+        if (!(c.upper ? c.greatest > c.bound : c.least < c.bound) || (state_.marking_info & c.flag)) continue;
         std::size_t i = 0;
         while (!(c.upper ? (*c.values)[i] > c.bound : (*c.values)[i] < c.bound)) ++i;
-        raise(1u << bit, state_.tick + static_cast<std::int64_t>(i));
+        raise(c.flag, state_.tick + static_cast<std::int64_t>(i));
     }
 }
 

@@ -18,11 +18,6 @@ struct Point {
     friend constexpr Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 };
 
-/// False for NaN.
-constexpr bool within(double v, double least, double greatest) {
-    return v >= least && v <= greatest;
-}
-
 /// How far positions went; empty at first.
 struct Extent {
     double least_x = std::numeric_limits<double>::infinity(), greatest_x = -std::numeric_limits<double>::infinity();

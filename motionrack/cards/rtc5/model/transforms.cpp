@@ -1,6 +1,4 @@
 // Transforms of the heads and before the correction, also those that come over McBSP.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <motionrack/base/trig.hpp>
@@ -23,11 +21,9 @@ void multiply(Transform& t) {
 
 /// Changes the transforms of `head` (1 A, 2 B, 3 both, 4 global), now or with the next jump.
 template <class Change>
-Result<void> Engine::change_transform(int head, int at_once, const Change& change) {
-    if (head < 1 || head > 4)
-        return fail(Trouble::refused,
-                    fmt::format("there is no scan head {}; 1, 2, 3 (both) or 4 (before the correction)", head));
-    if (at_once < 0 || at_once > 3) return fail(Trouble::refused, fmt::format("at_once is {}; 0 to 3", at_once));
+Result<void> Engine::change_transform(std::string_view command, int head, int at_once, const Change& change) {
+    MOTIONRACK_CHECK(check_parameter(command, "HeadNo", head, Kind::head));
+    MOTIONRACK_CHECK(check_parameter(command, "at_once", at_once, 0, 3));
     Transform* const now[3] = {&state_.heads[0].transform, &state_.heads[1].transform, &state_.global};
     for (std::size_t i = 0; i < 3; ++i) {
         const bool meant = i == 2 ? head == 4 : head != 4 && (head >> i & 1);
@@ -56,32 +52,24 @@ void Engine::transforms_of_jump() {
 }
 
 Result<void> Engine::set_matrix(int head, std::array<double, 4> matrix, int at_once) {
-    for (const double m : matrix)
-        if (!within(m, -50, 50))
-            return fail(Trouble::refused,
-                        fmt::format("set_matrix: a coefficient is {}, outside -50 to 50; nothing was changed", m));
-    return change_transform(head, at_once, [&](Transform& t) { t.matrix = matrix; });
+    for (const double m : matrix) MOTIONRACK_CHECK(check_parameter("set_matrix", "a coefficient", m, Kind::factor));
+    return change_transform("set_matrix", head, at_once, [&](Transform& t) { t.matrix = matrix; });
 }
 
 Result<void> Engine::set_offset(int head, Point offset, int at_once) {
-    if (!within(offset.x, -8388608, 8388607) || !within(offset.y, -8388608, 8388607))
-        return fail(Trouble::refused,
-                    fmt::format("set_offset: ({}, {}) is outside -8388608 to 8388607 bits; nothing was changed",
-                                offset.x, offset.y));
-    return change_transform(head, at_once, [&](Transform& t) { t.offset = offset; });
+    MOTIONRACK_CHECK(check_parameter("set_offset", "XOffset", offset.x, Kind::centre));
+    MOTIONRACK_CHECK(check_parameter("set_offset", "YOffset", offset.y, Kind::centre));
+    return change_transform("set_offset", head, at_once, [&](Transform& t) { t.offset = offset; });
 }
 
 Result<void> Engine::set_angle(int head, double degrees, int at_once) {
-    if (!within(degrees, -3600, 3600))
-        return fail(Trouble::refused,
-                    fmt::format("set_angle: {} is outside -3600 to 3600 degrees; nothing was changed", degrees));
-    return change_transform(head, at_once, [&](Transform& t) { t.angle_deg = degrees; });
+    MOTIONRACK_CHECK(check_parameter("set_angle", "Angle", degrees, Kind::angle));
+    return change_transform("set_angle", head, at_once, [&](Transform& t) { t.angle_deg = degrees; });
 }
 
 Result<void> Engine::set_scale(int head, double scale, int at_once) {
-    if (!within(scale, -16, 16))
-        return fail(Trouble::refused, fmt::format("set_scale: {} is outside -16 to 16; nothing was changed", scale));
-    return change_transform(head, at_once, [&](Transform& t) { t.scale = scale; });
+    MOTIONRACK_CHECK(check_parameter("set_scale", "Scale", scale, -16, 16));
+    return change_transform("set_scale", head, at_once, [&](Transform& t) { t.scale = scale; });
 }
 
 void Engine::transform_command(const Command& c) {
@@ -95,7 +83,7 @@ void Engine::transform_command(const Command& c) {
         if (c.op == Op::set_angle_list) t.angle_deg = c.p[0];
         if (c.op == Op::set_scale_list) t.scale = c.p[0];
     };
-    static_cast<void>(change_transform(c.head, at_once, change));
+    static_cast<void>(change_transform(info(c.op).name, c.head, at_once, change));
 }
 
 Result<void> Engine::set_mcbsp_in(int mode, double scale) {
@@ -176,7 +164,7 @@ Result<void> Engine::apply_mcbsp(int head, int at_once) {
     const McBsp& m = state_.mcbsp;
     if (m.online_matrix) {
         const std::int32_t coefficient = m.memory[1];
-        return change_transform(head, at_once, [&](Transform& t) {
+        return change_transform("apply_mcbsp", head, at_once, [&](Transform& t) {
             t.matrix[static_cast<std::size_t>(coefficient & 3)] = static_cast<double>(coefficient >> 2) / 16777216;
         });
     }
@@ -199,7 +187,7 @@ Result<void> Engine::apply_mcbsp(int head, int at_once) {
                         1.0) *
                   360
             : 0;
-    return change_transform(head, at_once, [&](Transform& t) {
+    return change_transform("apply_mcbsp", head, at_once, [&](Transform& t) {
         if (m.online_x) t.offset.x = x * m.online_scale_x;
         if (m.online_y) t.offset.y = y * m.online_scale_y;
         if (m.online_rot) t.angle_deg = turn;

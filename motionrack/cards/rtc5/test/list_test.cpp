@@ -126,6 +126,18 @@ TEST(Rtc5List, AListThatIsFullTakesNoMoreAndARunningOneIsNotStartedAgain) {
     EXPECT_EQ(rig.card.state().lists.ended_unwritten, 1) << "list 2 was never written";
 }
 
+TEST(Rtc5List, ListsThatDoNotFitTheMemoryAreRefusedHoweverLongTheyAre) {
+    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max(), least = std::numeric_limits<std::int64_t>::min();
+    Rig rig;
+    const auto begin = rig.card.state().lists.begin;
+    for (const auto& [list1, list2] : {std::pair{most, std::int64_t{1}}, {most, most}, {std::int64_t{1}, most}, {most, std::int64_t{-1}}, {least, std::int64_t{-1}}, {least, least}}) {
+        const auto refused = rig.card.config_list(list1, list2);
+        ASSERT_FALSE(refused) << list1 << ", " << list2;
+        EXPECT_NE(refused.error().message.find("do not fit a memory of"), std::string::npos) << refused.error().message;
+        EXPECT_EQ(rig.card.state().lists.begin, begin);
+    }
+}
+
 TEST(Rtc5List, NumbersThatAreNoneOrOutOfRangeAreRefusedWithTheirPlace) {
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
     EXPECT_FALSE(list_command(Op::mark_abs, {nan, 0}));

@@ -1,0 +1,30 @@
+// Commands with their data as register traffic, for every host of the tests and benchmarks: of a chip, of its twin.
+#pragma once
+
+#include <cstdint>
+#include <motionrack/cards/mcx314/map.hpp>
+
+namespace motionrack::mcx314 {
+
+/// `Host` has write(number, value), which writes WR0 .. WR7.
+template <class Host>
+class Commands {
+  public:
+    void command(unsigned axes, unsigned code) { host().write(0, axes << 8 | code); }
+    void data(unsigned axes, unsigned code, std::int64_t value) {
+        const auto bits = static_cast<std::uint32_t>(value);
+        host().write(7, bits >> 16);
+        host().write(6, bits & 0xFFFFu);
+        command(axes, code);
+    }
+    /// WR1 .. WR3 of axes.
+    void mode(unsigned axes, int number, unsigned value) {
+        command(axes, cmd::NOP);
+        host().write(number, value);
+    }
+
+  private:
+    Host& host() { return static_cast<Host&>(*this); }
+};
+
+}  // namespace motionrack::mcx314
