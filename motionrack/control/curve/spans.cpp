@@ -156,10 +156,16 @@ bool SpanMaker::has_width(const Span& span, const Point& in, const Point& out) c
     return room.linear >= least_width * linear && room.rotary >= least_width * rotary;
 }
 
-/// How far from the corner's sides the path may be at a stop between these, of which the program is to be kept nearly.
+/// How far from the corner's sides the path may be at a stop between these, of which the program is to be kept nearly. Rotary axes go along.
 double SpanMaker::room_to_cut(const Span& before, const Span& after) const {
     if (before.rotary || after.rotary) return 0;
-    return std::max(0.0, corner_share * std::min(before.tolerance.linear, after.tolerance.linear) - before.merged.linear);
+    double room = corner_share * std::min(before.tolerance.linear, after.tolerance.linear) - before.merged.linear;
+    const double rotary = corner_share * std::min(before.tolerance.rotary, after.tolerance.rotary) - before.merged.rotary;
+    for (std::size_t i = 3; i < before.tangent_out.size(); ++i) {
+        const double turned = std::max(std::fabs(before.tangent_out[i]), std::fabs(after.tangent_in[i]));
+        if (turned > 0) room = std::min(room, rotary / turned);
+    }
+    return std::max(0.0, room);
 }
 
 /// Of the turn: as wide as its tolerance allows, but within its moves.
