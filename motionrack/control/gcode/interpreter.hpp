@@ -267,6 +267,7 @@ class Interpreter {
     bool negative_handles() const;
     bool targets(bool machine_coordinates);
     bool targets_turned();
+    Move& begin_move(MoveKind kind);
     bool feed_of(Move& move);
     bool reach(int axis, double value, std::size_t column) {
         return (value >= low_[axis] && value <= high_[axis]) || beyond(axis, value, column);
