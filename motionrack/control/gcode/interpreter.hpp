@@ -239,6 +239,7 @@ class Interpreter {
     bool join(Planar corner);
     bool end_waiting_path();
     bool end_cutter();
+    bool may_wait();
     bool gouges(std::int32_t line);
     bool off_limits();
     bool reaches_contour();

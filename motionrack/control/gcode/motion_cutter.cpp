@@ -238,6 +238,16 @@ bool Interpreter::end_cutter() {
     return !beside_ || end_waiting_path();
 }
 
+/// Without a move beside the contour, or an end of it, what the line does would wait too.
+bool Interpreter::may_wait() {
+    const bool adds = (todo_ & ~static_cast<std::uint32_t>(todo_comments)) != 0;
+    if (!adds || cutter_plan_.begins || next_.cutter == CutterSide::off || ends_program()) return true;
+    return fail_at(0, GrblStatus::unsupported,
+                   fmt::format("{} steps wait already for the move beside the contour that follows the one of line {}, and no more can; nothing of this line was done; "
+                               "write that move before it, or G40",
+                               HeldSteps::most, cutter_line_));
+}
+
 /// What the good line changes: the steps that are final become ready, its own ones wait behind them.
 void Interpreter::commit_cutter() {
     const auto& axes = plane_axes[modes_.plane];
