@@ -205,6 +205,7 @@ class Interpreter {
     bool tool_length();
     bool tool_length_of_words(bool adds);
     bool tool_length_of_table(bool adds);
+    const Tool* tool_of_table(std::int32_t number, char letter, GroupG code);
     bool set_tool();
     bool known_tool(char letter, std::int32_t number);
     Point shift_to_words(const Frame& frame) const;

@@ -66,11 +66,8 @@ bool Interpreter::cutter_diameter(double& diameter) {
             return fail_at(column, GrblStatus::word_missing,
                            fmt::format("{0}: no tool is in the spindle; write e.g. {0} D1, or T1 M6 before it", name_of_g(code)));
         }
-        const Tool* tool = tools_.find(number);
-        if (!tool) {
-            return fail_at(block_.has('D') ? block_.column[letter_index('D')] : column, GrblStatus::unsupported,
-                           fmt::format("{}: the tool table has no tool {}; write it into the table", block_.has('D') ? written('D') : name_of_g(code), number));
-        }
+        const Tool* tool = tool_of_table(number, 'D', g_cutter);
+        if (!tool) return false;
         diameter = tool->diameter_mm;
     }
     if (std::fabs(diameter) <= largest_cutter_mm) return true;
