@@ -120,6 +120,7 @@ TEST(CReference, TheHeaderHasEveryQuantityAndFaultWithItsMeaning) {
         }
     };
     has(rack::PartKind::axis, 0);
+    has(rack::PartKind::stage, header.find("Of a stage"));
     has(rack::PartKind::track, header.find("Of a belt or a rotary table"));
     has(rack::PartKind::scanner, header.find("Of a scan head"));
     std::size_t at = header.find("Breaks something on purpose");
