@@ -55,8 +55,10 @@ class Recordings(unittest.TestCase):
         rack = Rack.from_file(EXAMPLES / "13_stage" / "machine.toml")
         stage = next(name for name, of in rack.parts.items() if "unused_frames" in of.quantities)
         counted, measured = ("scale_counts", "lost_counts", "trusted", "closed", "unused_frames"), ("position_mm", "drive_v")
-        with rack.record(*(f"{stage}.{name}" for name in counted + measured)) as recording:
+        card = next(name for name, card in rack.cards.items() if card.type == "grating_bus")
+        with rack.record(*(f"{stage}.{name}" for name in counted + measured), f"{card}.age_us") as recording:
             rack.advance(ms=5)
+        self.assertEqual(recording.trace.units[f"{card}.age_us"], "us")
         for name in counted:
             self.assertEqual(recording.trace[f"{stage}.{name}"].dtype, np.int64, name)
         for name in measured:
