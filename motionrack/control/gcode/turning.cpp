@@ -233,8 +233,16 @@ std::vector<ContourPiece> seen(const std::vector<ContourPiece>& contour, const T
     return out;
 }
 
+/// Of a piece, at its ends or between them.
+double highest_of(const ContourPiece& piece) {
+    const double ends = std::max(piece.from.second, piece.to.second);
+    if (!piece.arc()) return ends;
+    const bool bulges = extremes_passed(piece.from - piece.centre, piece.to - piece.centre, piece.turns > 0)[1];
+    return bulges ? std::max(ends, piece.centre.second + length(piece.from - piece.centre)) : ends;
+}
+
 /// G70: passes along the contour, each nearer to it by as much. The way back to the start does not lead through a part that is higher
-/// than the contour's end.
+/// than where the pass has ended.
 std::string finish(const TurningPlan& plan, const TurningView& view, const std::vector<ContourPiece>& contour, Path& path) {
     Planar start = view.in(plan.start);
     double highest = lowest_ever;
@@ -247,7 +255,7 @@ std::string finish(const TurningPlan& plan, const TurningView& view, const std::
         path.rapid(beside.front().from);
         for (const ContourPiece& piece : beside) {
             path.along(piece, piece.to, false);
-            highest = std::max(highest, piece.to.second);
+            highest = std::max(highest, highest_of(piece));
         }
     }
     return {};

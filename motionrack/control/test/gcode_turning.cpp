@@ -231,6 +231,22 @@ RC_GTEST_PROP(GcodeTurning, FinishesAlongTheContourInPassesThatComeNearer, ()) {
     RC_ASSERT(std::fabs(nearest - std::min(first, last)) < rough);
 }
 
+TEST(GcodeTurning, ThePassesOfAContourWithABulgeGoBackOverIt) {
+    std::vector<ContourPiece> contour(1);
+    contour[0] = {{0, 18}, {15, 18}, -1, {7.5, 18}, 0, false, 1};
+    TurningPlan plan;
+    plan.code = 700;
+    plan.start = {-2, top};
+    plan.passes = 2;
+    for (const double distance : {0.0, 1.0}) {
+        plan.distance = distance;
+        std::vector<Moved> moves;
+        ASSERT_EQ(cut({}, plan, contour, moves), "");
+        for (const Moved& one : moves)
+            for (int k = 0; k <= 12; ++k) EXPECT_TRUE(is_above(contour, one.at(k / 12.0))) << distance << ' ' << one.at(k / 12.0).first << ' ' << one.at(k / 12.0).second;
+    }
+}
+
 TEST(GcodeTurning, AFilletTouchesBothSidesAndAChamferHasItsEnds) {
     const auto pieces = [](double radius, bool chamfer) {
         std::vector<ContourPiece> contour(2);
