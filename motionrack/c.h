@@ -141,6 +141,20 @@ MR_API int mr_wire_set(mr_rack *rack, const char *wire, double value);
  *   home              the same for the home switch
  *   cam               1 while the machine is on its reference cam
  *   drive_v           the voltage at the servo amplifier
+ * Of a stage:
+ *   position_mm       where the stage is
+ *   speed_mm_s        its speed, signed
+ *   drive_v           the voltage at its amplifier
+ *   scale_mm          where its scale shows it
+ *   scale_counts      what its scale has counted
+ *   lost_counts       counts that its scale has lost
+ *   trusted           1 while its scale has lost none, else 0
+ *   closed            1 while its loop is closed, else 0 (with a servo)
+ *   following_nm      wanted - measured at the last frame (with a servo)
+ *   following_peak_nm the greatest of it so far, without its sign (with a servo)
+ *   following_rms_nm  its root mean square so far (with a servo)
+ *   wanted_mm         where its profile wants it now (with a servo)
+ *   unused_frames     frames that its loop could not use (with a servo)
  * Of a belt or a rotary table (mm or deg by its kind):
  *   position_mm       how far it has gone since the start
  *   speed_mm_s        how fast it goes, signed

@@ -112,16 +112,17 @@ TEST(CReference, ThePagesAreMadeFromTheHeaders) {
 
 TEST(CReference, TheHeaderHasEveryQuantityAndFaultWithItsMeaning) {
     const std::string header = contents(root / "motionrack/c.h");
-    const auto has = [&](const auto& quantities, std::size_t begin) {
-        for (const auto& quantity : quantities) {
-            const std::size_t at = header.find(" *   " + rack::with_unit(quantity.name, "mm") + " ", begin);
-            ASSERT_NE(at, std::string::npos) << quantity.name;
-            EXPECT_NE(header.substr(at, header.find('\n', at) - at).find(quantity.doc), std::string::npos) << quantity.name;
+    const auto has = [&](rack::PartKind kind, std::size_t begin) {
+        for (const auto& [name, doc] : rack::declared_quantities(kind)) {
+            const std::size_t at = header.find(" *   " + rack::with_unit(name, "mm") + " ", begin);
+            ASSERT_NE(at, std::string::npos) << name;
+            EXPECT_NE(header.substr(at, header.find('\n', at) - at).find(doc), std::string::npos) << name;
         }
     };
-    has(rack::quantities(), 0);
-    has(rack::track_quantities(), header.find("Of a belt or a rotary table"));
-    has(rack::scanner_quantities(), header.find("Of a scan head"));
+    has(rack::PartKind::axis, 0);
+    has(rack::PartKind::stage, header.find("Of a stage"));
+    has(rack::PartKind::track, header.find("Of a belt or a rotary table"));
+    has(rack::PartKind::scanner, header.find("Of a scan head"));
     std::size_t at = header.find("Breaks something on purpose");
     for (const std::string_view fault : rack::fault_names()) {
         at = header.find("\n *   " + std::string(fault), at);

@@ -74,23 +74,9 @@ void ChannelBook::add_axes(operate::Machine& machine) {
 
 void ChannelBook::add_quantities(rack::Rack& rack) {
     const sim::Kernel& kernel = rack.kernel();
-    const auto put = [this](const std::string& part, const std::string& name, std::string_view text, std::function<double()> read) {
-        add(part + "." + name, unit_of(name), text, ChannelLooks::anytime, std::move(read));
-    };
-    for (rack::RunningAxis& axis : rack.axes())
-        for (const rack::Quantity& one : rack::quantities())
-            if (one.present(axis))
-                put(std::string(1, axis.config.letter), rack::with_unit(one.name, axis.config.unit()), one.doc, [&axis, &kernel, get = one.get] { return get(axis, kernel.now()); });
-    for (rack::RunningStage& stage : rack.stages())
-        for (const rack::StageQuantity& one : rack::stage_quantities())
-            if (!one.of_loop || stage.loop() != nullptr) put(stage.config.name, std::string(one.name), one.doc, [&stage, &kernel, get = one.get] { return get(stage, kernel.now()); });
-    for (rack::RunningTrack& track : rack.tracks())
-        for (const rack::TrackQuantity& one : rack::track_quantities())
-            if (one.present(track))
-                put(track.config.name, rack::with_unit(one.name, track.config.unit()), one.doc, [&track, &kernel, get = one.get] { return get(track, kernel.now()); });
-    for (rack::RunningScanner& scanner : rack.scanners())
-        for (const rack::ScannerQuantity& one : rack::scanner_quantities())
-            put(scanner.config.name, std::string(one.name), one.doc, [&scanner, get = one.get] { return get(scanner); });
+    for (rack::QuantitiesOfPart& of : rack::quantities_of(rack))
+        for (rack::Quantity& one : of.quantities)
+            add(of.part + "." + one.name, unit_of(one.name), one.doc, ChannelLooks::anytime, [&kernel, get = std::move(one.get)] { return get(kernel.now()); });
 }
 
 void ChannelBook::add_wires(operate::Machine& machine) {

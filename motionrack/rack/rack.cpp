@@ -74,6 +74,11 @@ parts::DcMotorSettings servo_settings(const RackAxis& axis) {
     return out;
 }
 
+/// Where the rotor is, in pulses from the start, when the machine is at that position.
+std::int64_t rotor_at(const RackAxis& axis, double position) {
+    return static_cast<std::int64_t>(std::floor((position - axis.start_position) * axis.pulses_per_unit() + 0.5));
+}
+
 /// The rotor of a servo is its encoder: it follows whatever turns it.
 parts::StepperSettings motor_settings(const RackAxis& axis) {
     if (axis.servo) return {axis.encoder_counts_per_rev, 1, 1e12, 1e12};
@@ -123,11 +128,8 @@ void Rack::join_links() {
         axis.machine->connect(axis.servo ? *axis.servo : *pulses[i]);
         const RackSwitches& switches = axis.config.switches;
         if (!switches.has_cam()) continue;
-        const auto count = [&axis](double position) {
-            return static_cast<std::int64_t>(std::floor((position - axis.config.start_position) * axis.config.pulses_per_unit() + 0.5));
-        };
         axis.cam = std::make_unique<parts::ReferenceCam>(kernel_, fmt::format("{}.cam", axis.config.letter), axis.machine->rotor(),
-                                                         count(*switches.cam_from), count(*switches.cam_to), 0);
+                                                         rotor_at(axis.config, *switches.cam_from), rotor_at(axis.config, *switches.cam_to), 0);
     }
     for (const EncoderLink& link : config_.encoder_links) {
         sim::Motion* counts = &axes_[static_cast<std::size_t>(link.axis)].machine->encoder();
@@ -150,10 +152,8 @@ void Rack::build_probe() {
         if (index > 2) continue;
         const std::optional<double> from = config_.probe->from(index), to = config_.probe->to(index);
         if (!from && !to) continue;
-        const auto count = [&axis](double position) {
-            return static_cast<std::int64_t>(std::floor((position - axis.config.start_position) * axis.config.pulses_per_unit() + 0.5));
-        };
-        probe_->add_range(axis.machine->rotor(), from ? count(*from) : sim::unwatched_below + 1, to ? count(*to) : sim::unwatched_above - 1);
+        probe_->add_range(axis.machine->rotor(), from ? rotor_at(axis.config, *from) : sim::unwatched_below + 1,
+                          to ? rotor_at(axis.config, *to) : sim::unwatched_above - 1);
     }
 }
 

@@ -9,7 +9,7 @@ from . import _core
 from .errors import Refused
 from .trace import Trace
 
-_ENDS = (("_mm_s", "mm/s"), ("_deg_s", "deg/s"), ("_mm", "mm"), ("_deg", "deg"), ("_nm", "nm"), ("_v", "V"), ("_hz", "Hz"), ("_j", "J"),
+_ENDS = (("_mm_s", "mm/s"), ("_deg_s", "deg/s"), ("_mm", "mm"), ("_deg", "deg"), ("_nm", "nm"), ("_us", "us"), ("_v", "V"), ("_hz", "Hz"), ("_j", "J"),
          ("_counts", "counts"), ("_pulses", "pulses"))
 
 

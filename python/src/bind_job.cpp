@@ -156,15 +156,16 @@ void attend_progress(World& world, const py::object& progress) {
 }
 
 /// Without Python's lock: the loops of a program may take a second or two.
-void check(const World& world, const GivenProgram& program) {
+control::gcode::Settings check(const World& world, const GivenProgram& program) {
     const py::gil_scoped_release free;
-    world.check(program);
+    return world.check(program);
 }
 
 std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const GivenProgram& program, std::int64_t sample_ticks, const std::optional<std::string>& profile, const std::vector<std::string>& faults, const py::object& progress) {
+    control::gcode::Settings reading;
     {
         const Turn turn(*world, Turn::For::moving);
-        check(*world, program);
+        reading = check(*world, program);
         value_of(world->plan_faults(faults));
         value_of(world->set_sample_period(ticks(sample_ticks)));
         if (profile) value_of(world->set_profile(*profile));
@@ -175,7 +176,7 @@ std::unique_ptr<Ran> run(const std::shared_ptr<World>& world, const GivenProgram
         ~Unheard() { world.on_progress({}); }
     } unheard{*world};
     // What Python raised stops the run and goes on; a stop of the machine is part of the outcome.
-    return std::make_unique<Ran>(Ran{world, alone(*world, [&] { return world->run(program); })});
+    return std::make_unique<Ran>(Ran{world, alone(*world, [&] { return world->run(program, std::move(reading)); })});
 }
 
 }  // namespace
@@ -204,7 +205,7 @@ void bind_job(py::module_& m) {
         .def(py::init<std::string, std::string, std::string, std::string, std::string, bool>(), py::arg("text"), py::arg("name"), py::arg("folder"),
              py::arg("tools"), py::arg("tools_name"), py::arg("block_delete"));
     m.def("run", &run, py::arg("world"), py::arg("program"), py::arg("sample_ticks"), py::arg("profile"), py::arg("faults"), py::arg("progress"));
-    m.def("check", [](World& world, const GivenProgram& program) { looking(world, [&] { check(world, program); }); }, py::arg("world"), py::arg("program"));
+    m.def("check", [](World& world, const GivenProgram& program) { looking(world, [&] { static_cast<void>(check(world, program)); }); }, py::arg("world"), py::arg("program"));
 }
 
 }  // namespace motionrack::python

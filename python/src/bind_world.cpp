@@ -47,38 +47,13 @@ py::tuple samples_of(const Sampler& sampler) {
     return py::make_tuple(array_of(sampler.ticks()), signals);
 }
 
-std::string with_unit(std::string_view name, std::string_view unit) {
-    std::string out(name);
-    if (const std::size_t at = out.find("{u}"); at != std::string::npos) out.replace(at, 3, unit);
-    return out;
-}
-
 /// Quantities of everything in the rack: {part: {name: meaning}}.
 py::dict quantities_of(World& world) {
     py::dict out;
-    rack::Rack& rack = world.rack();
-    for (rack::RunningAxis& axis : rack.axes()) {
-        py::dict of;
-        for (const rack::Quantity& each : rack::quantities())
-            if (each.present(axis)) of[py::str(with_unit(each.name, axis.config.unit()))] = py::str(std::string(each.doc));
-        out[py::str(std::string(1, axis.config.letter))] = of;
-    }
-    for (rack::RunningStage& stage : rack.stages()) {
-        py::dict of;
-        for (const rack::StageQuantity& each : rack::stage_quantities())
-            if (!each.of_loop || stage.loop() != nullptr) of[py::str(std::string(each.name))] = py::str(std::string(each.doc));
-        out[py::str(stage.config.name)] = of;
-    }
-    for (rack::RunningTrack& track : rack.tracks()) {
-        py::dict of;
-        for (const rack::TrackQuantity& each : rack::track_quantities())
-            if (each.present(track)) of[py::str(with_unit(each.name, track.config.unit()))] = py::str(std::string(each.doc));
-        out[py::str(track.config.name)] = of;
-    }
-    for (rack::RunningScanner& scanner : rack.scanners()) {
-        py::dict of;
-        for (const rack::ScannerQuantity& each : rack::scanner_quantities()) of[py::str(std::string(each.name))] = py::str(std::string(each.doc));
-        out[py::str(scanner.config.name)] = of;
+    for (const rack::QuantitiesOfPart& of : rack::quantities_of(world.rack())) {
+        py::dict meanings;
+        for (const rack::Quantity& one : of.quantities) meanings[py::str(one.name)] = py::str(std::string(one.doc));
+        out[py::str(of.part)] = meanings;
     }
     return out;
 }

@@ -1,7 +1,6 @@
 // Finding what a name stands for, and looking at it.
 #include <python/src/sampler.hpp>
 
-#include <array>
 #include <cmath>
 #include <motionrack/rack/quantities.hpp>
 
@@ -30,22 +29,19 @@ Result<Channel> channel_of(rack::Rack& rack, const rack::WireDesk& desk, const s
         if (!card->quantity(value)) return tl::unexpected<Error>(there.error());
     }
     MOTIONRACK_CHECK(rack::get_quantity(rack, name));
-    out.whole = is_count(name);
+    out.whole = name.ends_with("_counts");  // of a card
     out.look = [&rack, name] { return *rack::get_quantity(rack, name); };
-    out.count = [&rack, name] { return static_cast<std::int64_t>(std::llround(*rack::get_quantity(rack, name))); };
+    for (const rack::QuantitiesOfPart& of : rack::quantities_of(rack))
+        for (const rack::Quantity& one : of.quantities) {
+            if (of.part + '.' + one.name != name) continue;
+            out.whole = one.whole;
+            out.look = [&rack, get = one.get] { return get(rack.kernel().now()); };
+        }
+    out.count = [look = out.look] { return static_cast<std::int64_t>(std::llround(look())); };
     return out;
 }
 
 }  // namespace
-
-bool is_count(std::string_view quantity) {
-    const std::string_view name = quantity.substr(std::min(quantity.find('.'), quantity.size() - 1) + 1);
-    constexpr std::array<std::string_view, 17> whole = {"position_pulses", "position_counts", "pulses",      "lost_pulses",   "in_step",
-                                                        "limit_minus",     "limit_plus",      "home",        "cam",           "scale_counts",
-                                                        "lost_counts",     "encoder_counts",  "parts",       "points",        "lost_points",
-                                                        "closed",          "light"};
-    return std::find(whole.begin(), whole.end(), name) != whole.end();
-}
 
 Result<Sampler> Sampler::create(rack::Rack& rack, const rack::WireDesk& desk, const std::vector<std::string>& names, std::size_t most) {
     Sampler out;

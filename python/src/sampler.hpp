@@ -42,7 +42,4 @@ class Sampler {
     std::size_t most_ = 0, every_ = 1, skipped_ = 0;
 };
 
-/// Whether the quantity of that name counts something: its values are whole.
-bool is_count(std::string_view quantity);
-
 }  // namespace motionrack::python

@@ -156,13 +156,15 @@ control::gcode::Settings World::reading_of(const GivenProgram& program) const {
     return out;
 }
 
-void World::check(const GivenProgram& program) const {
+control::gcode::Settings World::check(const GivenProgram& program) const {
     if (config_.axes.empty()) refuse("The rack has no axes, so no program can run on it. Nothing was moved.");
-    if (auto check = control::gcode::check_program(program.text, reading_of(program), most_problems, program.name); !check.problems.empty())
+    control::gcode::Settings reading = reading_of(program);
+    if (auto check = control::gcode::check_program(program.text, reading, most_problems, program.name); !check.problems.empty())
         throw Raised{check.problems.front(), false, {check.problems.begin(), check.problems.end()}};
+    return reading;
 }
 
-Result<rack::JobOutcome> World::run(const GivenProgram& program) {
+Result<rack::JobOutcome> World::run(const GivenProgram& program, control::gcode::Settings reading) {
     if (ran_ || (started() && now() != Instant{}))
         return fail(Trouble::refused, fmt::format("A program begins where the rack file says that the machine stands, at time 0, and this rack is at "
                                                   "{:.6f} s. Nothing was moved; run it on Rack.fresh().",
@@ -170,7 +172,7 @@ Result<rack::JobOutcome> World::run(const GivenProgram& program) {
     running();
     ran_ = true;
     program_ = program;
-    job_->give(program_.text, program_.name, reading_of(program_));
+    job_->give(program_.text, program_.name, std::move(reading));
     rack::JobOutcome out = job_->run();
     listen_again();
     return out;

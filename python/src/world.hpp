@@ -72,10 +72,10 @@ class World {
     Result<void> set_wire(const std::string& name, double value);
 
     // ---- a part program, once, from time 0 ----
-    /// Throws every problem of a program, in the order of its lines; nothing moves.
-    void check(const GivenProgram& program) const;
-    /// After check().
-    Result<rack::JobOutcome> run(const GivenProgram& program);
+    /// How the program is read, which is good; else throws every problem, in the order of its lines. Nothing moves.
+    control::gcode::Settings check(const GivenProgram& program) const;
+    /// A program that check() has found good, and how it is read.
+    Result<rack::JobOutcome> run(const GivenProgram& program, control::gcode::Settings reading);
     /// See home_axes; `settings.stop` is this world's own.
     rack::HomingOutcome home(rack::HomingSettings settings);
     const rack::Job* job() const { return job_.get(); }

@@ -13,6 +13,7 @@ import motionrack
 import numpy as np
 from motionrack import BadInput, Rack, Refused
 
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 SIGNALS = ("X.position_mm", "X.position_pulses", "motion.x.LP", "motion.x.CV", "X.limit_plus", "motion.RR0")
 
 
@@ -49,6 +50,19 @@ class Recordings(unittest.TestCase):
         for signal in SIGNALS[1:]:
             self.assertEqual(trace[signal].dtype, np.int64)
         self.assertEqual((trace.units["X.position_mm"], trace.units["X.position_pulses"]), ("mm", "pulses"))
+
+    def test_what_counts_is_whole(self) -> None:
+        rack = Rack.from_file(EXAMPLES / "13_stage" / "machine.toml")
+        stage = next(name for name, of in rack.parts.items() if "unused_frames" in of.quantities)
+        counted, measured = ("scale_counts", "lost_counts", "trusted", "closed", "unused_frames"), ("position_mm", "drive_v")
+        card = next(name for name, card in rack.cards.items() if card.type == "grating_bus")
+        with rack.record(*(f"{stage}.{name}" for name in counted + measured), f"{card}.age_us") as recording:
+            rack.advance(ms=5)
+        self.assertEqual(recording.trace.units[f"{card}.age_us"], "us")
+        for name in counted:
+            self.assertEqual(recording.trace[f"{stage}.{name}"].dtype, np.int64, name)
+        for name in measured:
+            self.assertEqual(recording.trace[f"{stage}.{name}"].dtype, np.float64, name)
 
     def test_a_program_may_be_recorded_and_has_the_same_history(self) -> None:
         text = "G21 G90\nG1 X5 F600\nM2\n"

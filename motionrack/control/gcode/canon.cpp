@@ -45,8 +45,10 @@ void CanonPrinter::call(std::string_view text) {
 void CanonPrinter::begin(const Interpreter& interpreter) {
     path_ = interpreter.modes().path;
     note(interpreter);
-    call("USE_LENGTH_UNITS(CANON_UNITS_MM)");
-    offsets(interpreter);
+    units(interpreter.modes());
+    system(interpreter);
+    shift(interpreter);
+    turn(interpreter);
 }
 
 void CanonPrinter::line(Interpreter& interpreter) {
@@ -56,7 +58,7 @@ void CanonPrinter::line(Interpreter& interpreter) {
     bool told = false;
     const auto before = [&](StepKind kind, bool dwell) {
         if (kind == StepKind::comment || kind == StepKind::message) return;
-        if (!fed) feed(interpreter);
+        if (!fed) brought_back(interpreter), feed(interpreter);
         fed = true;
         const bool late = kind == StepKind::pause || kind == StepKind::optional_pause || kind == StepKind::end ||
                           (kind == StepKind::move && !dwell);
@@ -101,49 +103,79 @@ void CanonPrinter::rest(Interpreter& interpreter) {
 void CanonPrinter::note(const Interpreter& interpreter) {
     position_ = interpreter.position();
     frame_ = interpreter.frame();
-    inch_ = interpreter.modes().inch;
+    modes_ = interpreter.modes();
+}
+
+/// No word of the line says what M72 brings back on it, or M73 at the end of a call.
+void CanonPrinter::brought_back(const Interpreter& interpreter) {
+    const Block& block = interpreter.block();
+    const bool ends_call = block.flow || block.has_m(m_program);
+    if (!ends_call && !(block.has_m(m_state) && block.m[m_state] == 72)) return;
+    const Modes& now = interpreter.modes();
+    const auto able = [this](std::int32_t code, bool was, bool is) {
+        if (was != is) overrides(code, is);
+    };
+    if (now.inch != modes_.inch) units(now);
+    if (now.inverse_time != modes_.inverse_time) call("SET_FEED_MODE(0, 0)");
+    if (now.feed != modes_.feed && !block.has('F')) feed_rate(now);
+    able(50, modes_.feed_override, now.feed_override);
+    able(51, modes_.speed_override, now.speed_override);
+    if (now.plane != modes_.plane) plane(now);
+    if (now.system != modes_.system) system(interpreter), shift(interpreter), turn(interpreter);
+    able(53, modes_.feed_stop, now.feed_stop);
 }
 
 void CanonPrinter::feed(const Interpreter& interpreter) {
     const Block& block = interpreter.block();
     if (block.has_g(g_feed_mode)) {
         call("SET_FEED_MODE(0, 0)");
-        if (block.g[g_feed_mode] == 940 && !block.has('F')) {
-            const double scale = interpreter.modes().inch ? 25.4 : 1.0;
-            call(fmt::format("SET_FEED_RATE({:.4f})", interpreter.modes().feed * 60 / scale));
-        }
+        if (block.g[g_feed_mode] == 940 && !block.has('F')) feed_rate(interpreter.modes());
     }
     if (block.has('F')) call(fmt::format("SET_FEED_RATE({:.4f})", block['F']));
+}
+
+void CanonPrinter::feed_rate(const Modes& now) {
+    const double scale = now.inch && !now.inverse_time ? 25.4 : 1.0;
+    call(fmt::format("SET_FEED_RATE({:.4f})", now.feed * 60 / scale));
 }
 
 void CanonPrinter::modes(const Interpreter& interpreter) {
     const Block& block = interpreter.block();
     const Modes& now = interpreter.modes();
-    if (block.has_g(g_plane)) call(fmt::format("SELECT_PLANE(CANON_PLANE_{})", plane_names[now.plane]));
-    if (block.has_g(g_units)) {
-        call(now.inch ? "USE_LENGTH_UNITS(CANON_UNITS_INCHES)" : "USE_LENGTH_UNITS(CANON_UNITS_MM)");
-    }
+    if (block.has_g(g_plane)) plane(now);
+    if (block.has_g(g_units)) units(now);
     if (block.has_g(g_tool_length)) {
         const Point tool = in_units(interpreter.frame().tool, now.inch);
         call(fmt::format("USE_TOOL_LENGTH_OFFSET({:.4f} {:.4f} {:.4f}, {:.4f} {:.4f} {:.4f}, 0.0000 0.0000 0.0000)", tidy(tool[0]),
                          tidy(tool[1]), tidy(tool[2]), tidy(tool[3]), tidy(tool[4]), tidy(tool[5])));
     }
     const std::int16_t once = block.has_g(g_nonmodal) ? block.g[g_nonmodal] : no_motion;
-    if (block.has_g(g_system) || once == 100 || once >= 920) offsets(interpreter);
+    const bool shifts = once >= 920, changes = block.has_g(g_system);
+    if (changes || once == 100) system(interpreter);
+    if (changes || shifts) shift(interpreter);
+    if (!shifts && (changes || once == 100)) turn(interpreter);
     if (block.has_g(g_path)) path(now.path, now.tolerance_mm, interpreter);
 }
 
-void CanonPrinter::offsets(const Interpreter& interpreter) {
+void CanonPrinter::units(const Modes& now) {
+    call(now.inch ? "USE_LENGTH_UNITS(CANON_UNITS_INCHES)" : "USE_LENGTH_UNITS(CANON_UNITS_MM)");
+}
+
+void CanonPrinter::plane(const Modes& now) {
+    call(fmt::format("SELECT_PLANE(CANON_PLANE_{})", plane_names[now.plane]));
+}
+
+void CanonPrinter::system(const Interpreter& interpreter) {
     const Modes& now = interpreter.modes();
-    const Frame& frame = interpreter.frame();
-    const Block& block = interpreter.block();
-    const bool shift = block.has_g(g_nonmodal) && block.g[g_nonmodal] >= 920;
-    if (!shift || block.has_g(g_system)) {
-        call(fmt::format("SET_G5X_OFFSET({}, {})", now.system + 1, six(in_units(frame.work[now.system], now.inch))));
-    }
-    if (shift || block.has_g(g_system) || count_ < 3)
-        call(fmt::format("SET_G92_OFFSET({})", six(in_units(frame.g92, now.inch))));
-    if (!shift) call(fmt::format("SET_XY_ROTATION({:.4f})", tidy(frame.turn[now.system])));
+    call(fmt::format("SET_G5X_OFFSET({}, {})", now.system + 1, six(in_units(interpreter.frame().work[now.system], now.inch))));
+}
+
+void CanonPrinter::shift(const Interpreter& interpreter) {
+    call(fmt::format("SET_G92_OFFSET({})", six(in_units(interpreter.frame().g92, interpreter.modes().inch))));
+}
+
+void CanonPrinter::turn(const Interpreter& interpreter) {
+    call(fmt::format("SET_XY_ROTATION({:.4f})", tidy(interpreter.frame().turn[interpreter.modes().system])));
 }
 
 void CanonPrinter::path(PathControl path, double tolerance_mm, const Interpreter& interpreter) {
@@ -195,7 +227,7 @@ void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
             call("STOP_SPINDLE_TURNING(0)");
             return call("PROGRAM_END()");
         case StepKind::overrides:
-            return overrides(step);
+            return overrides(step.port, step.value != 0);
         case StepKind::output:
             return output(step);
         case StepKind::input:
@@ -205,12 +237,13 @@ void CanonPrinter::event(const Step& step, const Interpreter& interpreter) {
     }
 }
 
-void CanonPrinter::overrides(const Step& step) {
-    const char* able = step.value != 0 ? "ENABLE" : "DISABLE";
-    if (step.port <= 50) call(fmt::format("{}_FEED_OVERRIDE()", able));
-    if (step.port <= 49 || step.port == 51) call(fmt::format("{}_SPEED_OVERRIDE(0)", able));
-    if (step.port == 52) call(fmt::format("{}_ADAPTIVE_FEED()", able));
-    if (step.port == 53) call(fmt::format("{}_FEED_HOLD()", able));
+/// Of M48 .. M53.
+void CanonPrinter::overrides(std::int32_t code, bool on) {
+    const char* able = on ? "ENABLE" : "DISABLE";
+    if (code <= 50) call(fmt::format("{}_FEED_OVERRIDE()", able));
+    if (code <= 49 || code == 51) call(fmt::format("{}_SPEED_OVERRIDE(0)", able));
+    if (code == 52) call(fmt::format("{}_ADAPTIVE_FEED()", able));
+    if (code == 53) call(fmt::format("{}_FEED_HOLD()", able));
 }
 
 void CanonPrinter::output(const Step& step) {
@@ -221,7 +254,7 @@ void CanonPrinter::output(const Step& step) {
 
 Point CanonPrinter::shown(const Interpreter& interpreter, const Point& machine) const {
     if (options_.coordinates == Coordinates::machine) return machine;
-    return in_units((late_ ? frame_ : interpreter.frame()).to_program(machine), late_ ? inch_ : interpreter.modes().inch);
+    return in_units((late_ ? frame_ : interpreter.frame()).to_program(machine), late_ ? modes_.inch : interpreter.modes().inch);
 }
 
 void CanonPrinter::here(const Interpreter& interpreter) {

@@ -44,9 +44,15 @@ class CanonPrinter {
     void here(const Interpreter& interpreter);
     void note(const Interpreter& interpreter);
     void feed(const Interpreter& interpreter);
+    void feed_rate(const Modes& now);
     void modes(const Interpreter& interpreter);
-    void offsets(const Interpreter& interpreter);
-    void overrides(const Step& step);
+    void brought_back(const Interpreter& interpreter);
+    void units(const Modes& now);
+    void plane(const Modes& now);
+    void system(const Interpreter& interpreter);
+    void shift(const Interpreter& interpreter);
+    void turn(const Interpreter& interpreter);
+    void overrides(std::int32_t code, bool on);
     void output(const Step& step);
     void path(PathControl path, double tolerance_mm, const Interpreter& interpreter);
     Point shown(const Interpreter& interpreter, const Point& machine) const;
@@ -56,10 +62,11 @@ class CanonPrinter {
     std::int64_t count_ = 0;
     std::int64_t n_word_ = -1;
     PathControl path_ = PathControl::continuous;
-    Point position_ = {};  ///< after the line before
-    Frame frame_;          ///< then, too: steps that waited are shown in the frame of their own line
-    bool inch_ = false;
-    bool late_ = false;    ///< the step being printed is of a line before
+    // After the line before; steps that waited are shown in the frame and the unit of their own line.
+    Point position_ = {};
+    Frame frame_;
+    Modes modes_;
+    bool late_ = false;  ///< the step being printed is of a line before
 };
 
 /// Prints a whole program; stops at the first problem.

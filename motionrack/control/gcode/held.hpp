@@ -17,7 +17,6 @@ class HeldSteps {
     /// Steps that may wait for one move.
     static constexpr std::size_t most = 10'000;
 
-    bool empty() const { return steps_.empty(); }
     bool full() const { return steps_.size() >= most; }
     void push(const Step& step) { steps_.push_back(step); }
 

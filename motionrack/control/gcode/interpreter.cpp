@@ -73,6 +73,7 @@ bool Interpreter::evaluate() {
     if (!motion()) return false;
     if (block_.has_m(m_port) && !ports()) return false;
     if (ends_program() && next_.cutter != CutterSide::off && !end_cutter()) return false;
+    if (held_.full() && !may_wait()) return false;
     if ((block_.words & ~used_) != 0) return unused();
     if (!block_.comments.empty()) {
         todo_ |= todo_comments;

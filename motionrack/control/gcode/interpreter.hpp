@@ -1,29 +1,25 @@
 // The meaning of G-code, line by line: words and modal state become moves in machine coordinates and events.
 //
-// The dialect is Grbl 1.1's, with what LinuxCNC adds: paths, cycles, tool tables, turned work systems, parameters. Where the two differ, or neither is
-// followed:
+// The dialect is Grbl 1.1's, with what LinuxCNC adds: paths, cycles, tool tables, turned work systems, parameters. Where the
+// two differ, or neither is followed:
 // - At the start no motion mode is active (LinuxCNC); Grbl starts in G0: Settings::start_in_g0.
-// - F0 or no F on a feed is an error (both); in G93 every feed line needs its F (both); G93 <-> G94 forgets the feed
-// (both).
+// - F0 or no F on a feed is an error (both); in G93 every feed line needs its F (both); G93 <-> G94 forgets the feed (both).
 // - Arcs: offsets without axis words make full turns, P turns them several times, a third-axis word alone makes a helix
 //   (LinuxCNC; Grbl's errors 26 and 32). Offset words outside the plane, and R beside I J K, are errors (LinuxCNC; Grbl
 //   leaves them out silently). R arcs may be 0.005 mm too short for half a turn (LinuxCNC).
 // - M7 and M8 may stand on one line (Grbl); LinuxCNC refuses it.
 // - G53 reaches machine coordinates without the tool length (both). G43.1 of a sender takes Z alone (Grbl).
 // - G61 is exact path, G61.1 exact stop, G64 P blends (LinuxCNC); G64 without P takes the settings' tolerance, where
-// LinuxCNC
-//   takes any. G64's Q (naive cam) is refused.
+//   LinuxCNC takes any. G64's Q (naive cam) is refused.
 // - G80 may stand beside another motion word, which then counts (LinuxCNC; CAM programs begin with G0 G40 G80); Grbl
-// refuses it.
+//   refuses it.
 // - G53 ignores G91 (Grbl); LinuxCNC refuses the two together.
-// - Cycles begin with G98 (LinuxCNC's interpreter begins with G99). In G91, R counts from the level before the first
-// hole
+// - Cycles begin with G98 (LinuxCNC's interpreter begins with G99). In G91, R counts from the level before the first hole
 //   (LinuxCNC). Between holes the drill stays at the height where it left the last one, after rising to R where that is
 //   higher; after a change from G99 to G98, LinuxCNC rises to the first level on the slant. A peck thinner than the
 //   clearance never rapids above R.
 // - With cutter compensation a move waits for the next one, on which its end depends (motion_cutter.cpp, held.hpp); G40
-// and the
-//   program's end let it go. A joint that is tangent within 0.001 mm gets no arc; LinuxCNC: within 2.9 degrees.
+//   and the program's end let it go. A joint that is tangent within 0.001 mm gets no arc; LinuxCNC: within 2.9 degrees.
 // - A probing move of any length is taken (LinuxCNC: 0.254 mm); the line after it begins where the machine stands.
 // - M56 is refused with a sentence. M0, M1, M2 and M30 are events.
 // - A program may end without M2 (Grbl); LinuxCNC wants M2 or %.
@@ -205,6 +201,7 @@ class Interpreter {
     bool tool_length();
     bool tool_length_of_words(bool adds);
     bool tool_length_of_table(bool adds);
+    const Tool* tool_of_table(std::int32_t number, char letter, GroupG code);
     bool set_tool();
     bool known_tool(char letter, std::int32_t number);
     Point shift_to_words(const Frame& frame) const;
@@ -239,6 +236,7 @@ class Interpreter {
     bool join(Planar corner);
     bool end_waiting_path();
     bool end_cutter();
+    bool may_wait();
     bool gouges(std::int32_t line);
     bool off_limits();
     bool reaches_contour();
@@ -267,6 +265,7 @@ class Interpreter {
     bool negative_handles() const;
     bool targets(bool machine_coordinates);
     bool targets_turned();
+    Move& begin_move(MoveKind kind);
     bool feed_of(Move& move);
     bool reach(int axis, double value, std::size_t column) {
         return (value >= low_[axis] && value <= high_[axis]) || beyond(axis, value, column);

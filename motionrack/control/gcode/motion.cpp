@@ -163,6 +163,20 @@ bool Interpreter::by_itself(std::int16_t code) {
                                               "where each goes at its own speed", name_of_g(code), moving));
 }
 
+/// A move of the line being read, with what the modes say of it, to where the words lead.
+Move& Interpreter::begin_move(MoveKind kind) {
+    moving_.line = line_;
+    moving_.probe = Probe::none;
+    Move& move = moving_.move;
+    move = Move{};
+    move.kind = kind;
+    move.path = next_.path;
+    move.tolerance_mm = next_.tolerance_mm;
+    move.line = line_;
+    move.end = end_;
+    return move;
+}
+
 bool Interpreter::feed_of(Move& move) {
     if (next_.inverse_time) {
         if (!block_.has('F') || next_.feed == 0) return no_feed();

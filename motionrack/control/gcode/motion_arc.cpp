@@ -40,21 +40,13 @@ bool Interpreter::arc(std::int16_t code) {
     }
     Planar centre;
     if (!arc_centre(counter_clockwise, centre)) return false;
-    Move& move = moving_.move;
-    move = Move{};
-    move.kind = MoveKind::arc;
-    move.path = next_.path;
-    move.tolerance_mm = next_.tolerance_mm;
-    move.line = line_;
+    Move& move = begin_move(MoveKind::arc);
     move.first = axes[0];
     move.second = axes[1];
     move.turns = static_cast<std::int32_t>(counter_clockwise ? turns : -turns);
     move.centre_first = centre.first;
     move.centre_second = centre.second;
-    move.end = end_;
     if (!feed_of(move)) return false;
-    moving_.line = line_;
-    moving_.probe = Probe::none;
     motion_ = Motion::single;
     todo_ |= todo_motion;
     if (compensates()) return compensate();

@@ -66,11 +66,8 @@ bool Interpreter::cutter_diameter(double& diameter) {
             return fail_at(column, GrblStatus::word_missing,
                            fmt::format("{0}: no tool is in the spindle; write e.g. {0} D1, or T1 M6 before it", name_of_g(code)));
         }
-        const Tool* tool = tools_.find(number);
-        if (!tool) {
-            return fail_at(block_.has('D') ? block_.column[letter_index('D')] : column, GrblStatus::unsupported,
-                           fmt::format("{}: the tool table has no tool {}; write it into the table", block_.has('D') ? written('D') : name_of_g(code), number));
-        }
+        const Tool* tool = tool_of_table(number, 'D', g_cutter);
+        if (!tool) return false;
         diameter = tool->diameter_mm;
     }
     if (std::fabs(diameter) <= largest_cutter_mm) return true;
@@ -236,6 +233,16 @@ bool Interpreter::leaves_straight(std::int16_t code) {
 bool Interpreter::end_cutter() {
     if (cutter_plan_.begins) return trim(cutter_plan_.path, cutter_plan_.from, cutter_plan_.path.end) || gouges(line_);
     return !beside_ || end_waiting_path();
+}
+
+/// Without a move beside the contour, or an end of it, what the line does would wait too.
+bool Interpreter::may_wait() {
+    const bool adds = (todo_ & ~static_cast<std::uint32_t>(todo_comments)) != 0;
+    if (!adds || cutter_plan_.begins || next_.cutter == CutterSide::off || ends_program()) return true;
+    return fail_at(0, GrblStatus::unsupported,
+                   fmt::format("{} steps wait already for the move beside the contour that follows the one of line {}, and no more can; nothing of this line was done; "
+                               "write that move before it, or G40",
+                               HeldSteps::most, cutter_line_));
 }
 
 /// What the good line changes: the steps that are final become ready, its own ones wait behind them.

@@ -25,17 +25,9 @@ bool Interpreter::spline(std::int16_t code) {
             return false;
         }
     }
-    Move& move = moving_.move;
-    move = Move{};
-    move.kind = MoveKind::arc;
-    move.path = next_.path;
-    move.tolerance_mm = next_.tolerance_mm;
-    move.line = line_;
-    move.end = end_;
+    Move& move = begin_move(MoveKind::arc);
     if (!feed_of(move)) return false;
     spline_.begin(curve, move);
-    moving_.line = line_;
-    moving_.probe = Probe::none;
     motion_ = Motion::spline;
     todo_ |= todo_motion;
     return true;

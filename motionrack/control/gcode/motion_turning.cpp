@@ -29,15 +29,7 @@ bool Interpreter::turning(std::int16_t code) {
     next_.incremental = incremental;
     plan.start = {end_[2], end_[0]};
     end_ = stays;
-    Move& move = moving_.move;
-    move = Move{};
-    move.kind = MoveKind::feed;
-    move.path = next_.path;
-    move.tolerance_mm = next_.tolerance_mm;
-    move.line = line_;
-    if (!feed_of(move)) return false;
-    moving_.line = line_;
-    moving_.probe = Probe::none;
+    if (!feed_of(begin_move(MoveKind::feed))) return false;
     next_.motion = no_motion;
     turning_ = plan;
     return true;

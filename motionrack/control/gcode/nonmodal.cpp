@@ -106,14 +106,7 @@ bool Interpreter::reference() {
         if (!reach(axis, home[axis], column)) return false;
         end_[axis] = home[axis];
     }
-    Move& move = moving_.move;
-    move = Move{};
-    move.path = next_.path;
-    move.tolerance_mm = next_.tolerance_mm;
-    move.line = line_;
-    move.end = end_;
-    moving_.line = line_;
-    moving_.probe = Probe::none;
+    begin_move(MoveKind::traverse);
     motion_ = axes != 0 ? Motion::by_way_of : Motion::single;
     on_the_way_ = false;
     todo_ |= todo_motion;

@@ -175,6 +175,17 @@ bool Interpreter::tool_length_of_words(bool adds) {
     return true;
 }
 
+/// Null: it was told that there is none. To blame is the word that names it or, where the tool in the spindle is meant, the code.
+const Tool* Interpreter::tool_of_table(std::int32_t number, char letter, GroupG code) {
+    const Tool* tool = tools_.find(number);
+    const bool named = block_.has(letter);
+    if (!tool) {
+        fail_at(named ? block_.column[letter_index(letter)] : block_.g_column[code], GrblStatus::unsupported,
+                fmt::format("{}: the tool table has no tool {}; write it into the table", named ? written(letter) : name_of_g(block_.g[code]), number));
+    }
+    return tool;
+}
+
 /// G43 and G43.2 with the lengths of the table; G43 without H, or with H0, means the tool in the spindle.
 bool Interpreter::tool_length_of_table(bool adds) {
     const std::size_t column = block_.g_column[g_tool_length];
@@ -189,11 +200,8 @@ bool Interpreter::tool_length_of_table(bool adds) {
                        fmt::format("{}: there is no tool table; give the program one (--tools FILE, tools= in Python), or write the tool's length itself, e.g. G43.1 Z12.5",
                                    name_of_g(block_.g[g_tool_length])));
     }
-    const Tool* tool = tools_.find(number);
-    if (number != 0 && !tool) {
-        return fail_at(block_.has('H') ? block_.column[letter_index('H')] : column, GrblStatus::unsupported,
-                       fmt::format("{}: the tool table has no tool {}; write it into the table", block_.has('H') ? written('H') : "G43", number));
-    }
+    const Tool* tool = number == 0 ? nullptr : tool_of_table(number, 'H', g_tool_length);
+    if (number != 0 && !tool) return false;
     Frame& frame = edit_frame();
     const Point length = tool ? tool->offset : Point{};
     for (int axis = 0; axis < axis_count; ++axis) frame.tool[axis] = adds ? frame.tool[axis] + length[axis] : length[axis];

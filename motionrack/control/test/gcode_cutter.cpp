@@ -163,6 +163,19 @@ TEST(GcodeCutter, EventsStayInOrderWithTheMoves) {
     EXPECT_EQ(order, "mmcdmpamse");
 }
 
+TEST(GcodeCutter, NoMoreThanTenThousandStepsWaitForTheNextMove) {
+    std::string program = "F100\nG41.1 D4\nG1 X20\n";
+    for (int i = 0; i < 9'999; ++i) program += "M8\n";
+    const auto good = read(program + "(a comment)\nY20\nM8\n");
+    EXPECT_TRUE(good.problems.empty());
+    const auto one_more = read(program + "M9\nY20\nM8\nG40\n");
+    ASSERT_EQ(one_more.problems.size(), 1u);
+    EXPECT_EQ(one_more.problems[0].place.line, 10'003);
+    EXPECT_THAT(one_more.problems[0].message, HasSubstr("10000 steps wait already for the move beside the contour that follows the one of line 3"));
+    EXPECT_EQ(one_more.steps.size(), 9'999u + 3) << "X20, Y20 and M8 with them";
+    EXPECT_EQ(read(program + "G40\nM9\n").steps.size(), 9'999u + 2) << "what ends the contour lets them go";
+}
+
 TEST(GcodeCutter, TheLastMoveComesWithoutAnEndOfTheProgram) {
     for (const char* end : {"", "G40\n", "M2\n", "%\n", "M30"}) {
         const auto program = read(std::string("%\n") + preamble + "G42.1 D6\nG1 X20\nG1 X40\n" + end);

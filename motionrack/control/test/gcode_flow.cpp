@@ -13,20 +13,11 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using testing::RefusedAt;
+using testing::xs;
 
-/// The X of all moves of a program in G0.
-std::vector<double> xs(const std::string& program, Settings settings = testing::machine("XYZABC", 1e6)) {
-    settings.start_in_g0 = true;
-    const auto read = testing::read(program, settings);
-    for (const Problem& problem : read.problems) ADD_FAILURE() << problem.text();
-    std::vector<double> out;
-    for (const Move& move : read.moves()) out.push_back(move.end[0]);
-    return out;
-}
-
-std::vector<Problem> problems(const std::string& program, Settings settings = testing::machine("XYZABC", 1e6)) {
-    settings.start_in_g0 = true;
-    return testing::read(program, settings).problems;
+std::vector<Problem> problems(const std::string& program, const Settings& settings = testing::in_g0()) {
+    return testing::read(program, testing::in_g0(settings)).problems;
 }
 
 }  // namespace
@@ -116,37 +107,26 @@ TEST(GcodeFlow, SubprogramsComeFromFilesBesideTheProgram) {
 }
 
 TEST(GcodeFlow, ThatDoesNotFitTogetherIsToldWithItsPlace) {
-    struct Row {
-        const char* program;
-        int line;
-        const char* says;
-    };
-    const Row rows[] = {{"X1\no1 if [1]\nX2", 2, "its o1 endif is missing"},
-                        {"o1 endif", 1, "no o1 if is open here"},
-                        {"o1 while [1]\no2 if [1]\no1 endwhile\no2 endif", 3, "o2 if of line 2 is open here"},
-                        {"o1 sub\no2 sub\no2 endsub\no1 endsub", 2, "a sub stands by itself"},
-                        {"o1 sub\no1 endsub\no1 sub\no1 endsub", 3, "there is one in line 1 already"},
-                        {"o1 break", 1, "it stands in no loop o1"},
-                        {"o1 if [1]\no1 continue\no1 endif", 2, "it stands in no loop o1"},
-                        {"o1 return", 1, "it stands in no sub o1"},
-                        {"o1 sub\no2 return\no1 endsub", 2, "it stands in no sub o2"},
-                        {"o1 if [1]\no1 else\no1 else\no1 endif", 3, "the last branch"},
-                        {"o1 if [1]\no1 else\no1 elseif [1]\no1 endif", 3, "the last branch"},
-                        {"o1 do\nX1", 1, "its o1 while is missing"},
-                        {"o1 repeat [1]\nX1", 1, "its o1 endrepeat is missing"},
-                        {"X1\no1 loop", 2, "'loop' does not go with an O word"},
-                        {"O<part> (PART)", 1, "alone does nothing"},
-                        {"o<a call", 1, "'>' is missing"},
-                        {"o call", 1, "needs a number or a name"},
-                        {"o1 if [1]\no1 endif X5", 2, "nothing but a comment"},
-                        {"o#1 if [1]", 1, "only a call"}};
-    for (const Row& row : rows) {
-        const auto found = problems(row.program);
-        ASSERT_FALSE(found.empty()) << row.program;
-        EXPECT_EQ(found[0].place.line, row.line) << row.program;
-        EXPECT_THAT(found[0].message, HasSubstr(row.says)) << row.program;
-        EXPECT_EQ(found[0].file, "part.ngc");
-    }
+    const RefusedAt rows[] = {{"X1\no1 if [1]\nX2", 2, "its o1 endif is missing"},
+                              {"o1 endif", 1, "no o1 if is open here"},
+                              {"o1 while [1]\no2 if [1]\no1 endwhile\no2 endif", 3, "o2 if of line 2 is open here"},
+                              {"o1 sub\no2 sub\no2 endsub\no1 endsub", 2, "a sub stands by itself"},
+                              {"o1 sub\no1 endsub\no1 sub\no1 endsub", 3, "there is one in line 1 already"},
+                              {"o1 break", 1, "it stands in no loop o1"},
+                              {"o1 if [1]\no1 continue\no1 endif", 2, "it stands in no loop o1"},
+                              {"o1 return", 1, "it stands in no sub o1"},
+                              {"o1 sub\no2 return\no1 endsub", 2, "it stands in no sub o2"},
+                              {"o1 if [1]\no1 else\no1 else\no1 endif", 3, "the last branch"},
+                              {"o1 if [1]\no1 else\no1 elseif [1]\no1 endif", 3, "the last branch"},
+                              {"o1 do\nX1", 1, "its o1 while is missing"},
+                              {"o1 repeat [1]\nX1", 1, "its o1 endrepeat is missing"},
+                              {"X1\no1 loop", 2, "'loop' does not go with an O word"},
+                              {"O<part> (PART)", 1, "alone does nothing"},
+                              {"o<a call", 1, "'>' is missing"},
+                              {"o call", 1, "needs a number or a name"},
+                              {"o1 if [1]\no1 endif X5", 2, "nothing but a comment"},
+                              {"o#1 if [1]", 1, "only a call"}};
+    testing::expect_refused_at(rows, testing::in_g0());
     EXPECT_EQ(problems("o1 endif\no2 endif\no3 foo\n").size(), 3u) << "all of them are told";
     EXPECT_THAT(problems("X1 o1 if [1]")[0].message, HasSubstr("stands first on its line"));
 }

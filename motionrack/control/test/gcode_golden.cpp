@@ -90,6 +90,33 @@ TEST(GcodeCanon, PrintsEventsAndColumnsAsRs274Does) {
     EXPECT_EQ(out, expected);
 }
 
+namespace {
+
+/// Only the calls that tell of modes which M70 keeps.
+std::string mode_lines(const std::string& canon) {
+    std::string out;
+    std::istringstream lines(canon);
+    for (std::string line; std::getline(lines, line);)
+        for (const char* call : {"USE_LENGTH_UNITS", "SET_FEED_RATE", "SELECT_PLANE", "SET_G5X_OFFSET", "SET_G92_OFFSET", "SET_XY_ROTATION", "FEED_OVERRIDE", "SPEED_OVERRIDE", "FEED_HOLD"})
+            if (line.find(call) != std::string::npos) out += line.substr(line.rfind(' ', line.find(call)) + 1) + '\n';
+    return out;
+}
+
+}  // namespace
+
+TEST(GcodeCanon, TellsModesThatAreBroughtBackAsRs274Does) {
+    // Up to there rs274 leaves out a G54 that changes nothing.
+    for (const auto& [name, from] : {std::pair("overrides", "USE_LENGTH_UNITS"), std::pair("modes_kept", "SET_FEED_RATE(5.0000)")}) {
+        const std::string ours = mode_lines(printed(file_text(folder() + name + ".ngc"))), theirs = mode_lines(file_text(folder() + name + ".canon"));
+        EXPECT_EQ(ours.substr(ours.find(from)), theirs.substr(theirs.find(from))) << name;
+    }
+    const std::string out = mode_lines(printed("G21 F60\no1 call\nG1 X1\nM2\no1 sub\nM73 G20 G18 F5 M49\nG1 X2\no1 endsub\n", {Coordinates::program, false}));
+    EXPECT_NE(out.find("USE_LENGTH_UNITS(CANON_UNITS_INCHES)\nUSE_LENGTH_UNITS(CANON_UNITS_MM)\nSET_FEED_RATE(60.0000)\nENABLE_FEED_OVERRIDE()\n"
+                       "ENABLE_SPEED_OVERRIDE(0)\nSELECT_PLANE(CANON_PLANE_XY)\n"),
+              std::string::npos)
+        << out;
+}
+
 TEST(GcodeCanon, PrintsMachineCoordinatesWhenAsked) {
     const CanonOptions options = {Coordinates::machine, false};
     const std::string out = printed("G10 L2 P1 X10\nG20 G0 X1\n", options);

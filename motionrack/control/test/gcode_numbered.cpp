@@ -11,20 +11,11 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::Refused;
+using testing::RefusedAt;
+using testing::xs;
 
-/// The X of all moves of a program in G0.
-std::vector<double> xs(const std::string& program, Settings settings = testing::machine("XYZABC", 1e6)) {
-    settings.start_in_g0 = true;
-    const auto read = testing::read(program, settings);
-    for (const Problem& problem : read.problems) ADD_FAILURE() << problem.text();
-    std::vector<double> out;
-    for (const Move& move : read.moves()) out.push_back(move.end[0]);
-    return out;
-}
-
-Problem problem_of(const std::string& program, Settings settings = testing::machine("XYZABC", 1e6)) {
-    settings.start_in_g0 = true;
-    const auto read = testing::read(program, settings);
+Problem problem_of(const std::string& program, const Settings& settings = testing::in_g0()) {
+    const auto read = testing::read(program, testing::in_g0(settings));
     EXPECT_FALSE(read.problems.empty()) << program;
     return read.problems.empty() ? Problem{} : read.problems[0];
 }
@@ -93,23 +84,14 @@ TEST(GcodeNumbered, AreRefusedWithTheirPlace) {
                             {"M99 P10", 1, "not to a line"},
                             {"G0 X1 M99", 7, "M99 stands alone"}};
     testing::expect_refused("M3\n", rows);
-    struct Row {
-        const char* program;
-        int line;
-        const char* says;
-    };
-    const Row wholes[] = {{"M98 P1\nM2\no1 sub\no1 endsub", 1, "M98 P1: o1 sub is a sub; call it by o1 call"},
-                          {"o1 call\nM2\nO1\nM99", 1, "o1 call: O1 is a numbered program; call it by M98 P1"},
-                          {"M98 P1\nM2\nO1\nM99\nO1\nM99", 5, "there is one in line 3 already"},
-                          {"M98 P1\nM2\nO1\no2 if [1]\nO3\no2 endif\nM99", 5, "O3: a numbered program stands by itself, but o2 if of line 4 is open here"},
-                          {"M98 P1\nM2\nX1\nO1\nX5\n", 4, "end it with M99"},
-                          {"o1 sub\nM99\no1 endsub\no1 call", 2, "M99 ends a numbered program"},
-                          {"M98 P1\nM2\nO1\nM98 P1\nM99", 4, "100 calls stand in each other"}};
-    for (const Row& row : wholes) {
-        const Problem found = problem_of(row.program);
-        EXPECT_EQ(found.place.line, row.line) << row.program;
-        EXPECT_THAT(found.message, HasSubstr(row.says)) << row.program;
-    }
+    const RefusedAt wholes[] = {{"M98 P1\nM2\no1 sub\no1 endsub", 1, "M98 P1: o1 sub is a sub; call it by o1 call"},
+                                {"o1 call\nM2\nO1\nM99", 1, "o1 call: O1 is a numbered program; call it by M98 P1"},
+                                {"M98 P1\nM2\nO1\nM99\nO1\nM99", 5, "there is one in line 3 already"},
+                                {"M98 P1\nM2\nO1\no2 if [1]\nO3\no2 endif\nM99", 5, "O3: a numbered program stands by itself, but o2 if of line 4 is open here"},
+                                {"M98 P1\nM2\nX1\nO1\nX5\n", 4, "end it with M99"},
+                                {"o1 sub\nM99\no1 endsub\no1 call", 2, "M99 ends a numbered program"},
+                                {"M98 P1\nM2\nO1\nM98 P1\nM99", 4, "100 calls stand in each other"}};
+    testing::expect_refused_at(wholes, testing::in_g0());
     EXPECT_FALSE(Interpreter(testing::machine()).line("M98 P1", 1)) << "a sender's line";
     EXPECT_FALSE(Interpreter(testing::machine()).line("M98 P1", 1, Language::expressions));
 }

@@ -73,6 +73,39 @@ inline void expect_refused(const std::string& preamble, std::span<const Refused>
     }
 }
 
+/// A program whose first problem is in this line, with this in its sentence.
+struct RefusedAt {
+    const char* program;
+    int line;
+    const char* says;
+};
+
+inline void expect_refused_at(std::span<const RefusedAt> rows, const Settings& settings) {
+    for (const RefusedAt& row : rows) {
+        SCOPED_TRACE(row.program);
+        const auto program = read(row.program, settings);
+        ASSERT_FALSE(program.problems.empty());
+        EXPECT_EQ(program.problems[0].place.line, row.line);
+        EXPECT_EQ(program.problems[0].file, "part.ngc");
+        EXPECT_NE(program.problems[0].message.find(row.says), std::string::npos) << program.problems[0].message;
+    }
+}
+
+/// A machine with far travels on which axis words alone are rapid moves: for programs that are about their lines.
+inline Settings in_g0(Settings settings = machine("XYZABC", 1e6)) {
+    settings.start_in_g0 = true;
+    return settings;
+}
+
+/// The X of all moves of a program in_g0() without problems.
+inline std::vector<double> xs(const std::string& program, const Settings& settings = in_g0()) {
+    const auto whole = read(program, in_g0(settings));
+    for (const Problem& problem : whole.problems) ADD_FAILURE() << problem.text();
+    std::vector<double> out;
+    for (const Move& move : whole.moves()) out.push_back(move.end[0]);
+    return out;
+}
+
 /// Everything that counts of a move, for comparing two programs exactly but for their line numbers.
 inline std::string describe(const Move& move) {
     std::string out = std::to_string(static_cast<int>(move.kind)) + ' ' + std::to_string(static_cast<int>(move.path)) +

@@ -20,14 +20,11 @@ namespace {
 
 using rack::counted;
 
-constexpr std::size_t problems_shown = 100;
-
 struct CheckOptions {
     std::vector<std::string> files;
     std::string rack;
+    ReadingOptions reading;
     bool json = false;
-    bool block_delete = false;
-    std::string tools;
 };
 
 nlohmann::json json_of(const Error& error) {
@@ -62,9 +59,9 @@ int check_program_file(const std::string& path, const CheckOptions& options, nlo
     if (!config) return code;
     const Result<std::string> text = read_text(path);
     if (!text) return report(text.error());
-    control::gcode::Settings settings = program_settings(*config, path, options.block_delete);
-    if (!load_tools(options.tools, settings, code)) return code;
-    const control::gcode::Check check = control::gcode::check_program(*text, settings, problems_shown, path);
+    const auto settings = program_settings(*config, path, options.reading, code);
+    if (!settings) return code;
+    const control::gcode::Check check = control::gcode::check_program(*text, *settings, most_problems, path);
     if (json) {
         nlohmann::json entry = {{"file", path}, {"ok", check.problems.empty()}, {"lines", check.lines}, {"moves", check.moves},
                                 {"dwells", check.dwells}, {"errors", nlohmann::json::array()}};
@@ -118,8 +115,7 @@ void add_check(CLI::App& app, Action& chosen) {
     CLI::App* command = app.add_subcommand("check", "List everything that is wrong in rack files (*.toml) and part programs; nothing moves");
     command->add_option("FILE", options->files, "rack files and part programs")->required();
     command->add_option("--rack", options->rack, "rack file that the programs are checked against (default: the built-in router)");
-    command->add_option("--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43 and the diameters for G41, G42");
-    command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
+    add_reading_options(*command, options->reading);
     command->add_flag("--json", options->json, "print the findings as JSON");
     command->footer("Example: motionrack check my.toml part.ngc --rack my.toml");
     command->callback([options, &chosen] { chosen = [options] { return check(*options); }; });
@@ -127,17 +123,17 @@ void add_check(CLI::App& app, Action& chosen) {
 
 void add_canon(CLI::App& app, Action& chosen) {
     struct Options {
-        std::string file, rack, tools;
-        bool machine = false, numbered = false, block_delete = false;
+        std::string file, rack;
+        ReadingOptions reading;
+        bool machine = false, numbered = false;
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("canon", "Print the canonical calls of a part program, one a line, as LinuxCNC's rs274 -g does");
     command->add_option("FILE", options->file, "part program ('-': standard input)")->required();
     command->add_option("--rack", options->rack, "rack file whose axes, limits and start count (default: six axes without limits, at 0)");
     command->add_flag("--machine", options->machine, "machine coordinates in mm and degrees instead of the program's own");
-    command->add_option("-t,--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43 and the diameters for G41, G42");
+    add_reading_options(*command, options->reading, "-t,--tools");
     command->add_flag("--numbered", options->numbered, "with the two columns of numbers that rs274 prints before each call");
-    command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
     command->footer("Example: motionrack canon part.ngc | grep ARC_FEED");
     command->callback([options, &chosen] {
         chosen = [options]() -> int {
@@ -151,12 +147,12 @@ void add_canon(CLI::App& app, Action& chosen) {
             gcode::CanonOptions how;
             how.coordinates = options->machine ? gcode::Coordinates::machine : gcode::Coordinates::program;
             how.numbered = options->numbered;
-            gcode::Settings settings = program_settings(*config, options->file, options->block_delete);
-            if (options->rack.empty()) settings.limits = boundless();
-            if (!load_tools(options->tools, settings, code)) return code;
-            settings.probe = true;  // what a probing move means does not depend on the rack
+            auto settings = program_settings(*config, options->file, options->reading, code);
+            if (!settings) return code;
+            if (options->rack.empty()) settings->limits = boundless();
+            settings->probe = true;  // what a probing move means does not depend on the rack
             const auto done = gcode::print_canon(
-                *text, settings, how,
+                *text, *settings, how,
                 [](std::string_view line) { std::fwrite(line.data(), 1, line.size(), stdout); }, options->file);
             return done ? static_cast<int>(exit_done) : report(done.error());
         };

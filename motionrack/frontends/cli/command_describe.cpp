@@ -21,6 +21,13 @@ struct DescribeOptions {
     bool markdown = false, json = false;
 };
 
+/// "mcx314, databoard4002": all of them.
+std::string card_types() {
+    std::string out;
+    for (const rack::CardKind& kind : rack::card_kinds()) out.append(out.empty() ? "" : ", ").append(kind.type);
+    return out;
+}
+
 int describe(const DescribeOptions& options) {
     if (options.what == "rack-file") {
         fmt::print("{}", rack::rack_file_reference());
@@ -40,9 +47,7 @@ int describe(const DescribeOptions& options) {
     }
     const rack::CardKind* kind = rack::find_card_kind(options.what);
     if (!kind) {
-        std::string known = "rack-file, marking-job, sweep-file, api";
-        for (const rack::CardKind& each : rack::card_kinds()) known += fmt::format(", {}", each.type);
-        print_error(fmt::format("There is nothing called '{}' to describe; there are: {}.", options.what, known));
+        print_error(fmt::format("There is nothing called '{}' to describe; there are: rack-file, marking-job, sweep-file, api, {}.", options.what, card_types()));
         return exit_usage;
     }
     const CardMap& map = kind->map();
@@ -55,7 +60,7 @@ int describe(const DescribeOptions& options) {
 void add_describe(CLI::App& app, Action& chosen) {
     auto options = std::make_shared<DescribeOptions>();
     CLI::App* command = app.add_subcommand("describe", "Tell a card's registers, commands, states and pins, the keys of a rack file, marking job or sweep file, or what a served machine can be asked");
-    command->add_option("CARD", options->what, "a card type (mcx314, databoard4002, ioflex02, rtc5), rack-file, marking-job, sweep-file, or api (OpenAPI)")->required();
+    command->add_option("CARD", options->what, fmt::format("a card type ({}), rack-file, marking-job, sweep-file, or api (OpenAPI)", card_types()))->required();
     auto* markdown = command->add_flag("--markdown", options->markdown, "as Markdown, as in docs/reference");
     command->add_flag("--json", options->json, "as JSON")->excludes(markdown);
     command->footer("Example: motionrack describe mcx314 | less");

@@ -115,7 +115,7 @@ int publish_rack(Run& run) {
         auto loaded = load_program(options.program);
         if (!loaded) return report(loaded.error());
         const control::gcode::Settings settings = program_settings(run.rack.config(), loaded->name);
-        if (const int bad = print_problems(control::gcode::check_program(loaded->text, settings, 20, loaded->name), loaded->name); bad != exit_done) return bad;
+        if (const int bad = print_problems(control::gcode::check_program(loaded->text, settings, most_problems_of_run, loaded->name), loaded->name); bad != exit_done) return bad;
         program = std::move(*loaded);
     }
     bool conflict = false;

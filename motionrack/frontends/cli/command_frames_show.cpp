@@ -83,7 +83,7 @@ int run_program(Show& show, const ShowOptions& options) {
     const Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
     const control::gcode::Settings settings = program_settings(show.rack.config(), program->name);
-    if (const int bad = print_problems(control::gcode::check_program(program->text, settings, 20, program->name), program->name); bad != exit_done) return bad;
+    if (const int bad = print_problems(control::gcode::check_program(program->text, settings, most_problems_of_run, program->name), program->name); bad != exit_done) return bad;
     rack::JobSettings job_settings;
     job_settings.program = program->text;
     job_settings.program_name = program->name;

@@ -26,12 +26,10 @@ namespace {
 
 using control::Move;
 
-constexpr std::size_t problems_shown = 100;
-
 struct PlanOptions {
     std::string program, rack, picture;
-    std::string tools;
-    bool block_delete = false, json = false;
+    ReadingOptions reading;
+    bool json = false;
 };
 
 /// Of one axis, the greatest that a plan asks.
@@ -140,9 +138,10 @@ int plan(const PlanOptions& options) {
         return report({Trouble::refused, fmt::format("The axes of {} position one by one: there is no path to plan. Give a rack whose axes follow paths together.", config->name)});
     const Result<ProgramText> program = load_program(options.program);
     if (!program) return report(program.error());
-    control::gcode::Settings settings = program_settings(*config, program->name, options.block_delete);
-    if (!load_tools(options.tools, settings, code)) return code;
-    if (const int bad = print_problems(control::gcode::check_program(program->text, settings, problems_shown, program->name), program->name); bad != exit_done) return bad;
+    const auto reading = program_settings(*config, program->name, options.reading, code);
+    if (!reading) return code;
+    const control::gcode::Settings& settings = *reading;
+    if (const int bad = print_problems(control::gcode::check_program(program->text, settings, most_problems, program->name), program->name); bad != exit_done) return bad;
     std::vector<Move> moves;
     control::gcode::Reader reader(program->text, settings, program->name);
     for (auto step = reader.next(); step && *step != nullptr; step = reader.next())
@@ -167,8 +166,7 @@ void add_plan(CLI::App& app, Action& chosen) {
     CLI::App* command = app.add_subcommand("plan", "Tell how long a part program takes: stopping at each move, by trapezoids, and jerk-limited; nothing moves");
     command->add_option("PROGRAM", options->program, "part program, '-' for standard input (default: the built-in example)");
     command->add_option("--rack", options->rack, "rack file (default: the built-in router)");
-    command->add_option("--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43 and the diameters for G41, G42");
-    command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
+    add_reading_options(*command, options->reading);
     command->add_option("--picture", options->picture, "write the jerk-limited plan as SVG: the path coloured by its speed, speed, acceleration and jerk over time");
     command->add_flag("--json", options->json, "print the plans as JSON");
     command->footer("Example: motionrack plan part.ngc --rack my.toml --picture part.svg\nCards drive the trapezoids; with profile = \"jerk_limited\" in the rack file the jerk-limited plan, which keeps every axis within its jerk too.");

@@ -18,15 +18,16 @@ namespace motionrack::cli {
 namespace {
 
 struct RunOptions {
-    std::string program, rack, tools, record, vcd;
+    std::string program, rack, record, vcd;
+    ReadingOptions reading;
     ResultFiles files;
     std::vector<std::string> signals, faults, orders;
     double timescale_ns = 100;
-    bool json = false, quiet = false, block_delete = false, stream = false;
+    bool json = false, quiet = false, stream = false;
 };
 
 /// Problems until a program that is not checked first is given up.
-constexpr int most_unchecked = 10'000;
+constexpr std::size_t most_unchecked = 10'000;
 
 /// What is to be run; the exit code where it cannot.
 int read_request(const RunOptions& options, rack::JobRequest& request) {
@@ -42,7 +43,7 @@ int read_request(const RunOptions& options, rack::JobRequest& request) {
     request.rack_file = std::move(rack_text->name);
     request.program = std::move(program->text);
     request.program_name = std::move(program->name);
-    request.block_delete = options.block_delete;
+    request.block_delete = options.reading.block_delete;
     request.stream = options.stream;
     request.version = MOTIONRACK_VERSION;
     auto faults = rack::read_faults(options.faults);
@@ -89,17 +90,17 @@ void print_outcome(const rack::RecordedJob& job, const rack::JobRequest& request
 
 int run(const RunOptions& options) {
     rack::JobRequest request;
-    if (!may_write({options.program, options.rack, options.tools}, {options.files.page(), options.record, options.vcd, options.files.csv, options.files.events})) return exit_refused;
+    if (!may_write({options.program, options.rack, options.reading.tools}, {options.files.page(), options.record, options.vcd, options.files.csv, options.files.events})) return exit_refused;
     if (const int bad = read_request(options, request); bad != exit_done) return bad;
     int unread = exit_done;
-    control::gcode::Settings settings = program_settings(request.config, request.program_name, options.block_delete);
-    if (!load_tools(options.tools, settings, unread)) return unread;
-    keep_subprograms(settings, request.subprograms);
-    request.tools = settings.tools;
-    if (const Result<void> good = control::gcode::check_settings(settings); !good) return report(good.error());
+    std::optional<control::gcode::Settings> settings = program_settings(request.config, request.program_name, options.reading, unread);
+    if (!settings) return unread;
+    keep_subprograms(*settings, request.subprograms);
+    request.tools = settings->tools;
+    if (const Result<void> good = control::gcode::check_settings(*settings); !good) return report(good.error());
     const std::string& name = request.program_name;
     // Without a check first it is read all the same: for the subprograms that it calls.
-    const control::gcode::Check check = control::gcode::check_program(request.program, settings, options.stream ? most_unchecked : 20, name);
+    const control::gcode::Check check = control::gcode::check_program(request.program, *settings, options.stream ? most_unchecked : most_problems_of_run, name);
     if (!options.stream)
         if (const int bad = print_problems(check, name); bad != exit_done) return bad;
 
@@ -139,8 +140,7 @@ void add_common(CLI::App* command, const std::shared_ptr<RunOptions>& options) {
         ->allow_extra_args(false);
     command->add_option("--at", options->orders, "order something on the way, ORDER@TIME: hold@1.5s, resume@2s, feed=0.5@1s, rapid=0.25@1s, stop@3s")
         ->allow_extra_args(false);
-    command->add_option("--tools", options->tools, "tool table (LinuxCNC's .tbl) with the lengths for G43 and the diameters for G41, G42");
-    command->add_flag("--block-delete", options->block_delete, "leave out lines that begin with '/'");
+    add_reading_options(*command, options->reading);
     command->add_flag("--stream", options->stream, "move line by line as it is read, without checking the whole program first");
     command->add_flag("--json", options->json, "print the summary as JSON");
     command->add_flag("-q,--quiet", options->quiet, "no progress");

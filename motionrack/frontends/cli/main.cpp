@@ -24,7 +24,8 @@ constexpr const char* footer = R"(Examples:
   motionrack describe mcx314                     the card's registers, commands and states
 
 Exit codes: 0 done, 1 wrong command line, 2 wrong input (nothing moved), 3 refused (nothing moved),
-4 the machine stopped the job, 5 a file could not be read or written, 130 stopped by Ctrl-C.
+4 the machine stopped the job, 5 a file could not be read or written, 6 the two differ (diff, replay),
+130 stopped by Ctrl-C.
 motionrack COMMAND --help tells more of each command.)";
 
 /// What was printed is out, or it is told that it is not.

@@ -51,15 +51,22 @@ control::gcode::Settings program_settings(const rack::RackConfig& config, const 
     return settings;
 }
 
-bool load_tools(const std::string& path, control::gcode::Settings& settings, int& exit_code_out) {
-    if (path.empty()) return true;
-    const Result<std::string> text = read_text(path);
-    Result<control::gcode::ToolTable> tools = text ? control::gcode::read_tool_table(*text, path) : tl::unexpected<Error>(text.error());
-    if (tools)
-        settings.tools = std::move(*tools);
-    else
+void add_reading_options(CLI::App& command, ReadingOptions& options, const char* tools) {
+    command.add_option(tools, options.tools, "tool table (LinuxCNC's .tbl) with the lengths for G43 and the diameters for G41, G42");
+    command.add_flag("--block-delete", options.block_delete, "leave out lines that begin with '/'");
+}
+
+std::optional<control::gcode::Settings> program_settings(const rack::RackConfig& config, const std::string& path, const ReadingOptions& options, int& exit_code_out) {
+    control::gcode::Settings settings = program_settings(config, path, options.block_delete);
+    if (options.tools.empty()) return settings;
+    const Result<std::string> text = read_text(options.tools);
+    Result<control::gcode::ToolTable> tools = text ? control::gcode::read_tool_table(*text, options.tools) : tl::unexpected<Error>(text.error());
+    if (!tools) {
         exit_code_out = report(tools.error());
-    return tools.has_value();
+        return std::nullopt;
+    }
+    settings.tools = std::move(*tools);
+    return settings;
 }
 
 bool may_write(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {

@@ -1,6 +1,7 @@
 // The program and the rack a command works on: files, or the built-in example.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <motionrack/base/result.hpp>
 #include <motionrack/control/gcode/reader.hpp>
 #include <motionrack/rack/config.hpp>
@@ -33,17 +34,26 @@ std::optional<rack::RackConfig> print_reading(rack::RackReading reading, int& ex
 /// The text that load_rack reads from this path, and what it is called. Errors: io.
 Result<ProgramText> load_rack_text(const std::string& path, BuiltInRack built_in = BuiltInRack::router);
 
+/// What a user says of how a program is read.
+struct ReadingOptions {
+    std::string tools;  ///< path of a tool table; empty: there is none
+    bool block_delete = false;
+};
+/// `tools`: what the option is called.
+void add_reading_options(CLI::App& command, ReadingOptions& options, const char* tools = "--tools");
+
 /// How a program is read: by the rack's axes, with the subprograms that lie beside it as name.ngc. Programs from standard input and the
 /// built-in example have no folder.
 control::gcode::Settings program_settings(const rack::RackConfig& config, const std::string& path, bool block_delete = false);
-
-/// Reads a tool table into the settings; an empty path leaves them. False: it was told what is wrong, `exit_code` says how.
-bool load_tools(const std::string& path, control::gcode::Settings& settings, int& exit_code);
+/// The same with the user's tool table; nothing if that cannot be read, which was told.
+std::optional<control::gcode::Settings> program_settings(const rack::RackConfig& config, const std::string& path, const ReadingOptions& options, int& exit_code);
 
 /// Whether none of the files that are to be written is one that is read, or another one of them. False: it was told which.
 bool may_write(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
-/// Prints up to 20 problems of a program with their lines; the exit code (0 if there are none).
+/// How many problems a check for people collects; of a program that is to run the first ones are enough.
+inline constexpr std::size_t most_problems = 100, most_problems_of_run = 20;
+/// Prints the problems that were found with their lines, and how many there are; the exit code (0 if there are none).
 int print_problems(const control::gcode::Check& check, const std::string& name);
 
 }  // namespace motionrack::cli

@@ -172,6 +172,18 @@ TEST(MarkingLine, TheSpeedCanBeChangedAndTheEncoderBroken) {
     EXPECT_THAT(bench.session->part("head.height").error().message, HasSubstr("marked_mm"));
 }
 
+TEST(MarkingLine, WhatFollowsFromTheMachineCannotBeSet) {
+    Line bench;
+    for (const char* name : {"head.light", "scan.mark_speed_bits_ms"}) {
+        const Result<void> set = bench.session->set_part(name, 1);
+        ASSERT_FALSE(set) << name;
+        EXPECT_EQ(set.error().trouble, Trouble::refused) << name;
+        EXPECT_THAT(set.error().message, HasSubstr(std::string(name) + " follows from the machine and cannot be set")) << name;
+    }
+    EXPECT_THAT(bench.session->set_part("head.height", 1).error().message, HasSubstr("head has no quantity 'height'; it has: spot_x_mm"));
+    EXPECT_THAT(bench.session->set_part("tail.light", 1).error().message, HasSubstr("There is no quantity 'tail.light'"));
+}
+
 TEST(MarkingLine, ASenderGivesItsWordsLateAndCanFallSilent) {
     Line bench(std::string(line) + "[belt.line.sender]\nbits_per_mm = 1000\nperiod_us = 100\ndelay_us = 350\n");
     bench.ms(100);

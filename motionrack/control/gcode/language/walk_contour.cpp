@@ -4,6 +4,7 @@
 #include <cmath>
 #include <motionrack/control/gcode/codes.hpp>
 #include <motionrack/control/gcode/language/walk.hpp>
+#include <motionrack/control/gcode/planar.hpp>
 
 namespace motionrack::control::gcode {
 
@@ -97,7 +98,7 @@ bool Walk::add_contour(Interpreter& reader, const FlowPlace& here, std::vector<C
         if (block.has('A') || block.has('C')) piece.corner = block[piece.chamfer ? 'C' : 'A'] * unit;
         if (piece.corner < 0 || (block.has('A') && block.has('C'))) return fail(here, 0, "A is the radius of a fillet and C of a chamfer at the end of the move; write one of them, 0 or more");
         if (!begun && piece.corner > 0) return fail(here, 0, "A and C make corners of a contour; its first move leads to where it begins, and there is none");
-        if (begun && (arc || std::hypot(piece.to.first - piece.from.first, piece.to.second - piece.from.second) > shortest)) contour.push_back(piece);
+        if (begun && (arc || length(piece.to - piece.from) > shortest)) contour.push_back(piece);
         begun = true;
     }
     return true;
