@@ -14,7 +14,8 @@ constexpr double settled_part = 1e-14;
 
 /// From rest to a greatest speed, phase by phase; lengths and s.
 struct Rise {
-    double accel = 0;  ///< greatest
+    double accel = 0;                      ///< greatest
+    double even_from = 0, even_until = 0;  ///< speeds at which it is reached, and left
     double steeper = 0, even = 0, flatter = 0;
     double steeper_way = 0, even_way = 0, flatter_way = 0;
 };
@@ -38,10 +39,11 @@ class End {
         out.accel = std::max(accel_, std::min(most_accel_, std::sqrt(std::max(0.0, square))));
         out.steeper = (out.accel - accel_) / jerk_;
         out.flatter = out.accel / jerk_;
-        const double speed_then = speed_ + 0.5 * (accel_ + out.accel) * out.steeper, top = speed - 0.5 * out.accel * out.flatter;
-        out.even = std::max(0.0, (top - speed_then) / out.accel);
+        out.even_from = speed_ + 0.5 * (accel_ + out.accel) * out.steeper;
+        out.even_until = speed - 0.5 * out.accel * out.flatter;
+        out.even = std::max(0.0, (out.even_until - out.even_from) / out.accel);
         out.steeper_way = out.steeper * (speed_ + out.steeper * (0.5 * accel_ + out.steeper * jerk_ / 6));
-        out.even_way = 0.5 * out.even * (speed_then + top);
+        out.even_way = 0.5 * out.even * (out.even_from + out.even_until);
         out.flatter_way = out.flatter * (speed - out.flatter * out.accel / 6);
         return out;
     }
@@ -108,18 +110,17 @@ bool write_eased_feed(std::span<const FeedSpan> spans, std::vector<FeedPiece>& o
     };
     // Without an ease the first phase is the launch.
     const bool eased_begin = begin.eased_way() > 0, eased_end = end.eased_way() > 0;
-    const double speed_up = begin.speed() + 0.5 * (begin.accel() + up.accel) * up.steeper, speed_down = end.speed() + 0.5 * (end.accel() + down.accel) * down.steeper;
     at = eased_begin ? begin.eased_way() : up.steeper_way;
-    out.push_back(feed_launch(0, at, eased_begin ? begin.speed() * begin.speed() : speed_up * speed_up));
+    out.push_back(feed_launch(0, at, eased_begin ? begin.speed() * begin.speed() : up.even_from * up.even_from));
     if (eased_begin) add(up.steeper_way, up.steeper, begin.speed(), begin.accel(), jerk);
-    add(up.even_way, up.even, speed_up, up.accel, 0);
-    add(up.flatter_way, up.flatter, peak - 0.5 * up.accel * up.flatter, up.accel, -jerk);
+    add(up.even_way, up.even, up.even_from, up.accel, 0);
+    add(up.flatter_way, up.flatter, up.even_until, up.accel, -jerk);
     const double cruise = length - begin.way_to(peak) - end.way_to(peak);
     add(cruise, cruise / peak, peak, 0, 0);
     add(down.flatter_way, down.flatter, peak, 0, -jerk);
-    add(down.even_way, down.even, peak - 0.5 * down.accel * down.flatter, -down.accel, 0);
-    if (eased_end) add(down.steeper_way, down.steeper, speed_down, -down.accel, jerk);
-    const double landing = eased_end ? end.eased_way() : down.steeper_way, landing_speed = eased_end ? end.speed() : speed_down;
+    add(down.even_way, down.even, down.even_until, -down.accel, 0);
+    if (eased_end) add(down.steeper_way, down.steeper, down.even_from, -down.accel, jerk);
+    const double landing = eased_end ? end.eased_way() : down.steeper_way, landing_speed = eased_end ? end.speed() : down.even_from;
     out.push_back(feed_landing(length - landing, landing, landing_speed * landing_speed));
     return true;
 }
