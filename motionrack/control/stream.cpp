@@ -315,6 +315,7 @@ gcode::Settings Stream::fresh_settings() const {
 
 void Stream::forget_modes() {
     interpreter_ = gcode::Interpreter(fresh_settings());
+    line_driven_ = 0;
 }
 
 void Stream::forget_offsets() {

@@ -94,6 +94,7 @@ class Stream {
     bool probe_waits() const { return probe_waits_; }
     /// Moves and dwells, as they were read, that are not done.
     std::size_t moves() const { return moves_; }
+    /// 0: none since forget_modes().
     std::int32_t line_driven() const { return line_driven_; }
     StreamState state() const { return state_; }
     const gcode::Interpreter& interpreter() const { return interpreter_; }
@@ -109,7 +110,7 @@ class Stream {
     Result<StreamState> drive(bool more_may_come);
     /// The machine was moved otherwise, and these are its axes: programs go on from where they stand. Needs rest.
     void stand_here(PathAxes& axes);
-    /// A new program, or after a reset: modes as at the start, work offsets kept. Needs rest.
+    /// A new program, or after a reset: modes as at the start, no line driven, work offsets kept. Needs rest.
     void forget_modes();
     /// Work offsets, G28 and G30 are 0 from now on. Needs rest.
     void forget_offsets();

@@ -24,6 +24,21 @@ TEST(AMachine, DrivesAProgramToItsEnd) {
     EXPECT_THAT(o.events, testing::Contains(control::gcode::StepKind::end));
 }
 
+TEST(AMachine, TellsNoLineOfTheProgramBeforeWhenAnotherBegins) {
+    Operated o(two_axes());
+    o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("G21 G90 F1200\nG1 X30\nG1 X20\n", "first.ngc")); });
+    o.at(5, [](Machine& m) {
+        EXPECT_EQ(m.status().line, 3);
+        EXPECT_TRUE(m.begin_program("G21 G90 F60\nG1 X30\nG1 X20\nM2\n", "second.ngc"));
+    });
+    std::vector<std::int32_t> lines;
+    o.machine->listen([&](const Status& status) {
+        if (status.program == "second.ngc" && (lines.empty() || lines.back() != status.line)) lines.push_back(status.line);
+    });
+    o.run(6);
+    EXPECT_THAT(lines, testing::AnyOf(ElementsAre(0, 2), ElementsAre(2)));
+}
+
 TEST(AMachine, TakesALonePercentSignAfterBlankLinesForTheBegin) {
     Operated o(two_axes());
     o.at(0.1, [](Machine& m) { EXPECT_TRUE(m.begin_program("\n\n%\nG21 G90 F1200\nG1 X30\n%\nG1 X5\n", "p.ngc")); });
