@@ -83,7 +83,7 @@ std::optional<double> greatest_speed(const End& begin, const End& end, double le
 
 /// Less jerk at one or both ends, all else alike.
 bool is_eased_line(std::span<const FeedSpan> spans, const FeedSpan& full) {
-    return std::all_of(spans.begin(), spans.end(), [&](const FeedSpan& span) { return span.speed == full.speed && span.accel == full.accel && span.jerk <= full.jerk; });
+    return std::all_of(spans.begin(), spans.end(), [&](const FeedSpan& span) { return span.speed == full.speed && span.accel == full.accel && span.brake == full.accel && span.jerk <= full.jerk; });
 }
 
 }  // namespace

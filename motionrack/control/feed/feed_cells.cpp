@@ -12,7 +12,7 @@ constexpr double growth = 0.25;
 /// Beside a narrow place cells take so much of the time that the jerk needs to leave it.
 constexpr double unlike_part = 0.25;
 /// Where full acceleration is reached sooner than in a cell's time, cells take as long as that, but no less than this part of their time.
-constexpr double quickest_cell = 0.2;
+constexpr double quickest_cell = 0.1;
 /// At least so many cells between two rests, and at most so many of the size that a span's speed asks for.
 constexpr double least_cells = 48, most_cells_of_a_span = 256;
 /// A launch and a landing take this part of a path at most: on a short one constant jerk ends after a twelfth.
@@ -22,7 +22,7 @@ constexpr double alike_jerk = 1.5;
 constexpr double least_part = 1e-13;
 
 FeedSpan least_of(const FeedSpan& a, const FeedSpan& b) {
-    return {a.length, std::min(a.speed, b.speed), std::min(a.accel, b.accel), std::min(a.jerk, b.jerk)};
+    return {a.length, std::min(a.speed, b.speed), std::min(a.accel, b.accel), std::min(a.jerk, b.jerk), std::min(a.brake, b.brake)};
 }
 
 /// With constant jerk from rest.
@@ -41,7 +41,7 @@ FeedPlanner::End FeedPlanner::end_of(std::span<const FeedSpan> spans, bool back)
         const FeedSpan& span = spans[back ? spans.size() - 1 - n : n];
         if (within) {
             const FeedSpan all = least_of(least, span);
-            const double fits = launch_length(all.jerk, std::min(all.accel / all.jerk, std::sqrt(2 * all.speed / all.jerk)));
+            const double fits = launch_length(all.jerk, std::min((back ? all.brake : all.accel) / all.jerk, std::sqrt(2 * all.speed / all.jerk)));
             const bool alike = span.jerk < alike_jerk * least.jerk && least.jerk < alike_jerk * span.jerk;
             if (n > 0 && (fits <= before || !alike)) {
                 end.length = std::min(end.length, before);
@@ -61,7 +61,7 @@ FeedPlanner::End FeedPlanner::end_of(std::span<const FeedSpan> spans, bool back)
 
 /// How long cells should be for a span's own sake.
 double FeedPlanner::wanted(const FeedSpan& span) const {
-    const double seconds = std::clamp(span.accel / span.jerk, quickest_cell * settings_.cell_seconds, settings_.cell_seconds);
+    const double seconds = std::clamp(std::max(span.accel, span.brake) / span.jerk, quickest_cell * settings_.cell_seconds, settings_.cell_seconds);
     return std::min(std::max(span.speed * seconds, span.length / most_cells_of_a_span), length_ / least_cells);
 }
 
@@ -112,7 +112,7 @@ void FeedPlanner::cut(std::span<const FeedSpan> spans) {
 void FeedPlanner::add_cell(std::span<const FeedSpan> spans, std::size_t at, double begin, double end) {
     FeedSpan least = spans[at];
     for (; at + 1 < spans.size() && ends_[at] < end; ++at) least = least_of(least, spans[at + 1]);
-    cells_.push_back({begin, end - begin, least.speed * least.speed, 2 * least.accel, 2 * least.jerk});
+    cells_.push_back({begin, end - begin, least.speed * least.speed, 2 * least.accel, 2 * least.brake, 2 * least.jerk});
 }
 
 }  // namespace motionrack::control

@@ -12,6 +12,8 @@ namespace {
 /// What is off falls to about its square in a step, so after one of this part of the time nothing is left.
 constexpr double settled_part = 1e-10;
 constexpr double rounding = 4e-16;
+/// Beside a rest the square of the speed may be rounded to 0. Its last digit is worth this part of the speed.
+constexpr double as_good_as_rest = 1e-8;
 
 constexpr int most_terms = 60;
 /// What makes the k-th term of a series out of the one before it.
@@ -76,7 +78,7 @@ void settle(FeedPiece& cell) {
     // Slower than at the ends it is only where it has slowed down and speeds up again.
     const bool dips = slope < 0 && bend > 0 && -slope < bend * length;
     const double slowest = dips ? std::sqrt(square_at(cell, -slope / bend)) : std::min(speed, end);
-    double least = 0, most = length / slowest, time = std::min(most, cell.seconds);
+    double least = 0, most = length / std::max(slowest, as_good_as_rest * std::max(speed, end)), time = std::min(most, cell.seconds);
     for (int step = 0; step < 60; ++step) {
         const double there = moved(cell, speed, time);
         (there < length ? least : most) = time;

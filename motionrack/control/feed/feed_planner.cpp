@@ -18,7 +18,7 @@ constexpr double least_square = 1e-6;
 
 bool all_alike(std::span<const FeedSpan> spans) {
     return std::all_of(spans.begin(), spans.end(), [&](const FeedSpan& span) {
-        return span.speed == spans[0].speed && span.accel == spans[0].accel && span.jerk == spans[0].jerk;
+        return span.speed == spans[0].speed && span.accel == spans[0].accel && span.brake == spans[0].accel && span.jerk == spans[0].jerk;
     });
 }
 
@@ -128,13 +128,14 @@ void FeedPlanner::bound() {
     const double most = bound_[1];
     bound_[1] = start_.square + 0.5 * start_.slope * cells_[0].length;
     bound_[0] = bound_[1] - start_.slope * way_[0];
-    can_start_ = std::max(start_.square, bound_[1]) <= most * (1 + rounding) && std::fabs(start_.slope) <= cells_[0].slope * (1 + rounding);
+    can_start_ = std::max(start_.square, bound_[1]) <= most * (1 + rounding) && start_.slope <= cells_[0].up * (1 + rounding) && -start_.slope <= cells_[0].down * (1 + rounding);
 }
 
 /// Whether a tighter bound would be news: where points could bend more, or slopes change more.
 bool FeedPlanner::is_loose(double guess) const {
     for (std::size_t i = 1; i <= cells_.size(); ++i) {
-        const bool eased = steepest_[i - 1] < cells_[i - 1].slope || steepest_[i] < cells_[i - 1].slope;
+        const Cell& cell = cells_[i - 1];
+        const bool eased = std::min(up_[i - 1], up_[i]) < cell.up || std::min(down_[i - 1], down_[i]) < cell.down;
         if ((eased ? bound_[i] : left_[i]) > guess * square_[i]) return true;
     }
     return false;
@@ -178,20 +179,30 @@ void FeedPlanner::rise_both() {
 /// jerk makes of w there, whatever jerk it is.
 void FeedPlanner::slope_limits() {
     const std::size_t n = cells_.size();
-    steepest_.assign(n + 1, 0);
-    for (std::size_t k = 0; k <= n; ++k) steepest_[k] = std::min(cells_[k == 0 ? 0 : k - 1].slope, cells_[std::min(k, n - 1)].slope);
+    up_.assign(n + 1, 0);
+    down_.assign(n + 1, 0);
+    for (std::size_t k = 0; k <= n; ++k) {
+        const Cell &before = cells_[k == 0 ? 0 : k - 1], &after = cells_[std::min(k, n - 1)];
+        up_[k] = std::min(before.up, after.up);
+        down_[k] = std::min(before.down, after.down);
+    }
     // Constant jerk: w' = 2 jerk t, u = jerk t^3 / 6.
     const auto end_slope = [](const End& end) { return 2 * end.jerk * cube_root(6 * end.length / end.jerk); };
-    if (!moving()) steepest_.front() = std::min(steepest_.front(), end_slope(launch_));
-    steepest_.back() = std::min(steepest_.back(), end_slope(landing_));
+    if (!moving()) up_.front() = std::min(up_.front(), end_slope(launch_));
+    down_.back() = std::min(down_.back(), end_slope(landing_));
 }
 
 /// No greatest slope changes faster than the jerk lets a slope change, or a bend that begins where more is allowed would reach over.
 void FeedPlanner::ease_slopes() {
+    ease(up_);
+    ease(down_);
+}
+
+void FeedPlanner::ease(std::vector<double>& slopes) const {
     const std::size_t n = cells_.size();
     const auto change = [&](const Cell& cell) { return cell.bend / std::sqrt(cell.square) * cell.length; };
-    for (std::size_t k = 1; k <= n; ++k) steepest_[k] = std::min(steepest_[k], steepest_[k - 1] + change(cells_[k - 1]));
-    for (std::size_t k = n; k-- > 0;) steepest_[k] = std::min(steepest_[k], steepest_[k + 1] + change(cells_[k]));
+    for (std::size_t k = 1; k <= n; ++k) slopes[k] = std::min(slopes[k], slopes[k - 1] + change(cells_[k - 1]));
+    for (std::size_t k = n; k-- > 0;) slopes[k] = std::min(slopes[k], slopes[k + 1] + change(cells_[k]));
 }
 
 // ---- passes -------------------------------------------------------------------------------------------------------------------------
@@ -199,6 +210,7 @@ void FeedPlanner::ease_slopes() {
 /// As steep as can be from one end, ignoring what lies ahead: a lower bound is taken at once.
 void FeedPlanner::rise(std::vector<double>& out, bool back) {
     const std::size_t n = cells_.size();
+    const std::vector<double>& slopes = back ? down_ : up_;
     const auto point = [&](std::size_t i) { return back ? n + 1 - i : i; };
     out.assign(n + 2, 0);
     double slope = 0, square = 0;
@@ -211,7 +223,7 @@ void FeedPlanner::rise(std::vector<double>& out, bool back) {
     }
     for (std::size_t i = from_motion ? 1 : 0; i <= n; ++i) {
         const double way = way_[back ? n - i : i];
-        const double steepest = steepest_[back ? n - i : i];
+        const double steepest = slopes[back ? n - i : i];
         if (i == 0) {
             slope = steepest;
         } else {

@@ -54,7 +54,8 @@ class FeedPlanner {
     struct Cell {
         double begin = 0, length = 0;
         double square = 0;  ///< greatest
-        double slope = 0;   ///< greatest, both ways
+        double up = 0;      ///< greatest slope of speeding up
+        double down = 0;    ///< and of slowing down
         double bend = 0;    ///< greatest, times the speed
     };
     /// Of the hull, from control point `from`: what the slope falls between its ends, and what the square loses by it.
@@ -89,6 +90,7 @@ class FeedPlanner {
     void rise_both();
     void slope_limits();
     void ease_slopes();
+    void ease(std::vector<double>& slopes) const;
     void rise(std::vector<double>& out, bool back);
     void hull();
     void follow(const Edge& edge, std::size_t to);
@@ -107,7 +109,7 @@ class FeedPlanner {
     std::vector<double> sizes_;  ///< greatest cell at each end of a span
     std::vector<Cell> cells_;
     // by knot: 0 the launch's end, cells().size() the landing's begin
-    std::vector<double> steepest_;
+    std::vector<double> up_, down_;  ///< steepest slopes
     std::vector<double> way_;  ///< between the control points beside it
     // by control point: 0 and cells().size() + 1 are the rests
     std::vector<double> bound_, left_, right_, square_;

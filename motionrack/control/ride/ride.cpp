@@ -1,7 +1,7 @@
 #include <motionrack/control/ride/ride.hpp>
 
 #include <algorithm>
-#include <motionrack/control/ride/limits_on.hpp>
+#include <motionrack/control/ride/parts.hpp>
 #include <utility>
 
 namespace motionrack::control {
@@ -34,12 +34,14 @@ void Ride::take() {
     CurveItem item;
     while (builder_.pull(item)) {
         if (!item.rest) {
-            curve_.push_back(item.piece);
-            spans_.push_back(limits_on(item.piece, limits_));
+            for_parts(item.piece, limits_, [&](const CurvePiece& part) {
+                curve_.push_back(part);
+                use_.emplace_back();
+            });
             continue;
         }
         Stretch stretch{curve_, {}, 0, 0, before_.end(), item.seconds, item.line, item.at};
-        if (!curve_.empty() && planner_.plan({}, curve_, spans_, 0, curve_.back().begin + curve_.back().length)) {
+        if (!curve_.empty() && planner_.plan({}, curve_, use_, 0, curve_.back().begin + curve_.back().length)) {
             stretch.feed = planner_.feed();
             stretch.seconds = planner_.seconds();
             stretch.overlap = overlap_of(stretch.before, rising_begin(curve_, stretch.feed), alone_, room_mm_, limits_);
@@ -49,7 +51,7 @@ void Ride::take() {
         alone_ = stretch.seconds - stretch.overlap;
         room_mm_ = curve_.empty() ? 0 : item.room_mm;
         curve_.clear();
-        spans_.clear();
+        use_.clear();
     }
 }
 

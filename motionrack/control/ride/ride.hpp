@@ -1,6 +1,6 @@
 // A program driven along its curve: moves go in, stretches from rest to rest come out, each with its place and its time.
 //
-//   moves ──CurveBuilder──► cubic pieces ──limits_on──► spans ──FeedPlanner──► feed profile        place(t) = curve(u(t))
+//   moves ──CurveBuilder──► cubic pieces ──StretchPlanner──► feed profile        place(t) = curve(u(t))
 //
 // Along a stretch each axis keeps its speed, acceleration and jerk at every instant, the path stays within its tolerance, and the programmed
 // feed is not exceeded.
@@ -61,7 +61,7 @@ class Ride {
     CurveBuilder builder_;
     StretchPlanner planner_;
     std::vector<CurvePiece> curve_;
-    std::vector<FeedSpan> spans_;
+    std::vector<PieceUse> use_;
     KeptEnd before_;      ///< how the stretch before ends
     double alone_ = 0;    ///< s of it in which the one before it has ended
     double room_mm_ = 0;  ///< at its end

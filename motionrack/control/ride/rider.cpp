@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <motionrack/control/ride/limits_on.hpp>
+#include <motionrack/control/ride/parts.hpp>
 #include <utility>
 
 namespace motionrack::control {
@@ -30,7 +30,7 @@ double fastest_of_axes(const CurvePiece& piece, const MachineLimits& limits) {
 void Rider::Part::clear() {
     curve.clear();
     programmed.clear();
-    spans.clear();
+    use.clear();
     feed.clear();
     whole = false;
     rest = {};
@@ -82,7 +82,7 @@ void Rider::gather(std::size_t most) {
             part.whole = true;
             part.rest = item;
         } else {
-            append(part, item.piece);
+            for_parts(item.piece, limits_, [&](const CurvePiece& one) { append(part, one); });
         }
     }
 }
@@ -90,7 +90,7 @@ void Rider::gather(std::size_t most) {
 void Rider::append(Part& part, const CurvePiece& piece) {
     part.curve.push_back(piece);
     part.programmed.push_back(piece.feed);
-    part.spans.emplace_back();
+    part.use.emplace_back();
     set_feed(part, part.curve.size() - 1);
 }
 
@@ -106,7 +106,7 @@ void Rider::set_feed(Part& part, std::size_t i, double at_least) const {
             piece.feed = rapid_override_ * fastest_of_axes(piece, limits_);
     }
     piece.feed = std::max(piece.feed, at_least);
-    part.spans[i] = limits_on(piece, limits_);
+    part.use[i] = {};
 }
 
 void Rider::drop_passed() {
@@ -114,7 +114,7 @@ void Rider::drop_passed() {
     const auto drop = [this](auto& column) { column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(piece_)); };
     drop(now_.curve);
     drop(now_.programmed);
-    drop(now_.spans);
+    drop(now_.use);
     piece_ = 0;
     forget_moves_before(move_of(now_.curve.front().line));
 }
@@ -206,7 +206,7 @@ void Rider::meet_next(bool early) {
     if (met_ || held_ || !now_.whole || planned_to_ < now_.known() || left_ > braking_ + margin) return;
     if (then_.curve.empty() || now_.rest.seconds > 0 || !is_ready(then_, 0, early)) return;
     met_ = true;
-    if (!planner_.plan({}, then_.curve, then_.spans, 0, then_.known())) return;
+    if (!planner_.plan({}, then_.curve, then_.use, 0, then_.known())) return;
     then_.feed.assign(planner_.feed().begin(), planner_.feed().end());
     reach_ = overlap_of(slowing_end(now_.curve, now_.feed), rising_begin(then_.curve, then_.feed), left_ - before_left_, now_.rest.room_mm, limits_);
 }

@@ -27,7 +27,7 @@ struct RideMove {
 };
 
 struct RiderSettings {
-    std::size_t window = 16'384;  ///< so many pieces of the curve are known before a motion begins, unless its end is known; 1 or more
+    std::size_t window = 32'768;  ///< so many pieces of the curve are known before a motion begins, unless its end is known; 1 or more
 };
 
 enum class RideNext : std::uint8_t {
@@ -94,7 +94,7 @@ class Rider {
     struct Part {
         std::vector<CurvePiece> curve;
         std::vector<double> programmed;  ///< feeds without overrides
-        std::vector<FeedSpan> spans;
+        std::vector<PieceUse> use;
         std::vector<FeedPiece> feed;     ///< the plan
         bool whole = false;              ///< its rest is known
         CurveItem rest;
@@ -154,7 +154,7 @@ class Rider {
     double ease_ = least_ease;          ///< how much longer than a stop a way into lower feeds may be
     double feed_override_ = 1, rapid_override_ = 1;
 
-    std::vector<FeedSpan> stop_spans_;
+    std::vector<PieceUse> stop_use_;
     std::deque<RideMove> moves_;
     std::int64_t pushed_ = 0, first_move_ = 0;  ///< of moves_
 };

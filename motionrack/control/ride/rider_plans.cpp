@@ -1,6 +1,7 @@
 // Plans that go on from a motion: further, slower, to a stand.
 #include <algorithm>
 #include <cmath>
+#include <motionrack/control/ride/parts.hpp>
 #include <motionrack/control/ride/rider.hpp>
 
 namespace motionrack::control {
@@ -9,22 +10,13 @@ namespace {
 
 /// A stop is sought this much nearer and nearer.
 constexpr int halvings = 5, steps_out = 40;
+/// The first try is about as hard as one may brake at this part of the speed.
+constexpr double part_of_speed = 0.7;
 /// A way into lower feeds may be so much faster than a stop, and so much longer.
 constexpr double faster = 1.01, most_ease = 16;
 
 FeedStart start_of(const FeedState& along) {
     return {along.speed * along.speed, 2 * along.accel};
-}
-
-/// The piece from x = `from` to `to`.
-CurvePiece part_of(const CurvePiece& piece, double from, double to) {
-    CurvePiece out = piece;
-    out.begin = piece.begin + from;
-    out.length = to - from;
-    out.start = position_on(piece, from);
-    out.tangent = tangent_on(piece, from);
-    out.bend = bend_on(piece, from);
-    return out;
 }
 
 }  // namespace
@@ -61,7 +53,7 @@ void Rider::measure() {
 /// From a motion on this piece to rest at the end of what is known.
 bool Rider::plan_to_end(std::size_t piece, const FeedState& along) {
     const auto first = static_cast<std::ptrdiff_t>(piece);
-    return planner_.plan(start_of(along), {now_.curve.begin() + first, now_.curve.end()}, {now_.spans.begin() + first, now_.spans.end()}, along.place,
+    return planner_.plan(start_of(along), {now_.curve.begin() + first, now_.curve.end()}, {now_.use.begin() + first, now_.use.end()}, along.place,
                          now_.known());
 }
 
@@ -95,13 +87,13 @@ std::optional<double> Rider::find_stop(const Spot& from) {
         std::size_t last = from.piece;
         while (last + 1 < now_.curve.size() && now_.curve[last + 1].begin < begin + distance) ++last;
         const auto first = static_cast<std::ptrdiff_t>(from.piece), past = static_cast<std::ptrdiff_t>(last + 1);
-        stop_spans_.assign(now_.spans.begin() + first, now_.spans.begin() + past);
-        const bool found = planner_.plan(start, {now_.curve.begin() + first, now_.curve.begin() + past}, stop_spans_, begin, begin + distance);
+        stop_use_.assign(now_.use.begin() + first, now_.use.begin() + past);
+        const bool found = planner_.plan(start, {now_.curve.begin() + first, now_.curve.begin() + past}, stop_use_, begin, begin + distance);
         planned = found ? distance : -1;
         return found;
     };
-    const FeedSpan& span = now_.spans[from.piece];
-    double distance = 0.25 * from.along.speed * (from.along.speed / span.accel + span.accel / span.jerk), too_near = 0;
+    const FeedSpan span = PieceLimits(now_.curve[from.piece], limits_).up_to(part_of_speed * from.along.speed, 0);
+    double distance = 0.25 * from.along.speed * (from.along.speed / span.brake + span.brake / span.jerk), too_near = 0;
     for (int i = 0; i < steps_out && distance < most && !plan_to(distance); ++i) {
         too_near = distance;
         distance *= 1.5;
@@ -122,7 +114,7 @@ bool Rider::ease_into_feeds() {
     std::vector<FeedPiece> stop;
     if (slower && find_stop(from)) stop.assign(planner_.feed().begin(), planner_.feed().end());
     Part part = with_feeds(from, stop);
-    if (!planner_.plan(start_of(from.along), part.curve, part.spans, from.along.place, now_.known())) {
+    if (!planner_.plan(start_of(from.along), part.curve, part.use, from.along.place, now_.known())) {
         ease_ = std::min(2 * ease_, most_ease);
         return false;
     }
@@ -134,7 +126,7 @@ bool Rider::ease_into_feeds() {
     passed.length = from.along.place - passed.begin;
     replace(now_.curve, part.curve);
     replace(now_.programmed, part.programmed);
-    replace(now_.spans, part.spans);
+    replace(now_.use, part.use);
     new_feeds_ = holding_ = false;
     ease_ = least_ease;
     take(from, before_left_, now_.known());
@@ -151,7 +143,7 @@ Rider::Part Rider::with_feeds(const Spot& from, std::span<const FeedPiece> stop)
     const auto add = [&](double to, double speed) {
         out.curve.push_back(part_of(now_.curve[i], at - now_.curve[i].begin, to - now_.curve[i].begin));
         out.programmed.push_back(now_.programmed[i]);
-        out.spans.emplace_back();
+        out.use.emplace_back();
         set_feed(out, out.curve.size() - 1, speed);
         at = to;
     };

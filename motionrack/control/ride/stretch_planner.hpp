@@ -1,34 +1,62 @@
-// The quickest speed along a part of a curve that ends at rest: limits on the pieces, and again with what the speeds found leave of them.
+// The quickest speed along a part of a curve that ends at rest.
+//
+//   w, the square of the speed, over the path u. On a bend an axis' acceleration is shared: what keeps it on the curve grows with w, the rest
+//   changes the speed, p' w'/2 + p'' w. So first it is found how fast each piece can be, from both ends, with no jerk in mind,
+//
+//      ╭──╮    ╱╲___╱╲     ╭──╮        what bends and feeds allow (cut off above), and what can be reached from there
+//     ╱    ╲__╱       ╲___╱    ╲
+//
+//   and with that speed as its limit a piece leaves the acceleration that it takes to be so fast. The feed planner keeps both, and the jerk.
+//   Where that turns out to be slower, there is more left to change the speed, and it is planned again.
 #pragma once
 
 #include <motionrack/control/curve/curve.hpp>
 #include <motionrack/control/feed/feed_planner.hpp>
 #include <motionrack/control/limits.hpp>
+#include <motionrack/control/ride/piece_limits.hpp>
 #include <span>
 #include <vector>
 
 namespace motionrack::control {
 
+inline constexpr double no_speed_limit = 1e300;
+
+/// What plans have found out about a piece.
+struct PieceUse {
+    double speed = no_speed_limit;         ///< more would leave less for changing it than it can be changed
+    double jerk_share = share_of_a_bend;   ///< of the axes' jerk, that the bend may take
+};
+
 class StretchPlanner {
   public:
     explicit StretchPlanner(const MachineLimits& limits) : limits_(limits) {}
 
-    /// From `from`, a place on the first of the pieces, to rest at `to`, on the last. `spans`: what holds on the pieces; they become narrower
-    /// where that lets the speed change more. False if nothing was found that goes on from `start`; then they are as they were.
-    bool plan(const FeedStart& start, std::span<const CurvePiece> curve, std::span<FeedSpan> spans, double from, double to);
+    /// From `from`, a place on the first of the pieces, to rest at `to`, on the last. `use`: what is known of the pieces, and then what this plan
+    /// is by. False if nothing was found that goes on from `start`; then it is as it was.
+    bool plan(const FeedStart& start, std::span<const CurvePiece> curve, std::span<PieceUse> use, double from, double to);
 
     /// What was found, by places on the curve; valid until the next plan.
     std::span<const FeedPiece> feed() const { return feed_; }
     double seconds() const { return seconds_; }
 
   private:
-    bool narrow(std::span<const CurvePiece> curve, double slack);
+    void measure(std::span<const CurvePiece> curve, std::span<const PieceUse> use, double from, double to);
+    void reach(const FeedStart& start);
+    double top_of(std::size_t i, double up) const;
+    bool narrow(double slack);
+    FeedState most_found(double end, std::size_t& k) const;
 
     MachineLimits limits_;
     FeedPlanner planner_;
-    std::vector<FeedSpan> spans_;
     std::vector<FeedPiece> feed_;  ///< the quickest found
     double seconds_ = 0;           ///< of it
+    // by piece
+    std::vector<PieceLimits> pieces_;
+    std::vector<PieceUse> use_;
+    std::vector<double> most_;  ///< speeds
+    std::vector<FeedSpan> spans_;
+    // between pieces
+    std::vector<double> squares_;
 };
 
 }  // namespace motionrack::control

@@ -18,9 +18,12 @@ namespace {
 class RandomSpans {
   public:
     explicit RandomSpans(unsigned seed) : random_(seed) {}
-    std::vector<FeedSpan> next(int most) {
+    /// Slowing down is limited as speeding up, or otherwise.
+    std::vector<FeedSpan> next(int most, bool brakes_alike = true) {
         std::vector<FeedSpan> out(1 + random_() % static_cast<unsigned>(most));
         for (FeedSpan& span : out) span = {between(1e-4, 100), between(0.1, 300), between(10, 1e4), between(1e3, 1e6)};
+        if (!brakes_alike)
+            for (FeedSpan& span : out) span.brake = between(10, 1e4);
         return out;
     }
     double between(double least, double most) { return least * std::exp(std::log(most / least) * std::uniform_real_distribution<>(0, 1)(random_)); }
@@ -63,9 +66,10 @@ Peaks peaks_of(std::span<const FeedPiece> pieces, const std::vector<FeedSpan>& s
             // Where two spans meet those of either hold.
             FeedSpan span = spans[k];
             if (k + 1 < spans.size() && state.place > end - 1e-10 * length)
-                span = {0, std::max(span.speed, spans[k + 1].speed), std::max(span.accel, spans[k + 1].accel), std::max(span.jerk, spans[k + 1].jerk)};
+                span = {0, std::max(span.speed, spans[k + 1].speed), std::max(span.accel, spans[k + 1].accel), std::max(span.jerk, spans[k + 1].jerk),
+                        std::max(span.brake, spans[k + 1].brake)};
             out.speed = std::max(out.speed, state.speed / span.speed);
-            out.accel = std::max(out.accel, std::fabs(state.accel) / span.accel);
+            out.accel = std::max({out.accel, state.accel / span.accel, -state.accel / span.brake});
             out.jerk = std::max(out.jerk, std::fabs(state.jerk) / span.jerk);
             last = state;
         }
@@ -116,13 +120,28 @@ TEST(AFeedProfile, KeepsEveryLimitAtEveryInstant) {
     FeedPlanner planner;
     RandomSpans random(20261122);
     for (int run = 0; run < 3000; ++run) {
-        const std::vector<FeedSpan> spans = random.next(12);
+        const std::vector<FeedSpan> spans = random.next(12, run % 2 == 0);
         const Peaks peaks = peaks_of(planner.plan(spans), spans);
         ASSERT_LE(peaks.speed, 1 + 1e-6) << run;
         ASSERT_LE(peaks.accel, 1 + 1e-6) << run;
         ASSERT_LE(peaks.jerk, 1 + 1e-6) << run;
         ASSERT_LE(peaks.jump, 1e-6) << run;
     }
+}
+
+/// One way's limit is not the other's.
+TEST(AFeedProfile, SpeedsUpAndSlowsDownEachAsQuicklyAsItMay) {
+    FeedPlanner planner;
+    const std::vector<FeedSpan> spans = {{100, 1e4, 1000, 1e9, 4000}, {100, 1e4, 1000, 1e9, 4000}};
+    double up = 0, down = 0;
+    for (const FeedPiece& piece : planner.plan(spans)) {
+        up = std::max(up, piece.at(0).accel);
+        down = std::min(down, piece.at(0).accel);
+    }
+    EXPECT_NEAR(up, 1000, 1e-3);
+    EXPECT_NEAR(down, -4000, 1e-3);
+    const double peak = std::sqrt(200 / (1.0 / 2000 + 1.0 / 8000));
+    EXPECT_NEAR(seconds_of(planner.plan(spans)), peak / 1000 + peak / 4000, 1e-3);
 }
 
 /// Through places that are much narrower than their neighbours a stop may be quicker: it needs no speed at which the place is left.
@@ -186,13 +205,14 @@ TEST(AFeedProfile, DoesNotDependOnWhatWasPlannedBefore) {
 TEST(AFeedProfile, TakesLimitsOfAnySize) {
     FeedPlanner planner;
     RandomSpans random(11);
-    for (int run = 0; run < 500; ++run) {
+    for (int run = 0; run < 2000; ++run) {
         std::vector<FeedSpan> spans(1 + run % 5);
         for (FeedSpan& span : spans) span = {random.between(1e-9, 1e4), random.between(1e-6, 1e6), random.between(1e-3, 1e7), random.between(1e-3, 1e10)};
+        for (FeedSpan& span : spans) span.brake = run % 2 == 0 ? span.accel : random.between(1e-3, 1e7);
         const auto pieces = planner.plan(spans);
         const double seconds = seconds_of(pieces);
         ASSERT_TRUE(seconds > 0 && seconds < 1e12) << run << ": " << seconds;
-        ASSERT_LT(pieces.size(), 2000U) << run;
+        ASSERT_LT(pieces.size(), 2500U) << run;
         for (const FeedPiece& piece : pieces) ASSERT_TRUE(piece.seconds >= 0) << run;
     }
 }

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <motionrack/control/curve/corner.hpp>
 #include <motionrack/control/geometry.hpp>
 #include <motionrack/control/ride/accel_bound.hpp>
-#include <motionrack/control/ride/limits_on.hpp>
 #include <motionrack/control/ride/test/ride_support.hpp>
 #include <motionrack/control/ride/test/wild_programs.hpp>
 #include <string>
