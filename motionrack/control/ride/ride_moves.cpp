@@ -1,6 +1,7 @@
 #include <motionrack/control/ride/ride_moves.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -13,6 +14,9 @@ constexpr double jump_share = 0.3, least_noise = 0.1;
 /// Pulses by which a place may be early or late on a move because its speed changes evenly, and by which it may be beside its path.
 constexpr double off_pulses = 0.4;
 constexpr double shortest = 0.0005;
+/// A move may be this part shorter to end nearer to whole pulses; of so many places the nearest, or one that is near enough.
+constexpr double earliest = 0.35, near_enough = 0.05;
+constexpr int tries = 16;
 constexpr double least_accel = 1e-6;
 /// mm, degrees: no move at all.
 constexpr double smallest_move = 1e-6;
@@ -127,8 +131,34 @@ double RideMoves::seconds_of_next() const {
     }
     // No crumb before the end.
     const double left = rider_.left();
-    if (left - seconds >= 0.5 * seconds) return seconds;
+    if (left - seconds >= 0.5 * seconds) return near_whole_pulses(begin, seconds);
     return left < 2 * shortest || roughness_of(begin, left).turn <= jump_share ? left : 0.5 * left;
+}
+
+/// The longest axis' pulses are as long as its speed says; those of the others share its time, so half a pulse more or less is a jump of
+/// their speed. A little earlier the path may pass nearer to a place where they are whole.
+double RideMoves::near_whole_pulses(const RideState& begin, double seconds) const {
+    if (roughness_of(begin, seconds).half_pulse <= least_noise) return seconds;
+    double best = seconds, least_off = 1;
+    for (int k = 0; k < tries; ++k) {
+        const double time = seconds * (1 - earliest * k / tries);
+        const Point end = rider_.at(time).place;
+        std::array<double, axis_count> pulses = {};
+        for (std::size_t i = 0; i < end.size(); ++i)
+            if (limits_[i].present) pulses[i] = (end[i] - begin.place[i]) * limits_[i].pulses_per_unit;
+        const auto longest = std::max_element(pulses.begin(), pulses.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); }) - pulses.begin();
+        double off = 0;
+        for (std::size_t i = 0; i < end.size(); ++i) {
+            const double counted = end[i] * limits_[i].pulses_per_unit;
+            if (limits_[i].present && static_cast<std::ptrdiff_t>(i) != longest) off = std::max(off, std::fabs(counted - std::round(counted)));
+        }
+        if (off < least_off) {
+            best = time;
+            least_off = off;
+        }
+        if (off < near_enough) break;
+    }
+    return best;
 }
 
 RideMoves::Roughness RideMoves::roughness_of(const RideState& begin, double seconds) const {

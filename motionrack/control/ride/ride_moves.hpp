@@ -52,6 +52,7 @@ class RideMoves final : public PathPlanner {
     std::uint8_t axes_of(const Geometry& path) const;
     bool steers(std::uint8_t axes) const;
     double seconds_of_next() const;
+    double near_whole_pulses(const RideState& begin, double seconds) const;
     Roughness roughness_of(const RideState& begin, double seconds) const;
 
     MachineLimits limits_;

@@ -12,27 +12,35 @@
 namespace motionrack::control {
 namespace {
 
+using curve_test::arc_from;
 using curve_test::line_to;
 using curve_test::machine;
 
 constexpr double slack = 1 + 1e-6;
 
-/// Lines, some of them many and short, some with Z, and dwells.
+/// Lines, some of them many and short, some with Z, arcs, and dwells.
 std::vector<Move> program(std::mt19937& random) {
     const auto between = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
     const auto one_of = [&](unsigned n) { return random() % n == 0; };
     std::vector<Move> out;
-    const bool chords = one_of(3), exact = one_of(4);
+    const bool chords = one_of(3), exact = one_of(4), arcs = !chords && one_of(2);
     const double tolerance = std::exp(between(std::log(0.003), std::log(0.3)));
     double angle = 0;
     Point place = {};
     for (auto n = 5 + random() % 60; n > 0; --n) {
+        const Point from = place;
         const double length = chords ? 0.3 : std::exp(between(std::log(0.05), std::log(30.0)));
         angle += chords ? between(-0.3, 0.3) : between(-2.5, 2.5);
         place[0] += length * std::cos(angle);
         place[1] += length * std::sin(angle);
         if (one_of(5)) place[2] += between(-1, 1);
         Move move = line_to(place, tolerance);
+        if (arcs && one_of(2)) {
+            const double sweep = between(-3, 3);
+            move = arc_from(from, angle, between(0.2, 12), sweep, tolerance);
+            place = move.end;
+            angle += sweep;
+        }
         if (exact) move.path = PathControl::exact_path;
         move.feed = between(5, 120);
         if (one_of(8)) move.kind = MoveKind::traverse;
@@ -175,6 +183,23 @@ TEST(ARider, StandsSoonAfterAHoldAndGoesOnFromThere) {
     while (driven.step(0.001, true)) {}
     EXPECT_NEAR(driven.last.place[0], 100, 1e-6);
     expect_limits(driven);
+}
+
+/// The bend alone takes nearly all of the acceleration of X and Y by turns, and slowing down takes from the same.
+TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
+    Move circle = arc_from({}, 0, 10, 50);
+    circle.feed = 1000;
+    for (const double when : {0.8, 0.9, 1.0, 1.1, 1.2}) {
+        Driven driven({circle}, {});
+        while (driven.now < when) driven.step(0.001, true);
+        const double speed = std::hypot(driven.last.speed[0], driven.last.speed[1]), all = std::sqrt(machine()[0].max_accel * 10);
+        EXPECT_GT(speed, 0.9 * all);
+        driven.rider.hold();
+        const double asked = driven.now, alone = speed / machine()[0].max_accel + machine()[0].max_accel / machine()[0].max_jerk;
+        while (driven.rider.next(true) == RideNext::motion) driven.step(0.001, true);
+        EXPECT_LT(driven.now - asked, 2 * alone) << when;
+        expect_limits(driven);
+    }
 }
 
 /// Where the next line would begin before this one has ended.
