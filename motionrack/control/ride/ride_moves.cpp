@@ -13,10 +13,14 @@ namespace {
 constexpr double jump_share = 0.3, least_noise = 0.1;
 /// Pulses by which a place may be early or late on a move because its speed changes evenly, and by which it may be beside its path.
 constexpr double off_pulses = 0.4;
-constexpr double shortest = 0.0005;
+constexpr double shortest = 0.0002;
 /// A move may be this part shorter to end nearer to whole pulses; of so many places the nearest, or one that is near enough.
 constexpr double earliest = 0.35, near_enough = 0.05;
+/// So much of the half pulse is left then.
+constexpr double noise_left = 0.25;
 constexpr int tries = 16;
+/// From one length that is tried to the next.
+constexpr double shorter = 0.7;
 constexpr double least_accel = 1e-6;
 /// mm, degrees: no move at all.
 constexpr double smallest_move = 1e-6;
@@ -124,10 +128,10 @@ double RideMoves::seconds_of_next() const {
     const RideState begin = rider_.at(0);
     const double least = steers(rider_.move(rider_.move_of(begin)).axes) ? settings_.drive->steering_seconds() : shortest;
     double seconds = std::min({settings_.most_seconds, rider_.left(), std::max(4 * last_seconds_, least)});
-    for (; seconds >= 2 * shortest; seconds *= 0.5) {
+    for (; seconds >= 2 * shortest; seconds *= shorter) {
         const Roughness is = roughness_of(begin, seconds);
         if (is.turn <= jump_share && (is.off <= off_pulses || seconds < 2 * least)) break;
-        if (is.half_pulse > std::max(is.turn, least_noise)) break;
+        if (noise_left * is.half_pulse > std::max(is.turn, least_noise)) break;
     }
     // No crumb before the end.
     const double left = rider_.left();

@@ -185,7 +185,7 @@ TEST(ARider, StandsSoonAfterAHoldAndGoesOnFromThere) {
     expect_limits(driven);
 }
 
-/// The bend alone takes nearly all of the acceleration of X and Y by turns, and slowing down takes from the same.
+/// The bend alone takes nearly all of the acceleration of X and Y by turns, and most of their jerk; slowing down takes from the same.
 TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
     Move circle = arc_from({}, 0, 10, 50);
     circle.feed = 1000;
@@ -197,7 +197,7 @@ TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
         driven.rider.hold();
         const double asked = driven.now, alone = speed / machine()[0].max_accel + machine()[0].max_accel / machine()[0].max_jerk;
         while (driven.rider.next(true) == RideNext::motion) driven.step(0.001, true);
-        EXPECT_LT(driven.now - asked, 2 * alone) << when;
+        EXPECT_LT(driven.now - asked, 4 * alone) << when;
         expect_limits(driven);
     }
 }
