@@ -7,8 +7,8 @@ namespace motionrack::control {
 struct FeedSpan {
     double length = 0;
     double speed = 0;
-    double accel = 0;  ///< of speeding up, at any speed up to `speed`
-    double jerk = 0;   ///< both ways, at any speed and acceleration up to these
+    double accel = 0;      ///< of speeding up, at any speed up to `speed`
+    double jerk = 0;       ///< both ways, at any speed and acceleration up to these
     double brake = accel;  ///< the acceleration of slowing down, at any speed up to `speed`
 };
 

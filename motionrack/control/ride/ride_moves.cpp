@@ -16,9 +16,9 @@ constexpr double off_pulses = 0.4;
 constexpr double shortest = 0.0002;
 /// A move may be this part shorter to end nearer to whole pulses; of so many places the nearest, or one that is near enough.
 constexpr double earliest = 0.35, near_enough = 0.05;
-/// So much of the half pulse is left then.
-constexpr double noise_left = 0.25;
 constexpr int tries = 16;
+/// So much of half a pulse is left then.
+constexpr double noise_left = 0.25;
 /// From one length that is tried to the next.
 constexpr double shorter = 0.7;
 constexpr double least_accel = 1e-6;
@@ -139,30 +139,31 @@ double RideMoves::seconds_of_next() const {
     return left < 2 * shortest || roughness_of(begin, left).turn <= jump_share ? left : 0.5 * left;
 }
 
-/// The longest axis' pulses are as long as its speed says; those of the others share its time, so half a pulse more or less is a jump of
-/// their speed. A little earlier the path may pass nearer to a place where they are whole.
+/// A little earlier the path may pass nearer to a place on whole pulses.
 double RideMoves::near_whole_pulses(const RideState& begin, double seconds) const {
     if (roughness_of(begin, seconds).half_pulse <= least_noise) return seconds;
     double best = seconds, least_off = 1;
-    for (int k = 0; k < tries; ++k) {
-        const double time = seconds * (1 - earliest * k / tries);
-        const Point end = rider_.at(time).place;
-        std::array<double, axis_count> pulses = {};
-        for (std::size_t i = 0; i < end.size(); ++i)
-            if (limits_[i].present) pulses[i] = (end[i] - begin.place[i]) * limits_[i].pulses_per_unit;
-        const auto longest = std::max_element(pulses.begin(), pulses.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); }) - pulses.begin();
-        double off = 0;
-        for (std::size_t i = 0; i < end.size(); ++i) {
-            const double counted = end[i] * limits_[i].pulses_per_unit;
-            if (limits_[i].present && static_cast<std::ptrdiff_t>(i) != longest) off = std::max(off, std::fabs(counted - std::round(counted)));
-        }
-        if (off < least_off) {
-            best = time;
-            least_off = off;
-        }
-        if (off < near_enough) break;
+    for (int k = 0; k < tries && least_off > near_enough; ++k) {
+        const double time = seconds * (1 - earliest * k / tries), off = off_whole_pulses(begin.place, rider_.at(time).place);
+        if (off >= least_off) continue;
+        best = time;
+        least_off = off;
     }
     return best;
+}
+
+/// The longest axis' pulses are as far apart as its speed says. Those of the others share its time: half a pulse more or less is a jump.
+double RideMoves::off_whole_pulses(const Point& begin, const Point& end) const {
+    std::array<double, axis_count> way = {};
+    for (std::size_t i = 0; i < way.size(); ++i)
+        if (limits_[i].present) way[i] = std::fabs(end[i] - begin[i]) * limits_[i].pulses_per_unit;
+    const auto longest = static_cast<std::size_t>(std::max_element(way.begin(), way.end()) - way.begin());
+    double off = 0;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+        const double pulses = end[i] * limits_[i].pulses_per_unit;
+        if (limits_[i].present && i != longest) off = std::max(off, std::fabs(pulses - std::round(pulses)));
+    }
+    return off;
 }
 
 RideMoves::Roughness RideMoves::roughness_of(const RideState& begin, double seconds) const {

@@ -53,6 +53,7 @@ class RideMoves final : public PathPlanner {
     bool steers(std::uint8_t axes) const;
     double seconds_of_next() const;
     double near_whole_pulses(const RideState& begin, double seconds) const;
+    double off_whole_pulses(const Point& begin, const Point& end) const;
     Roughness roughness_of(const RideState& begin, double seconds) const;
 
     MachineLimits limits_;
