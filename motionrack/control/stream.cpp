@@ -47,7 +47,7 @@ gcode::Outcome<void> Stream::line(std::string_view text, std::int32_t number, gc
     text_ = text;
     gcode::Outcome<void> read = interpreter_.line(text_, number, gcode::Language::program);
     if (!read) {
-        walk.place(read.error());
+        walk.refused(text_, read.error());
         return read;
     }
     if (gcode::Outcome<void> taken = walk.took(interpreter_); !taken) return taken;

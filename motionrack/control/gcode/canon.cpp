@@ -299,7 +299,7 @@ Outcome<void> print_canon(std::string_view text, const Settings& settings, Canon
     std::string_view line;
     while (walk.next(line)) {
         if (auto done = interpreter.line(line, walk.number(), Language::program); !done) {
-            walk.place(done.error());
+            walk.refused(line, done.error());
             return done;
         }
         if (auto done = walk.took(interpreter); !done) return done;

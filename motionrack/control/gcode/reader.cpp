@@ -24,12 +24,12 @@ Outcome<const Step*> Reader::next_from_lines() {
             set_problem(problem, text, 0, GrblStatus::unsupported,
                         fmt::format("the lines up to here have made {} moves, most of them of drilling cycles, and the program is not over; does a loop drill without "
                                     "end? No more of it was read", further_steps_));
-            walk_.place(problem);
+            walk_.refused(text, problem);
             walk_.end();
             return tl::unexpected<Problem>(std::move(problem));
         }
         if (auto done = interpreter_.line(text, walk_.number(), Language::program); !done) {
-            walk_.place(done.error());
+            walk_.refused(text, done.error());
             const std::size_t column = static_cast<std::size_t>(done.error().place.column);
             if (walk_.at_end() && done.error().word == "(" && text.find(')', column) == std::string_view::npos) {
                 done.error().message = "the text ends inside this comment; is the file complete?";

@@ -200,6 +200,22 @@ TEST(GcodeFlow, MayStandBehindLineNumbersAndSlashes) {
     EXPECT_THAT(xs("%\nX1\no1 if [1]\nX2\no1 endif\n%\no1 endif\n"), ElementsAre(1, 2)) << "what is behind the closing % is no program";
 }
 
+/// Lines of a program whose problems are told, in their order.
+std::vector<std::int32_t> refused_lines(const std::string& text) {
+    std::vector<std::int32_t> lines;
+    for (const Problem& problem : check_program(text, testing::machine(), 100, "f").problems) lines.push_back(problem.place.line);
+    return lines;
+}
+
+TEST(GcodeFlow, EndsAtTheSamePercentSignWhateverIsRefused) {
+    EXPECT_THAT(refused_lines("o1 call\n%t\no\n"), ElementsAre(1, 2));
+    EXPECT_THAT(refused_lines("G1000\n%\nM98 P0\no\n"), ElementsAre(1));
+    EXPECT_THAT(refused_lines("%\nM98 P7\n%\no\n"), ElementsAre(2));
+    EXPECT_THAT(refused_lines("(pocket) G1000\n(end) %\no1 if\n"), ElementsAre(1));
+    EXPECT_THAT(refused_lines("(pocket)\n ; its name\n\n (more) %\nG1000\no1 if\n"), ElementsAre(5, 6));
+    EXPECT_THAT(xs("(pocket) G0 X1\n%\no1 rubbish\n"), ElementsAre(1));
+}
+
 /// A random program of nested loops and branches, and what a referee that runs it by itself says.
 struct Scripted {
     std::string text;

@@ -211,12 +211,9 @@ FlowIndex index_flow(std::string_view text, bool block_delete) {
     Indexer indexer(index);
     Lines lines(text);
     Lines before = lines;
-    bool begun = false;
+    ProgramEnd end(block_delete);
     for (std::string_view line; lines.next(line); before = lines) {
-        const std::size_t first = line.find_first_not_of(" \t");
-        if (first == std::string_view::npos) continue;
-        if (line[first] == '%' && begun) break;
-        begun = begun || line[first] == '%' || (line[first] != '(' && line[first] != ';');
+        if (end.is_at(line)) break;
         const std::size_t column = find_flow(line, block_delete);
         if (column != std::string_view::npos && line.size() <= longest_line) indexer.line(line, column, before, lines);
     }

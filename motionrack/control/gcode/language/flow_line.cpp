@@ -6,6 +6,7 @@
 #include <motionrack/control/gcode/language/flow_line.hpp>
 #include <motionrack/control/gcode/scanner.hpp>
 #include <span>
+#include <utility>
 
 namespace motionrack::control::gcode {
 
@@ -34,6 +35,17 @@ void skip_comments(std::string_view text, std::size_t& at) {
     }
 }
 
+/// What a line begins with, behind '/' and comments; its size: nothing, or all is deleted.
+std::size_t find_first(std::string_view text, bool block_delete) {
+    std::size_t at = 0;
+    skip_comments(text, at);
+    if (at == text.size() || text[at] != '/') return at;
+    if (block_delete) return text.size();
+    ++at;
+    skip_comments(text, at);
+    return at;
+}
+
 /// Behind the value of a computed label: its brackets are paired, names and digits are passed.
 std::size_t end_of_value(std::string_view text, std::size_t at) {
     int open = 0;
@@ -56,14 +68,14 @@ bool is_rest_empty(std::string_view text, std::size_t at) {
     return at == text.size() || text[at] == ';';
 }
 
+bool ProgramEnd::is_at(std::string_view line) {
+    const std::size_t at = find_first(line, block_delete_);
+    if (at >= line.size() || line[at] == ';') return false;
+    return std::exchange(begun_, true) && line[at] == '%';
+}
+
 std::size_t find_flow(std::string_view text, bool block_delete) {
-    std::size_t at = 0;
-    skip_comments(text, at);
-    if (at < text.size() && text[at] == '/') {
-        if (block_delete) return std::string_view::npos;
-        ++at;
-        skip_comments(text, at);
-    }
+    std::size_t at = find_first(text, block_delete);
     if (at < text.size() && upper(text[at]) == 'N') {
         for (++at; at < text.size() && (is_digit(text[at]) || is_blank(text[at])); ++at) continue;
         skip_comments(text, at);

@@ -29,6 +29,22 @@ bool read_flow(std::string_view text, std::size_t column, FlowLine& line, Proble
 /// The column of the O word with which a line begins, behind '/' and N; npos: it begins with none.
 std::size_t find_flow(std::string_view text, bool block_delete);
 
+/// Whether a text's program is over at this line, by its '%': the one with which a text begins is none, nor is what stands before it. Lines
+/// that are refused count as well, so that whoever goes through a text finds the same end.
+class ProgramEnd {
+  public:
+    explicit ProgramEnd(bool block_delete) : block_delete_(block_delete) {}
+
+    /// The next line of the text: is it the end?
+    bool is_at(std::string_view line);
+    /// Whether there was a line with more than comments on it.
+    bool begun() const { return begun_; }
+
+  private:
+    bool block_delete_;
+    bool begun_ = false;
+};
+
 /// Whether only blanks and comments stand at `at` and behind it.
 bool is_rest_empty(std::string_view text, std::size_t at);
 

@@ -15,23 +15,25 @@ constexpr double most_repeats = 1e9;
 }  // namespace
 
 Walk::Walk(std::string_view text, const Settings& settings, std::string file)
-    : lines_(text), block_delete_(settings.block_delete), most_lines_(settings.most_lines), subprogram_(settings.subprogram) {
+    : lines_(text), block_delete_(settings.block_delete), end_(settings.block_delete), most_lines_(settings.most_lines), subprogram_(settings.subprogram) {
     sources_.push_back(std::make_unique<Source>());
     source_ = sources_.back().get();
     source_->text = text;
     source_->file = std::move(file);
 }
 
-void Walk::see_end(const Block& block, bool stops) {
-    if (stops) over_ = true;
-    if (source_ != sources_.front().get()) return;
-    if (block.percent && begun_) over_ = true;
-    begun_ = begun_ || block.percent || (block.words | block.g_groups | block.m_groups) != 0 || !block.assignments.empty();
+void Walk::see_end(std::string_view line) {
+    if (source_ == sources_.front().get() && end_.is_at(line)) over_ = true;
 }
 
 void Walk::place(Problem& problem) const {
     problem.place.line = lines_.number();
     problem.file = source_->file;
+}
+
+void Walk::refused(std::string_view text, Problem& problem) {
+    place(problem);
+    see_end(text);
 }
 
 Problem Walk::take_fault() {
@@ -58,12 +60,12 @@ bool Walk::make_index(Source& source) {
 }
 
 Outcome<void> Walk::follow(Interpreter& interpreter) {
-    begun_ = true;
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     const std::int32_t at = source_->index->at_line(lines_.number());
     if (at == no_place) {
-        set_problem(problem_, source_->text, 0, GrblStatus::unsupported, "this O word was not found when the program was looked through; put it first on its line");
-        problem_.place = {number(), 1};
+        const Block& block = interpreter.block();
+        set_problem(problem_, block.text, block.flow_column, GrblStatus::unsupported, "this O word was not found when the program was looked through; put it first on its line");
+        place(problem_);
         return tl::unexpected<Problem>(problem_);
     }
     const FlowPlace place = place_at(at);

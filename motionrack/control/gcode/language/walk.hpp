@@ -8,7 +8,7 @@
 //     O100 .. M99             a numbered program, anywhere in the text; M98 P100 L3 calls it, #1 .. #30 are those of the caller
 //
 // A call of o<name> that the text does not have is looked for by Settings::subprogram. A program is over after M2 or M30, at the end of
-// its text, or at a lone '%' that is not its first line with anything on it. A plain program costs nothing of all this: the first O word
+// its text, or at a '%' that is not its first line with anything on it. A plain program costs nothing of all this: the first O word
 // makes an index of the text.
 #pragma once
 
@@ -30,10 +30,11 @@ class Walk {
     /// it is passed over.
     Outcome<void> took(Interpreter& interpreter) {
         const Block& block = interpreter.block();
+        if (block.percent || !end_.begun()) see_end(block.text);
         if (block.flow) return follow(interpreter);
         if (block.has_m(m_program)) return follow_program(interpreter);
         if (interpreter.turns()) return follow_contour(interpreter);
-        if (const bool stops = block.has_m(m_stop) && (block.m[m_stop] == 2 || block.m[m_stop] == 30); stops || block.percent || !begun_) see_end(block, stops);
+        if (block.has_m(m_stop) && (block.m[m_stop] == 2 || block.m[m_stop] == 30)) end();
         return {};
     }
 
@@ -46,8 +47,8 @@ class Walk {
     std::int32_t furthest() const { return std::max(furthest_, number()); }
     const std::string& file() const { return sources_.front()->file; }  ///< of the program
     bool at_end() const { return lines_.at_end(); }
-    /// Fills in where a problem with the last line is.
-    void place(Problem& problem) const;
+    /// The last line was refused: fills in where the problem is, and sees whether the program is over.
+    void refused(std::string_view text, Problem& problem);
 
     /// O words that do not fit together: once they are found, nothing more is walked.
     bool has_faults() const { return !faults_.empty(); }
@@ -91,7 +92,8 @@ class Walk {
     bool text_ended();
     void enter(const Target& target, std::int32_t program, std::int64_t times);
     void back_to_caller();
-    void see_end(const Block& block, bool stops);
+    void see_end(std::string_view line);
+    void place(Problem& problem) const;
     bool make_index(Source& source);
     bool within_budget(const FlowPlace& place);
     bool execute(const FlowPlace& place, std::int32_t at, Interpreter& interpreter);
@@ -115,8 +117,8 @@ class Walk {
 
     Lines lines_;
     bool over_ = false;
-    bool begun_ = false;
     bool block_delete_;
+    ProgramEnd end_;  ///< of the program's own text
     std::int32_t called_at_ = 0;
     std::int32_t furthest_ = 0;
     std::int64_t most_lines_;

@@ -184,7 +184,6 @@ void Walk::back_to_caller() {
 
 /// M98 and M99: calls without arguments, as often as L says.
 Outcome<void> Walk::follow_program(Interpreter& interpreter) {
-    begun_ = true;
     if (!source_->index && !make_index(*source_)) return tl::unexpected<Problem>(take_fault());
     const Block& block = interpreter.block();
     const FlowPlace place = this_line(block, block.m_column[m_program]);
