@@ -56,7 +56,7 @@ async function main() {
   await until('jogs', () => seen.state === 'Jog');
   command('jogCancel');
   await until('jog cancelled', () => seen.state === 'Idle', 20);
-  command('gcode', 'G91 G1 X5 F600');
+  command('gcode', 'G91 G1 X100 F600');  // 10 s, so that the reset finds it moving
   await until('runs a line', () => seen.state === 'Run');
   command('reset');
   await until('reset in motion', () => seen.text.includes('ALARM:3') && seen.state === 'Alarm');
