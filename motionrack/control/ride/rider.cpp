@@ -32,6 +32,7 @@ void Rider::Part::clear() {
     programmed.clear();
     use.clear();
     feed.clear();
+    planned_to = 0;
     whole = false;
     rest = {};
 }
@@ -132,7 +133,6 @@ void Rider::to_next_part() {
     reach_ = 0;
     holding_ = met_ = false;
     dwelt_ = 0;
-    planned_to_ = now_.known();
     measure();
     gather(settings_.window);
 }
@@ -192,7 +192,7 @@ void Rider::tend(bool early) {
             if (!found) part_from_next();  // so near its end it stands there
         } else if (new_feeds_)
             found = ease_into_feeds();
-        else if (holding_ || (planned_to_ < now_.known() && left_ - braking_ <= margin))
+        else if (holding_ || (now_.planned_to < now_.known() && left_ - braking_ <= margin))
             found = go_on();
         else
             tried = false;
@@ -203,11 +203,12 @@ void Rider::tend(bool early) {
 
 /// The next stretch may begin before this one has ended.
 void Rider::meet_next(bool early) {
-    if (met_ || held_ || !now_.whole || planned_to_ < now_.known() || left_ > braking_ + margin) return;
+    if (met_ || held_ || !now_.whole || now_.planned_to < now_.known() || left_ > braking_ + margin) return;
     if (then_.curve.empty() || now_.rest.seconds > 0 || !is_ready(then_, 0, early)) return;
     met_ = true;
     if (!planner_.plan({}, then_.curve, then_.use, 0, then_.known())) return;
     then_.feed.assign(planner_.feed().begin(), planner_.feed().end());
+    then_.planned_to = then_.known();
     reach_ = overlap_of(slowing_end(now_.curve, now_.feed), rising_begin(then_.curve, then_.feed), left_ - before_left_, now_.rest.room_mm, limits_);
 }
 
@@ -224,7 +225,7 @@ Rider::Spot Rider::spot_at(double seconds) const {
     Spot out{feed_, piece_, on_feed_ + seconds, {}};
     while (out.feed + 1 < now_.feed.size() && out.on_feed > now_.feed[out.feed].seconds) out.on_feed -= now_.feed[out.feed++].seconds;
     out.along = now_.feed[out.feed].at(std::clamp(out.on_feed, 0.0, now_.feed[out.feed].seconds));
-    if (seconds >= left_) out.along = {planned_to_, 0, out.along.accel, out.along.jerk};
+    if (seconds >= left_) out.along = {now_.planned_to, 0, out.along.accel, out.along.jerk};
     while (out.piece + 1 < now_.curve.size() && out.along.place > now_.curve[out.piece + 1].begin) ++out.piece;
     return out;
 }
@@ -232,7 +233,7 @@ Rider::Spot Rider::spot_at(double seconds) const {
 RideState Rider::at(double seconds) const {
     const Spot spot = spot_at(seconds);
     RideState out = state_on(now_.curve[spot.piece], spot.along);
-    if (now_.whole && seconds >= left_ && planned_to_ >= now_.known()) out.place = now_.rest.at;
+    if (now_.whole && seconds >= left_ && now_.planned_to >= now_.known()) out.place = now_.rest.at;
     if (seconds < before_left_) add_landing(out, before_.end(), before_left_ - seconds);
     return out;
 }
@@ -244,7 +245,7 @@ void Rider::pass(double seconds) {
         if (reach_ > 0) before_.keep(slowing_end(now_.curve, now_.feed));
         before_left_ = reach_;
         if (reach_ > 0) return to_next_part();
-        place_ = planned_to_;
+        place_ = now_.planned_to;
         piece_ = spot_at(left_).piece;
         left_ = 0;
         now_.feed.clear();

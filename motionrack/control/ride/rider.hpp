@@ -96,6 +96,7 @@ class Rider {
         std::vector<double> programmed;  ///< feeds without overrides
         std::vector<PieceUse> use;
         std::vector<FeedPiece> feed;     ///< the plan
+        double planned_to = 0;           ///< u, how far it goes
         bool whole = false;              ///< its rest is known
         CurveItem rest;
         double known() const { return curve.empty() ? 0 : curve.back().begin + curve.back().length; }
@@ -141,7 +142,6 @@ class Rider {
     std::size_t piece_ = 0, feed_ = 0;  ///< of now_, where the motion is
     double place_ = 0;                  ///< u
     double on_feed_ = 0;                ///< s
-    double planned_to_ = 0;             ///< u
     double left_ = 0;                   ///< s to the planned end
     double braking_ = 0;                ///< of these the last, in which it slows down for that end
     double reach_ = 0;                  ///< s before the end of now_ when then_ begins

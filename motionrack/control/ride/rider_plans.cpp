@@ -35,7 +35,7 @@ void Rider::take(const Spot& from, double seconds, double to) {
     }
     feed_ = 0;
     now_.feed.insert(now_.feed.end(), planner_.feed().begin(), planner_.feed().end());
-    planned_to_ = to;
+    now_.planned_to = to;
     part_from_next();
     measure();
 }
@@ -81,7 +81,7 @@ bool Rider::slow_down() {
 /// The nearest place to stand at that is found: a plan to it is the planner's last.
 std::optional<double> Rider::find_stop(const Spot& from) {
     const FeedStart start = start_of(from.along);
-    const double begin = from.along.place, most = planned_to_ - begin;
+    const double begin = from.along.place, most = now_.planned_to - begin;
     double planned = -1;  // how far the planner's last plan goes; below 0: it found none
     const auto plan_to = [&](double distance) {
         std::size_t last = from.piece;

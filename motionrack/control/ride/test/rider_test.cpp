@@ -54,14 +54,14 @@ std::vector<Move> program(std::mt19937& random) {
     return out;
 }
 
-/// Pushes moves while there is room, and passes the time; looks at all axes all the time.
+/// Pushes the moves that have come while there is room, and passes the time; looks at all axes all the time.
 class Driven {
   public:
     Driven(std::vector<Move> moves, RiderSettings settings) : moves_(std::move(moves)), rider(machine(), {}, settings) {}
 
     /// False when all is driven.
     bool step(double seconds, bool early) {
-        while (next_ < moves_.size() && rider.has_room()) rider.push({moves_[next_++]});
+        while (next_ < std::min(come, moves_.size()) && rider.has_room()) rider.push({moves_[next_++]});
         if (next_ == moves_.size() && !flushed_ && rider.has_room()) flushed_ = (rider.flush(), true);
         const RideNext next = rider.next(early);
         if (next == RideNext::nothing) return next_ < moves_.size() || !flushed_;
@@ -79,6 +79,7 @@ class Driven {
     }
     void pass_time(double seconds) { now += seconds; }
 
+    std::size_t come = static_cast<std::size_t>(-1);           ///< so many moves, at most
     double now = 0, speed = 0, accel = 0, jerk = 0, jump = 0;  ///< greatest parts of the limits; of what the limits let change
     RideState last;
 
@@ -161,6 +162,50 @@ TEST(ARiderDisturbedAtRandom, KeepsAllLimitsAndEndsWhereTheProgramEnds) {
         expect_limits(driven);
         expect_end(driven, moves.back().end);
     }
+}
+
+/// So that a stretch may grow while the next one's beginning is planned already.
+TEST(ARider, KeepsAllLimitsWheneverMovesCome) {
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        const std::vector<Move> moves = program(random);
+        const auto between = [&](double a, double b) { return std::uniform_real_distribution<>(a, b)(random); };
+        Driven driven(moves, {});
+        driven.come = 2;
+        double more = 0;
+        for (int steps = 0; driven.step(0.001, true); ++steps) {
+            ASSERT_LT(steps, 1'000'000);
+            if (driven.rider.stands()) driven.pass_time(0.001);
+            if (driven.now < more) continue;
+            driven.come += 1 + random() % 10;
+            more = driven.now + between(0.01, 0.4);
+        }
+        expect_limits(driven);
+        expect_end(driven, moves.back().end);
+    }
+}
+
+/// The stretch behind a corner grows when its beginning is planned already.
+TEST(ARider, GoesOnPastACornerToWhatCameBeforeIt) {
+    std::vector<Move> moves = {line_to({20}, 0.05)};
+    for (int i = 1; i <= 80; ++i) moves.push_back(line_to({20 - 0.002 * i * i, 0.4 * i}, 0.01));
+    int late = 0;
+    for (double left = 0.3; left > 0.01; left -= 0.005) {
+        SCOPED_TRACE(left);
+        Driven driven(moves, {});
+        driven.come = 60;
+        while (driven.step(0.001, true)) {
+            ASSERT_LT(driven.now, 60);
+            if (driven.rider.stands()) driven.pass_time(0.001);
+            if (driven.come != 60 || driven.rider.left() > left || driven.now < 0.1) continue;
+            late += driven.last.place[1] == 0;
+            driven.come = moves.size();
+        }
+        expect_limits(driven);
+        expect_end(driven, moves.back().end);
+    }
+    EXPECT_GT(late, 10);
 }
 
 Move long_line(double feed) {
