@@ -18,6 +18,8 @@ constexpr double least_cells = 48, most_cells_of_a_span = 256;
 /// A launch and a landing take this part of a path at most: on a short one constant jerk ends after a twelfth.
 constexpr double most_launch = 1.0 / 14;
 constexpr double alike_jerk = 1.5;
+/// Of the size that its span asks for is the first cell of a motion that goes on.
+constexpr double first_part = 0.1;
 /// No cell is shorter than this part of the path: places have no more digits.
 constexpr double least_part = 1e-13;
 
@@ -65,10 +67,11 @@ double FeedPlanner::wanted(const FeedSpan& span) const {
     return std::min(std::max(span.speed * seconds, span.length / most_cells_of_a_span), length_ / least_cells);
 }
 
-/// Where a motion goes on: no longer than its speed and its acceleration last.
+/// Where a motion goes on: short, since what it does there is taken for what it does all over the cell; no longer than its speed and its
+/// acceleration last.
 double FeedPlanner::first_size(double wanted) const {
     const double by_speed = 2 * settings_.cell_seconds * std::sqrt(start_.square), slope = std::fabs(start_.slope);
-    return std::min({wanted, by_speed, slope > 0 ? 0.25 * start_.square / slope : wanted});
+    return std::min({first_part * wanted, by_speed, slope > 0 ? 0.25 * start_.square / slope : wanted});
 }
 
 /// How great cells may be at the ends of the spans: what a span's speed asks for there, and growing away from the narrow ones.

@@ -39,7 +39,7 @@ struct FeedPiece {
     FeedState last() const;
 };
 
-/// A cell with about its time, exactly if it has no bend. `square` is above 0 all over it.
+/// A cell with about its time, exactly if it has no bend. `square` is above 0 all over it, but at an end beside a rest it may be rounded to 0.
 FeedPiece sketched_cell(double begin, double length, double square, double slope, double bend);
 /// Gives a cell its exact time.
 void settle(FeedPiece& piece);

@@ -50,7 +50,7 @@ class Scanner {
         return false;
     }
     std::size_t here() const { return static_cast<std::size_t>(at_ - text_.data()); }
-    bool nothing_yet() const { return (block_.words | block_.g_groups | block_.m_groups) == 0; }
+    bool nothing_yet() const { return (block_.words | block_.g_groups | block_.m_groups) == 0 && block_.assignments.empty(); }
 
     std::string_view text_;
     const char* at_;

@@ -173,6 +173,7 @@ bool Rider::is_ready(const Part& part, std::size_t from, bool early) const {
 
 /// From rest, wherever on its stretch it stands.
 void Rider::begin() {
+    piece_ = piece_at(place_, piece_);
     drop_passed();
     holding_ = new_feeds_ = false;
     for (std::size_t i = piece_; i < now_.curve.size(); ++i) set_feed(now_, i);
@@ -226,8 +227,14 @@ Rider::Spot Rider::spot_at(double seconds) const {
     while (out.feed + 1 < now_.feed.size() && out.on_feed > now_.feed[out.feed].seconds) out.on_feed -= now_.feed[out.feed++].seconds;
     out.along = now_.feed[out.feed].at(std::clamp(out.on_feed, 0.0, now_.feed[out.feed].seconds));
     if (seconds >= left_) out.along = {now_.planned_to, 0, out.along.accel, out.along.jerk};
-    while (out.piece + 1 < now_.curve.size() && out.along.place > now_.curve[out.piece + 1].begin) ++out.piece;
+    out.piece = piece_at(out.along.place, out.piece);
     return out;
+}
+
+/// Between two pieces it is the second, so that something of it is left.
+std::size_t Rider::piece_at(double place, std::size_t piece) const {
+    while (piece + 1 < now_.curve.size() && place >= now_.curve[piece].begin + now_.curve[piece].length) ++piece;
+    return piece;
 }
 
 RideState Rider::at(double seconds) const {

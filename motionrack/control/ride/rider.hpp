@@ -125,6 +125,7 @@ class Rider {
     bool slow_down();
     bool ease_into_feeds();
     bool plan_to_end(std::size_t piece, const FeedState& along);
+    PieceUse use_for_stop(std::size_t piece, std::size_t& k) const;
     std::optional<double> find_stop(const Spot& from);
     Part with_feeds(const Spot& from, std::span<const FeedPiece> stop) const;
     void take(const Spot& from, double seconds, double to);
@@ -132,6 +133,7 @@ class Rider {
     void meet_next(bool early);
     void part_from_next();
     Spot spot_at(double seconds) const;
+    std::size_t piece_at(double place, std::size_t piece) const;
 
     MachineLimits limits_;
     RiderSettings settings_;
@@ -150,7 +152,7 @@ class Rider {
     double dwelt_ = 0;                  ///< s of the dwell at the end of now_
     double patience_ = 0;               ///< s until another plan is sought
     bool held_ = false, holding_ = false, new_feeds_ = false, met_ = false;
-    static constexpr double least_ease = 2;
+    static constexpr double least_ease = 1.2;
     double ease_ = least_ease;          ///< how much longer than a stop a way into lower feeds may be
     double feed_override_ = 1, rapid_override_ = 1;
 

@@ -12,8 +12,10 @@ namespace {
 constexpr int halvings = 5, steps_out = 40;
 /// The first try is about as hard as one may brake at this part of the speed.
 constexpr double part_of_speed = 0.7;
-/// A way into lower feeds may be so much faster than a stop, and so much longer.
-constexpr double faster = 1.01, most_ease = 16;
+/// On the way of a stop a bend need hardly be driven faster than it would be without: what is not needed for its speed is left to slow down.
+constexpr double above_plan = 1.003;
+/// A way into lower feeds may be so much faster than a stop, and so much longer; where none is found, the next one by this much more.
+constexpr double faster = 1.01, most_ease = 16, ease_grows = 1.3;
 
 FeedStart start_of(const FeedState& along) {
     return {along.speed * along.speed, 2 * along.accel};
@@ -78,16 +80,32 @@ bool Rider::slow_down() {
     return true;
 }
 
+/// What is known of a piece, for a stop on it; `k`: the first part of the feed that is looked at, then the first that reaches there.
+PieceUse Rider::use_for_stop(std::size_t piece, std::size_t& k) const {
+    const CurvePiece& on = now_.curve[piece];
+    PieceUse use = now_.use[piece];
+    if (is_straight(on)) return use;
+    while (k + 1 < now_.feed.size() && now_.feed[k + 1].begin <= on.begin) ++k;
+    double planned = 0;
+    for (std::size_t i = k; i < now_.feed.size() && now_.feed[i].begin < on.begin + on.length; ++i)
+        planned = std::max({planned, now_.feed[i].at(0).speed, now_.feed[i].last().speed});
+    use.speed = std::min(use.speed, above_plan * planned);
+    return use;
+}
+
 /// The nearest place to stand at that is found: a plan to it is the planner's last.
 std::optional<double> Rider::find_stop(const Spot& from) {
     const FeedStart start = start_of(from.along);
     const double begin = from.along.place, most = now_.planned_to - begin;
     double planned = -1;  // how far the planner's last plan goes; below 0: it found none
+    std::vector<PieceUse> use;
+    std::size_t k = feed_;
     const auto plan_to = [&](double distance) {
         std::size_t last = from.piece;
         while (last + 1 < now_.curve.size() && now_.curve[last + 1].begin < begin + distance) ++last;
         const auto first = static_cast<std::ptrdiff_t>(from.piece), past = static_cast<std::ptrdiff_t>(last + 1);
-        stop_use_.assign(now_.use.begin() + first, now_.use.begin() + past);
+        while (use.size() <= last - from.piece) use.push_back(use_for_stop(from.piece + use.size(), k));
+        stop_use_.assign(use.begin(), use.begin() + (past - first));
         const bool found = planner_.plan(start, {now_.curve.begin() + first, now_.curve.begin() + past}, stop_use_, begin, begin + distance);
         planned = found ? distance : -1;
         return found;
@@ -112,10 +130,13 @@ bool Rider::ease_into_feeds() {
     const Spot from = spot_at(before_left_);
     const bool slower = std::min(feed_override_, rapid_override_) < 1;
     std::vector<FeedPiece> stop;
-    if (slower && find_stop(from)) stop.assign(planner_.feed().begin(), planner_.feed().end());
+    if (slower) {
+        if (!find_stop(from)) return false;
+        stop.assign(planner_.feed().begin(), planner_.feed().end());
+    }
     Part part = with_feeds(from, stop);
     if (!planner_.plan(start_of(from.along), part.curve, part.use, from.along.place, now_.known())) {
-        ease_ = std::min(2 * ease_, most_ease);
+        ease_ = std::min(ease_grows * ease_, most_ease);
         return false;
     }
     const auto replace = [&](auto& column, const auto& by) {
@@ -134,7 +155,7 @@ bool Rider::ease_into_feeds() {
 }
 
 /// What is known from a spot on, with the present feeds. The pieces on the way of a stop, drawn out by ease_, are cut where it changes, and
-/// each may be as fast as it is there.
+/// each may be as fast as it is there; up to where the stop is fastest, as fast as that.
 Rider::Part Rider::with_feeds(const Spot& from, std::span<const FeedPiece> stop) const {
     Part out;
     double at = from.along.place;
@@ -145,10 +166,13 @@ Rider::Part Rider::with_feeds(const Spot& from, std::span<const FeedPiece> stop)
         out.programmed.push_back(now_.programmed[i]);
         out.use.emplace_back();
         set_feed(out, out.curve.size() - 1, speed);
+        if (speed > 0) out.use.back().jerk_share = now_.use[i].jerk_share;
         at = to;
     };
+    const auto slower = [](const FeedPiece& a, const FeedPiece& b) { return a.at(0).speed < b.at(0).speed; };
+    const auto fastest = static_cast<std::size_t>(std::max_element(stop.begin(), stop.end(), slower) - stop.begin());
     for (std::size_t k = 0; k < stop.size(); ++k) {
-        const double speed = faster * stop[k].at(0).speed, to = from.along.place + ease_ * (stop[k].begin + stop[k].length - from.along.place);
+        const double speed = faster * stop[std::max(k, fastest)].at(0).speed, to = from.along.place + ease_ * (stop[k].begin + stop[k].length - from.along.place);
         for (; i + 1 < now_.curve.size() && end_of() <= to; ++i)
             if (end_of() > at) add(end_of(), speed);
         if (to > at && to < end_of()) add(to, speed);

@@ -47,6 +47,7 @@ const Refused refused[] = {
     {"(outer (inner))", 8, "(", 20, "do not nest"},
     {"G0 X1 / Y2", 7, "/", 20, "first character"},
     {"G0 X1 %", 7, "%", 20, "alone on its line"},
+    {"#1=3 %", 6, "%", 20, "alone on its line"},
     // codes
     {"G1.5 X1", 1, "G1.5", 20, "not a known command"},
     {"G6 X1", 1, "G6", 20, "not a known command"},

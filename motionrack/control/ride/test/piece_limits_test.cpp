@@ -65,6 +65,7 @@ TEST(PieceLimits, LeaveNoAxisBeyondItsOwnAnywhereOnThePiece) {
 /// Speeding up all the way to it, and slowing down all the way from it.
 TEST(PieceLimits, SayHowFarTheSpeedComesWithTheAccelerationTheyLeave) {
     RandomPieces random;
+    int looked = 0;
     for (int run = 0; run < 1000; ++run) {
         const CurvePiece piece = random.next();
         MachineLimits machine = random.machine();
@@ -75,7 +76,9 @@ TEST(PieceLimits, SayHowFarTheSpeedComesWithTheAccelerationTheyLeave) {
         if (std::max(after, before) > limits.speed * limits.speed) continue;
         EXPECT_NEAR(after, from + 2 * length * limits.up_to(std::sqrt(after), length).accel, 1e-9 * after) << run;
         EXPECT_NEAR(before, from + 2 * length * limits.up_to(std::sqrt(before), length).brake, 1e-9 * before) << run;
+        ++looked;
     }
+    EXPECT_GT(looked, 500);
 }
 
 TEST(Parts, OfAPieceAreThePiece) {

@@ -166,7 +166,7 @@ TEST(ARiderDisturbedAtRandom, KeepsAllLimitsAndEndsWhereTheProgramEnds) {
 
 /// So that a stretch may grow while the next one's beginning is planned already.
 TEST(ARider, KeepsAllLimitsWheneverMovesCome) {
-    for (unsigned seed = 0; seed < 60; ++seed) {
+    for (unsigned seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
         std::mt19937 random(seed);
         const std::vector<Move> moves = program(random);
@@ -245,6 +245,29 @@ TEST(ARider, StandsSoonOnACircleThatIsDrivenAsFastAsItCanBe) {
         EXPECT_LT(driven.now - asked, 4 * alone) << when;
         expect_limits(driven);
     }
+}
+
+/// While it still speeds up, and at its full speed, where hardly any jerk is left to slow down with.
+TEST(ARider, StandsAndSlowsDownSoonOnBendsThatTakeNearlyAllOfTheJerk) {
+    const auto speed_of = [](const Driven& driven) { return std::hypot(driven.last.speed[0], driven.last.speed[1]); };
+    for (const double radius : {2, 10})
+        for (double when = 0.05; when < 0.6; when += 0.05) {
+            SCOPED_TRACE(::testing::Message() << "radius " << radius << ", at " << when << " s");
+            Move circle = arc_from({}, 0, radius, 50);
+            circle.feed = 1000;
+            Driven held({circle}, {}), slowed({circle}, {});
+            while (held.now < when) held.step(0.001, true);
+            while (slowed.now < when) slowed.step(0.001, true);
+            const double speed = speed_of(held);
+            held.rider.hold();
+            while (held.rider.next(true) == RideNext::motion) held.step(0.001, true);
+            EXPECT_LT(held.now - when, 0.5);
+            slowed.rider.set_overrides(0.5 * speed / circle.feed, 1);
+            while (speed_of(slowed) > 0.51 * speed && slowed.now < when + 1) slowed.step(0.001, true);
+            EXPECT_LT(slowed.now - when, 0.8);
+            expect_limits(held);
+            expect_limits(slowed);
+        }
 }
 
 /// Where the next line would begin before this one has ended.
